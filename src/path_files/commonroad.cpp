@@ -2,53 +2,30 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "src/path_files/commonroad_xml.h"
 #include "src/path_files/formats.h"
-#include "trackbed/core/text_table.h"
+#include "trackbed/path_files/commonroad_scenario.h"
 
-// Reads CommonRoad solution files, which contain one trajectory for each planning problem; a
-// trajectory is a list of states. Velocities are negative in reverse.
+// Reads the path of a CommonRoad file. A solution contains one trajectory for each planning
+// problem; a trajectory is a list of states. Velocities are negative in reverse. The path of a
+// scenario is the route of its planning problem along lanelets.
 namespace trackbed {
 namespace {
 
+/// Returns the route of the scenario as a path.
+PathFile RouteOfScenario(const CommonRoadScenario& scenario) {
+  PathFile found;
+  found.points.points = scenario.route;
+  found.notes = scenario.notes;
+  return found;
+}
+
 using tinyxml2::XMLElement;
-
-std::optional<double> Number(const XMLElement& state, const char* name, double largest,
-                             const std::string& file) {
-  const XMLElement* element = state.FirstChildElement(name);
-  if (element == nullptr) {
-    return std::nullopt;
-  }
-  const char* text = element->GetText();
-  std::string trimmed = text == nullptr ? "" : text;
-  trimmed.erase(0, std::min(trimmed.find_first_not_of(" \t\r\n"), trimmed.size()));
-  trimmed.erase(trimmed.find_last_not_of(" \t\r\n") + 1);
-  const std::optional<double> number = CellNumber(trimmed);
-  if (!number) {
-    Refuse(file, name, fmt::format("'{}' is not a finite number", trimmed.substr(0, 40)),
-           element->GetLineNum());
-  }
-  if (std::abs(*number) > largest) {
-    Refuse(file, name,
-           fmt::format("{} is out of range; must be between {} and {}", *number, -largest, largest),
-           element->GetLineNum());
-  }
-  return number;
-}
-
-double Required(const XMLElement& state, const char* name, double largest,
-                const std::string& file) {
-  const std::optional<double> number = Number(state, name, largest, file);
-  if (!number) {
-    Refuse(file, name, fmt::format("missing in {}", state.Name()), state.GetLineNum());
-  }
-  return *number;
-}
 
 /// Returns the first XML element that contains a trajectory, such as the element ksTrajectory.
 const XMLElement* FindTrajectory(const XMLElement& root, std::size_t& count) {
@@ -77,33 +54,34 @@ void TakeVelocities(PathPoints& points) {
 PathFile ReadCommonRoad(const std::filesystem::path& path, const std::string& text) {
   const std::string file = path.string();
   tinyxml2::XMLDocument document;
-  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    Refuse(file, "", fmt::format("not XML: {}", document.ErrorName()), document.ErrorLineNum());
+  const XMLElement& root = ParseCommonRoadXml(document, text, path);
+  if (std::string_view(root.Name()) == "commonRoad") {
+    return RouteOfScenario(ReadCommonRoadScenario(path, text));
   }
-  const XMLElement* root = document.RootElement();
-  if (root == nullptr || std::string_view(root->Name()) != "CommonRoadSolution") {
+  if (std::string_view(root.Name()) != "CommonRoadSolution") {
     Refuse(file, "",
-           fmt::format("the root element is {}; must be CommonRoadSolution",
-                       root == nullptr ? "missing" : root->Name()),
-           root == nullptr ? 1 : root->GetLineNum());
+           fmt::format("the root element is {}; must be CommonRoadSolution or commonRoad",
+                       root.Name()),
+           root.GetLineNum());
   }
   std::size_t trajectories = 0;
-  const XMLElement* trajectory = FindTrajectory(*root, trajectories);
+  const XMLElement* trajectory = FindTrajectory(root, trajectories);
   if (trajectory == nullptr) {
-    Refuse(file, "", "has no trajectory, such as ksTrajectory", root->GetLineNum());
+    Refuse(file, "", "has no trajectory, such as ksTrajectory", root.GetLineNum());
   }
+  const CommonRoadReading position{path, kMaxPosition};
+  const CommonRoadReading velocity{path, kMaxPathSpeed};
   PathFile found;
   PathPoints& points = found.points;
   for (const XMLElement* state = trajectory->FirstChildElement(); state != nullptr;
        state = state->NextSiblingElement()) {
-    points.points.emplace_back(Required(*state, "x", kMaxPosition, file),
-                               Required(*state, "y", kMaxPosition, file));
+    points.points.push_back(PointIn(*state, position));
     points.lines.push_back(state->GetLineNum());
     // A state of the point-mass model has velocities along both axes instead of an orientation.
-    const auto vx = Number(*state, "xVelocity", kMaxPathSpeed, file);
-    const auto vy = Number(*state, "yVelocity", kMaxPathSpeed, file);
-    const auto speed = Number(*state, "velocity", kMaxPathSpeed, file);
-    if (const auto yaw = Number(*state, "orientation", 1e6, file)) {
+    const auto vx = NumberOfChild(*state, "xVelocity", velocity);
+    const auto vy = NumberOfChild(*state, "yVelocity", velocity);
+    const auto speed = NumberOfChild(*state, "velocity", velocity);
+    if (const auto yaw = NumberOfChild(*state, "orientation", {path, 1e6})) {
       points.yaw.push_back(*yaw);
     }
     if (speed) {

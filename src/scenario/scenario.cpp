@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "src/scenario/check_requirements.h"
+#include "src/scenario/commonroad_yaml.h"
 #include "src/scenario/cross_check.h"
 #include "src/scenario/input_files.h"
 #include "src/scenario/inputs.h"
@@ -22,6 +23,7 @@
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/path_files/commonroad_scenario.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/road_network/open_drive.h"
@@ -33,8 +35,9 @@
 // and reads the files that the keys name (inputs.cpp). Finally, ReadScenario checks rules between
 // keys (cross_check.cpp), requirements and names of metrics. All problems are collected and
 // reported in the order of the file. ResolvedYaml converts a scenario that was read to YAML (the
-// resolved scenario). The resolved scenario contains all default values explicitly; its file names
-// are the names of the copies in a run folder.
+// resolved scenario). A CommonRoad scenario is first converted to YAML. The resolved scenario
+// contains all default values explicitly; its file names are the names of the copies in a run
+// folder.
 namespace trackbed {
 namespace {
 
@@ -146,8 +149,11 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
 Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
                       const MetricPaths& metrics,
                       const std::vector<std::filesystem::path>& asset_folders) {
-  return ParseScenario(ReadInput(file), file.string(), file.parent_path(), overrides, metrics,
-                       asset_folders);
+  std::string text = ReadInput(file);
+  if (IsCommonRoadScenario(text)) {
+    text = CommonRoadYaml(file, text);
+  }
+  return ParseScenario(text, file.string(), file.parent_path(), overrides, metrics, asset_folders);
 }
 
 RenderSpec ReadRenderSpec(const std::filesystem::path& file) {

@@ -16,7 +16,7 @@ enum class PathFormat {
   /// begins with '#'.
   kCsv,
   kNavPath,     ///< A ROS message of the type nav_msgs/Path, as YAML or JSON.
-  kCommonRoad,  ///< A solution file of CommonRoad (XML).
+  kCommonRoad,  ///< A solution of CommonRoad, or the route of a scenario (XML).
   kGeoJson,     ///< A GeoJSON line string according to RFC 7946.
 };
 

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trackbed/geometry/oriented_box.h"
+
+/// Reads scenarios of CommonRoad: roads as lanelets, obstacles with their motions, and a planning
+/// problem (Althoff, Koschi and Manzinger 2017).
+namespace trackbed {
+
+/// An obstacle of a CommonRoad scenario.
+struct CommonRoadObstacle {
+  /// Footprint at `poses.front()`, or where the obstacle stands.
+  OrientedBox box;
+  /// Times [s] and poses of the box's center along its motion, with increasing times; empty if the
+  /// obstacle stands. An obstacle that moves has at least two poses, and leaves the road at the
+  /// last.
+  std::vector<std::pair<double, Pose2>> poses;
+};
+
+/// A region of the plane. The region is a convex polygon with counter-clockwise corners, or a disc.
+struct CommonRoadRegion {
+  std::vector<Vec2> corners;  ///< Corners [m]; empty for a disc.
+  Vec2 center{0.0, 0.0};      ///< Center of the disc [m].
+  double radius = 0.0;        ///< Radius of the disc [m].
+
+  /// Whether the region contains the point.
+  [[nodiscard]] bool Contains(const Vec2& point) const;
+};
+
+/// What the goal of a planning problem demands of the car's center at one time.
+struct CommonRoadGoal {
+  /// The center is in one of these regions; if empty, anywhere.
+  std::vector<CommonRoadRegion> regions;
+  std::pair<double, double> time{0.0, 0.0};              ///< Earliest and latest time [s].
+  std::optional<std::pair<double, double>> speed;        ///< Lowest and highest speed [m/s].
+  std::optional<std::pair<double, double>> orientation;  ///< Bounds of the heading [rad].
+};
+
+/// A CommonRoad scenario with a route that solves its planning problem if the road is free.
+struct CommonRoadScenario {
+  std::string name;  ///< The benchmark ID, or the name of the file without its ending.
+  std::vector<CommonRoadObstacle> obstacles;
+  Pose2 start;               ///< Pose of the car's center at time 0.
+  double start_speed = 0.0;  ///< Speed at time 0 [m/s], >= 0.
+  CommonRoadGoal goal;
+  /// Points for the car's center, about 1 m apart [m]: from the start onto the lanelets' centers,
+  /// along the shortest sequence of lanelets to the goal, and on until a car can have stopped.
+  std::vector<Vec2> route;
+  /// The speed nearest to the initial speed at which a car on the route meets the goal in time
+  /// [m/s], >= 0.1.
+  double speed = 0.0;
+  /// Heading of the route at the goal, continued from the start's heading without jumps [rad].
+  double goal_yaw = 0.0;
+  /// Smallest distances from the route's points up to the goal to the edge of the lanelets of any
+  /// direction, to the left and to the right [m], at most 8 m.
+  double room_left = 0.0;
+  double room_right = 0.0;
+  std::vector<std::string> notes;  ///< What was not read, or read with a loss.
+};
+
+/// Acceleration and deceleration of the car, with which the route's speed and length are chosen
+/// [m/s^2].
+inline constexpr double kCommonRoadAcceleration = 2.5;
+
+/// Whether the text is an XML document with the root element `commonRoad`.
+bool IsCommonRoadScenario(const std::string& text);
+
+/// Reads a CommonRoad scenario of version 2017a, 2018b or 2020a.
+///
+/// The route changes lanes only between adjacent lanelets with the same driving direction. It meets
+/// a lanelet's center, after the start or a lane change, along a quintic polynomial whose lateral
+/// acceleration is at most 1.5 m/s^2 where the road is long enough.
+///
+/// What does not fit is approximated, with a note: discs and polygons become their smallest
+/// enclosing boxes, sets of occupied places become boxes at the middle of their time, states with
+/// intervals the middle of the intervals. Does not read traffic signs, traffic lights, stop lines,
+/// speed limits and environment obstacles. If there are several planning problems or goals, reads
+/// the first.
+///
+/// Throws InputError, with line and element, if the file is not a CommonRoad scenario, a number is
+/// not finite or out of range, there is no planning problem, the start is more than 5 m from every
+/// lanelet, or no lanelets lead from the start to the goal.
+CommonRoadScenario ReadCommonRoadScenario(const std::filesystem::path& file,
+                                          const std::string& text);
+
+}  // namespace trackbed

@@ -1,0 +1,295 @@
+#include "src/path_files/commonroad_obstacles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "src/path_files/formats.h"
+#include "trackbed/core/angle.h"
+
+namespace trackbed {
+namespace {
+
+using tinyxml2::XMLElement;
+
+/// Returns the smallest rectangle around points with one side along an edge of their polygon.
+OrientedBox EnclosingBox(const std::vector<Vec2>& points) {
+  OrientedBox best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec2 edge = points[(i + 1) % points.size()] - points[i];
+    const double yaw = std::atan2(edge.y(), edge.x());
+    Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
+    Vec2 high = -low;
+    for (const Vec2& point : points) {
+      const Vec2 own = ToLocal({0.0, 0.0, yaw}, point);
+      low = low.cwiseMin(own);
+      high = high.cwiseMax(own);
+    }
+    const Vec2 size = high - low;
+    if (size.x() * size.y() < least) {
+      least = size.x() * size.y();
+      const Vec2 center = ToWorld({0.0, 0.0, yaw}, 0.5 * (low + high));
+      best = {{center.x(), center.y(), yaw}, size.x(), size.y()};
+    }
+  }
+  return best;
+}
+
+/// A shape in the frame of its obstacle, and whether the box is larger than the shape.
+struct Shape {
+  OrientedBox box;
+  bool is_larger = false;
+};
+
+Shape ReadShape(const XMLElement& shape, const CommonRoadReading& reading) {
+  const std::string_view name = shape.Name();
+  const XMLElement* at = shape.FirstChildElement("center");
+  const Vec2 center = at == nullptr ? Vec2(-reading.origin) : PointIn(*at, reading);
+  const auto positive = [&](const char* key) {
+    const double size = RequiredNumber(shape, key, reading);
+    if (!(size > 0.0)) {
+      Refuse(reading.file, key, fmt::format("{} m; must be above 0", size), shape.GetLineNum());
+    }
+    return size;
+  };
+  if (name == "rectangle") {
+    const auto yaw = IntervalOfChild(shape, "orientation", reading);
+    return {{{center.x(), center.y(), yaw ? yaw->middle() : 0.0},
+             positive("length"),
+             positive("width")}};
+  }
+  if (name == "circle") {
+    const double size = 2.0 * positive("radius");
+    return {{{center.x(), center.y(), 0.0}, size, size}, true};
+  }
+  if (name != "polygon") {
+    Refuse(reading.file, "shape",
+           fmt::format("a {} is not read; must be rectangle, circle or polygon", name),
+           shape.GetLineNum());
+  }
+  std::vector<Vec2> points;
+  for (const XMLElement* point = shape.FirstChildElement("point"); point != nullptr;
+       point = point->NextSiblingElement("point")) {
+    points.push_back(PointIn(*point, reading));
+  }
+  const OrientedBox box = points.size() < 3 ? OrientedBox{} : EnclosingBox(points);
+  if (!(box.length > 0.0 && box.width > 0.0)) {
+    Refuse(reading.file, "polygon", "has no area", shape.GetLineNum());
+  }
+  double area = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    area += 0.5 * Cross(points[i], points[(i + 1) % points.size()]);
+  }
+  return {box, std::abs(area) < 0.99 * box.length * box.width};
+}
+
+/// Reads all shapes in an element as one box.
+Shape ReadShapes(const XMLElement& parent, const CommonRoadReading& reading) {
+  const XMLElement* first = parent.FirstChildElement();
+  if (first == nullptr) {
+    Refuse(reading.file, parent.Name(), "has no rectangle, circle or polygon", parent.GetLineNum());
+  }
+  const Shape only = ReadShape(*first, reading);
+  if (first->NextSiblingElement() == nullptr) {
+    return only;
+  }
+  std::vector<Vec2> corners;
+  for (const XMLElement* each = first; each != nullptr; each = each->NextSiblingElement()) {
+    for (const Vec2& corner : ReadShape(*each, reading).box.Corners()) {
+      corners.push_back(corner);
+    }
+  }
+  return {EnclosingBox(corners), true};
+}
+
+/// A state of an obstacle.
+struct State {
+  double time = 0.0;  // [s]
+  Pose2 place;
+  bool has_yaw = false;
+};
+
+State ReadState(const XMLElement& element, const CommonRoadClock& clock,
+                const CommonRoadReading& reading) {
+  State state;
+  const auto step = IntervalOfChild(element, "time", reading);
+  state.time = clock.timestep * ((step ? step->middle() : clock.start) - clock.start);
+  state.place = ReadPlace(element, reading);
+  if (const auto yaw = IntervalOfChild(element, "orientation", reading)) {
+    state.place.yaw = yaw->middle();
+    state.has_yaw = true;
+  }
+  return state;
+}
+
+/// Counts what was approximated.
+struct Approximations {
+  int boxes = 0;
+  int sets = 0;
+  int skipped_states = 0;
+  int without_place = 0;
+};
+
+/// Sets the headings of states without orientation to the direction of motion.
+void CompleteYaws(std::vector<State>& states) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i].has_yaw || states.size() < 2) {
+      continue;
+    }
+    const std::size_t from = i + 1 < states.size() ? i : i - 1;
+    const Vec2 way = states[from + 1].place.position() - states[from].place.position();
+    states[i].place.yaw =
+        way.norm() > 1e-3 || i == 0 ? std::atan2(way.y(), way.x()) : states[i - 1].place.yaw;
+  }
+}
+
+/// Reads the states of an obstacle: the initial state and the trajectory.
+std::vector<State> ReadStates(const XMLElement& obstacle, const CommonRoadClock& clock,
+                              const CommonRoadReading& reading, Approximations& notes) {
+  std::vector<State> states;
+  const auto add = [&](const State& state) {
+    if (state.time < 0.0 || (!states.empty() && state.time <= states.back().time)) {
+      ++notes.skipped_states;
+    } else {
+      states.push_back(state);
+    }
+  };
+  const XMLElement* initial = obstacle.FirstChildElement("initialState");
+  if (initial != nullptr) {
+    add(ReadState(*initial, clock, reading));
+  }
+  if (const XMLElement* trajectory = obstacle.FirstChildElement("trajectory")) {
+    for (const XMLElement* state = trajectory->FirstChildElement("state"); state != nullptr;
+         state = state->NextSiblingElement("state")) {
+      add(ReadState(*state, clock, reading));
+    }
+  } else if (initial != nullptr && states.size() == 1) {
+    // Without a trajectory, the obstacle keeps its velocity.
+    const auto speed = IntervalOfChild(*initial, "velocity", reading);
+    if (speed && speed->middle() != 0.0) {
+      State later = states.front();
+      const Vec2 place = later.place.position() + speed->middle() * Direction(later.place.yaw);
+      later.place = {place.x(), place.y(), later.place.yaw};
+      later.time += 1.0;
+      states.push_back(later);
+    }
+  }
+  CompleteYaws(states);
+  return states;
+}
+
+/// Reads an obstacle that is given by the places that it occupies over time. Its size is the
+/// largest of these places.
+std::optional<CommonRoadObstacle> ReadOccupancies(const XMLElement& set,
+                                                  const CommonRoadClock& clock,
+                                                  const CommonRoadReading& reading) {
+  CommonRoadObstacle found;
+  for (const XMLElement* each = set.FirstChildElement("occupancy"); each != nullptr;
+       each = each->NextSiblingElement("occupancy")) {
+    const OrientedBox box = ReadShapes(RequiredChild(*each, "shape", reading), reading).box;
+    const auto step = IntervalOfChild(*each, "time", reading);
+    const double time = clock.timestep * ((step ? step->middle() : 0.0) - clock.start);
+    if (time >= 0.0 && (found.poses.empty() || time > found.poses.back().first)) {
+      found.poses.emplace_back(time, box.center);
+      found.box.length = std::max(found.box.length, box.length);
+      found.box.width = std::max(found.box.width, box.width);
+    }
+  }
+  if (found.poses.empty()) {
+    return std::nullopt;
+  }
+  found.box.center = found.poses.front().second;
+  if (found.poses.size() == 1) {
+    found.poses.clear();
+  }
+  return found;
+}
+
+std::optional<CommonRoadObstacle> ReadObstacle(const XMLElement& element, bool moves,
+                                               const CommonRoadClock& clock,
+                                               const CommonRoadReading& reading,
+                                               Approximations& notes) {
+  if (const XMLElement* set = element.FirstChildElement("occupancySet"); set != nullptr && moves) {
+    ++notes.sets;
+    return ReadOccupancies(*set, clock, reading);
+  }
+  const XMLElement* shapes = element.FirstChildElement("shape");
+  const std::vector<State> states = ReadStates(element, clock, reading, notes);
+  if (shapes == nullptr || states.empty()) {
+    ++notes.without_place;
+    return std::nullopt;
+  }
+  // A shape is in the frame of the obstacle.
+  const Shape shape = ReadShapes(*shapes, {reading.file, reading.largest});
+  notes.boxes += shape.is_larger ? 1 : 0;
+  CommonRoadObstacle obstacle{.box = shape.box};
+  obstacle.box.center = Compose(states.front().place, shape.box.center);
+  const bool is_static = !moves || std::all_of(states.begin(), states.end(), [&](const State& s) {
+    return s.place == states.front().place;
+  });
+  if (!is_static && states.size() > 1) {
+    for (const State& state : states) {
+      obstacle.poses.emplace_back(state.time, Compose(state.place, shape.box.center));
+    }
+  }
+  return obstacle;
+}
+
+}  // namespace
+
+Pose2 ReadPlace(const XMLElement& state, const CommonRoadReading& reading) {
+  const XMLElement& position = RequiredChild(state, "position", reading);
+  if (const XMLElement* point = position.FirstChildElement("point")) {
+    const Vec2 place = PointIn(*point, reading);
+    return {place.x(), place.y(), 0.0};
+  }
+  const Pose2 center = ReadShapes(position, reading).box.center;
+  return {center.x, center.y, 0.0};
+}
+
+CommonRoadRegion ReadRegion(const XMLElement& shape, const CommonRoadReading& reading) {
+  const Shape read = ReadShape(shape, reading);
+  if (std::string_view(shape.Name()) == "circle") {
+    return {.center = read.box.center.position(), .radius = 0.5 * read.box.length};
+  }
+  const auto corners = read.box.Corners();
+  return {.corners = {corners.begin(), corners.end()}};
+}
+
+std::vector<CommonRoadObstacle> ReadCommonRoadObstacles(const XMLElement& root,
+                                                        const CommonRoadClock& clock,
+                                                        const CommonRoadReading& reading,
+                                                        std::vector<std::string>& notes) {
+  std::vector<CommonRoadObstacle> obstacles;
+  Approximations counted;
+  for (const XMLElement* child = root.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    const std::string_view name = child->Name();
+    const XMLElement* role = child->FirstChildElement("role");
+    const char* text = role == nullptr ? nullptr : role->GetText();
+    const bool is_dynamic =
+        name == "dynamicObstacle" || name == "phantomObstacle" ||
+        (name == "obstacle" && text != nullptr && std::string_view(text) == "dynamic");
+    if (is_dynamic || name == "staticObstacle" || name == "obstacle") {
+      if (auto found = ReadObstacle(*child, is_dynamic, clock, reading, counted)) {
+        obstacles.push_back(std::move(*found));
+      }
+    }
+  }
+  const auto note = [&](int count, const char* what) {
+    if (count > 0) {
+      notes.push_back(fmt::format("{} {}", count, what));
+    }
+  };
+  note(counted.boxes, "obstacles are discs or polygons; their enclosing boxes are larger");
+  note(counted.sets, "obstacles are sets of occupied places; they are boxes in the middle of each");
+  note(counted.skipped_states, "states of obstacles are not later than the state before: left out");
+  note(counted.without_place, "obstacles have no shape or no state: left out");
+  return obstacles;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,395 @@
+#include "trackbed/path_files/commonroad_scenario.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "src/path_files/commonroad_obstacles.h"
+#include "src/path_files/commonroad_xml.h"
+#include "src/path_files/formats.h"
+#include "src/path_files/lanelet_path.h"
+#include "src/path_files/lanelets.h"
+#include "trackbed/core/angle.h"
+
+// Reads a CommonRoad scenario. ReadProblem reads the planning problem, FindLaneletRoute finds
+// lanelets from its start to its goal, and LaneletPath makes a path from them. ChooseSpeed then
+// finds the speed at which a car meets the goal in time. The path ends where a car that brakes
+// after the goal has stopped.
+namespace trackbed {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr double kAcceleration = kCommonRoadAcceleration;
+constexpr double kMinSpeed = 0.1;   // [m/s]
+constexpr double kMaxSpeed = 60.0;  // [m/s]
+
+std::pair<double, double> PairOf(const CommonRoadInterval& interval, double factor = 1.0) {
+  return {factor * interval.from, factor * interval.to};
+}
+
+/// What is read of a planning problem.
+struct PlanningProblem {
+  Pose2 start;
+  double speed = 0.0;
+  double start_step = 0.0;  // Time step at which the problem begins.
+  CommonRoadGoal goal;
+  std::vector<std::string> goal_lanelets;
+};
+
+/// Reads the region of a goal; returns its lanelets separately.
+void ReadGoalPosition(const XMLElement& position, const Lanelets& lanelets,
+                      const CommonRoadReading& reading, PlanningProblem& problem) {
+  // Number of convex pieces in which a lanelet is a goal.
+  constexpr std::size_t kPieces = 6;
+  for (const XMLElement* child = position.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (std::string_view(child->Name()) == "lanelet") {
+      const char* id = child->Attribute("ref");
+      const auto found = id == nullptr ? lanelets.end() : lanelets.find(id);
+      if (found == lanelets.end()) {
+        Refuse(reading.file, "lanelet",
+               fmt::format("the goal is in the lanelet {}, which is not in the file",
+                           id == nullptr ? "without a number" : id),
+               child->GetLineNum());
+      }
+      problem.goal_lanelets.push_back(found->first);
+      for (CommonRoadRegion& region : RegionsOf(found->second, kPieces)) {
+        problem.goal.regions.push_back(std::move(region));
+      }
+    } else {
+      problem.goal.regions.push_back(ReadRegion(*child, reading));
+    }
+  }
+}
+
+PlanningProblem ReadProblem(const XMLElement& root, const Lanelets& lanelets, double timestep,
+                            const CommonRoadReading& reading, std::vector<std::string>& notes) {
+  const XMLElement* element = root.FirstChildElement("planningProblem");
+  if (element == nullptr) {
+    Refuse(reading.file, "planningProblem",
+           "missing: the file describes a road and traffic, but neither start nor goal of a car",
+           root.GetLineNum());
+  }
+  if (element->NextSiblingElement("planningProblem") != nullptr) {
+    notes.emplace_back("several planning problems: the first is driven");
+  }
+  PlanningProblem problem;
+  const XMLElement& initial = RequiredChild(*element, "initialState", reading);
+  problem.start = ReadPlace(initial, reading);
+  const auto middle = [&](const char* name, double missing) {
+    const auto interval = IntervalOfChild(initial, name, reading);
+    return interval ? interval->middle() : missing;
+  };
+  problem.start.yaw = middle("orientation", 0.0);
+  problem.speed = std::abs(middle("velocity", 0.0));
+  problem.start_step = middle("time", 0.0);
+  const XMLElement& goal = RequiredChild(*element, "goalState", reading);
+  if (goal.NextSiblingElement("goalState") != nullptr) {
+    notes.emplace_back("several goal states: the first is the goal");
+  }
+  if (const XMLElement* position = goal.FirstChildElement("position")) {
+    ReadGoalPosition(*position, lanelets, reading, problem);
+  }
+  const auto time = IntervalOfChild(goal, "time", reading);
+  if (!time) {
+    Refuse(reading.file, "time", "missing in goalState", goal.GetLineNum());
+  }
+  problem.goal.time = {std::max(0.0, timestep * (time->from - problem.start_step)),
+                       timestep * (time->to - problem.start_step)};
+  if (problem.goal.time.second <= 0.0) {
+    Refuse(reading.file, "time", "the goal must be reached before the start", goal.GetLineNum());
+  }
+  if (const auto speed = IntervalOfChild(goal, "velocity", reading)) {
+    problem.goal.speed = PairOf(*speed);
+  }
+  if (const auto yaw = IntervalOfChild(goal, "orientation", reading)) {
+    problem.goal.orientation = PairOf(*yaw);
+  }
+  return problem;
+}
+
+/// Returns the middle of a region.
+Vec2 MiddleOf(const CommonRoadRegion& region) {
+  Vec2 middle = region.center;
+  if (!region.corners.empty()) {
+    middle = Vec2::Zero();
+    for (const Vec2& corner : region.corners) {
+      middle += corner / static_cast<double>(region.corners.size());
+    }
+  }
+  return middle;
+}
+
+/// Returns the lanelets in which the goal's regions lie.
+std::vector<std::string> GoalLanelets(const PlanningProblem& problem, const Lanelets& lanelets) {
+  std::vector<std::string> found = problem.goal_lanelets;
+  if (!found.empty()) {
+    return found;
+  }
+  for (const CommonRoadRegion& region : problem.goal.regions) {
+    const Vec2 middle = MiddleOf(region);
+    for (const auto& [id, lanelet] : lanelets) {
+      const auto& yaw = problem.goal.orientation;
+      const bool may_lead_there =
+          !yaw || std::abs(AngleDifference(PlaceOn(lanelet.center, middle).yaw,
+                                           0.5 * (yaw->first + yaw->second))) < 0.5 * kPi;
+      if (may_lead_there && lanelet.Contains(middle)) {
+        found.push_back(id);
+      }
+    }
+  }
+  return found;
+}
+
+/// Stations at which a path enters and leaves a region.
+struct Passage {
+  double from = 0.0;  // [m]
+  double to = 0.0;    // [m]
+};
+
+std::vector<double> StationsOf(const std::vector<Vec2>& path) {
+  std::vector<double> stations{0.0};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    stations.push_back(stations.back() + (path[i] - path[i - 1]).norm());
+  }
+  return stations;
+}
+
+std::optional<Passage> PassageOf(const std::vector<Vec2>& path,
+                                 const std::vector<CommonRoadRegion>& regions) {
+  const std::vector<double> stations = StationsOf(path);
+  if (regions.empty()) {
+    return Passage{0.0, stations.back()};
+  }
+  std::optional<Passage> passage;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool inside =
+        std::any_of(regions.begin(), regions.end(),
+                    [&](const CommonRoadRegion& region) { return region.Contains(path[i]); });
+    if (inside) {
+      passage = Passage{passage ? passage->from : stations[i], stations[i]};
+    } else if (passage) {
+      break;
+    }
+  }
+  return passage;
+}
+
+/// Returns the distance that a car drives in a time, from one speed toward another.
+double DrivenIn(double time, double from, double to) {
+  const double change = std::abs(to - from) / kAcceleration;
+  const double sign = to < from ? -1.0 : 1.0;
+  const double changing = std::min(time, change);
+  return from * changing + sign * 0.5 * kAcceleration * changing * changing +
+         to * (time - changing);
+}
+
+/// Returns the speed nearest to the initial speed at which a car passes the goal in time. If there
+/// is none, returns the speed at which the car misses the goal by the shortest distance.
+double ChooseSpeed(const PlanningProblem& problem, const Passage& passage) {
+  const CommonRoadGoal& goal = problem.goal;
+  const double margin = std::min(2.0, 0.25 * (passage.to - passage.from));
+  double best = std::max(problem.speed, kMinSpeed);
+  auto least = std::pair(std::numeric_limits<double>::infinity(), 0.0);
+  const auto look = [&](double speed) {
+    const double early = DrivenIn(goal.time.first, problem.speed, speed);
+    const double late = DrivenIn(goal.time.second, problem.speed, speed);
+    double miss = std::max({0.0, passage.from + margin - late, early - (passage.to - margin)});
+    if (goal.speed) {
+      miss += std::max({0.0, goal.speed->first - speed, speed - goal.speed->second});
+    }
+    const auto rank = std::pair(miss, std::abs(speed - problem.speed));
+    if (rank < least) {
+      least = rank;
+      best = speed;
+    }
+  };
+  look(best);
+  for (double speed = kMinSpeed; speed <= kMaxSpeed; speed += 0.1) {
+    look(speed);
+  }
+  return best;
+}
+
+/// Measures the road beside the route up to a station, and the route's heading there.
+void MeasureRoute(const Lanelets& lanelets, double end, CommonRoadScenario& scenario) {
+  constexpr double kMaxRoom = 8.0;  // [m]
+  constexpr double kStep = 0.25;    // [m]
+  const auto on_road = [&](const Vec2& point) {
+    return std::any_of(lanelets.begin(), lanelets.end(),
+                       [&](const auto& entry) { return entry.second.Contains(point); });
+  };
+  const std::vector<Vec2>& route = scenario.route;
+  const std::vector<double> stations = StationsOf(route);
+  double yaw = scenario.start.yaw;
+  scenario.room_left = kMaxRoom;
+  scenario.room_right = kMaxRoom;
+  for (std::size_t i = 1; i < route.size() && stations[i] <= end; ++i) {
+    const Vec2 step = route[i] - route[i - 1];
+    yaw += AngleDifference(std::atan2(step.y(), step.x()), yaw);
+    for (const auto& [room, side] :
+         {std::pair(&scenario.room_left, 1.0), std::pair(&scenario.room_right, -1.0)}) {
+      double free = 0.0;
+      while (free < *room &&
+             on_road(route[i] + side * (free + kStep) * LeftNormal(Direction(yaw)))) {
+        free += kStep;
+      }
+      *room = std::min(*room, free);
+    }
+  }
+  scenario.goal_yaw = yaw;
+}
+
+/// Cuts a path at a station.
+void Cut(std::vector<Vec2>& path, double length) {
+  const std::vector<double> stations = StationsOf(path);
+  const auto end = std::lower_bound(stations.begin(), stations.end(), length) - stations.begin();
+  path.resize(std::max<std::size_t>(3, std::min(path.size(), static_cast<std::size_t>(end) + 1)));
+}
+
+/// Finds the lanelets of the route. A goal without a place is ahead of the start.
+std::vector<LaneletLane> LanesOf(const PlanningProblem& problem, const Lanelets& lanelets,
+                                 const CommonRoadReading& reading, int line) {
+  const std::vector<std::string> starts = LaneletsAt(lanelets, problem.start);
+  if (starts.empty()) {
+    Refuse(reading.file, "initialState",
+           fmt::format("the start ({:.6g}, {:.6g}) is in no lanelet with about the direction "
+                       "{:.4g} rad, and more than 5 m from each",
+                       problem.start.x, problem.start.y, problem.start.yaw),
+           line);
+  }
+  if (problem.goal.regions.empty()) {
+    return {{&lanelets.at(starts.front())}};
+  }
+  const std::vector<std::string> goals = GoalLanelets(problem, lanelets);
+  if (goals.empty()) {
+    Refuse(reading.file, "goalState", "the center of the goal's region is in no lanelet", line);
+  }
+  auto lanes = FindLaneletRoute(lanelets, starts, goals);
+  if (!lanes) {
+    Refuse(reading.file, "goalState",
+           fmt::format("no successors and lane changes lead from lanelet {} to lanelet {}",
+                       fmt::join(starts, " or "), fmt::join(goals, " or ")),
+           line);
+  }
+  return *lanes;
+}
+
+/// Returns the origin of the coordinates: (0, 0) or, if the start is more than 50 km from (0, 0),
+/// the nearest point at whole kilometers.
+Vec2 OriginOf(const XMLElement& root, const std::filesystem::path& file) {
+  constexpr double kFar = 5e4;          // [m]
+  constexpr double kRounding = 1000.0;  // [m]
+  const XMLElement* problem = root.FirstChildElement("planningProblem");
+  const XMLElement* initial =
+      problem == nullptr ? nullptr : problem->FirstChildElement("initialState");
+  if (initial == nullptr) {
+    return Vec2::Zero();
+  }
+  const Vec2 place = ReadPlace(*initial, {file, kMaxPosition}).position();
+  if (place.cwiseAbs().maxCoeff() <= kFar) {
+    return Vec2::Zero();
+  }
+  return kRounding * (place / kRounding).array().round().matrix();
+}
+
+}  // namespace
+
+bool CommonRoadRegion::Contains(const Vec2& point) const {
+  if (corners.empty()) {
+    return (point - center).norm() <= radius;
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2& from = corners[i];
+    const Vec2& to = corners[(i + 1) % corners.size()];
+    if (Cross(to - from, point - from) < 0.0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool IsCommonRoadScenario(const std::string& text) {
+  if (text.find('<') == std::string::npos || text.find("<commonRoad") == std::string::npos) {
+    return false;
+  }
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return begin != std::string::npos && text[begin] == '<';
+}
+
+CommonRoadScenario ReadCommonRoadScenario(const std::filesystem::path& file,
+                                          const std::string& text) {
+  tinyxml2::XMLDocument document;
+  const XMLElement& root = ParseCommonRoadXml(document, text, file);
+  if (std::string_view(root.Name()) != "commonRoad") {
+    Refuse(file, "", fmt::format("the root element is {}; must be commonRoad", root.Name()),
+           root.GetLineNum());
+  }
+  CommonRoadScenario scenario;
+  const char* name = root.Attribute("benchmarkID");
+  scenario.name = name == nullptr ? file.stem().string() : name;
+  const double timestep = root.DoubleAttribute("timeStepSize", 0.0);
+  if (!(timestep > 0.0 && timestep <= 100.0)) {
+    Refuse(file, "timeStepSize", fmt::format("{} s; must be above 0 and at most 100 s", timestep),
+           root.GetLineNum());
+  }
+  const CommonRoadReading reading{file, kMaxPosition, OriginOf(root, file)};
+  if (reading.origin != Vec2::Zero()) {
+    scenario.notes.push_back(fmt::format("all coordinates are relative to ({:.0f}, {:.0f})",
+                                         reading.origin.x(), reading.origin.y()));
+  }
+  const Lanelets lanelets = ReadLanelets(root, reading);
+  if (lanelets.empty()) {
+    Refuse(file, "lanelet", "missing: the file has no roads", root.GetLineNum());
+  }
+  const PlanningProblem problem = ReadProblem(root, lanelets, timestep, reading, scenario.notes);
+  scenario.start = problem.start;
+  scenario.start_speed = problem.speed;
+  scenario.goal = problem.goal;
+  scenario.obstacles =
+      ReadCommonRoadObstacles(root, {timestep, problem.start_step}, reading, scenario.notes);
+  const int line = root.FirstChildElement("planningProblem")->GetLineNum();
+  const std::vector<LaneletLane> lanes = LanesOf(problem, lanelets, reading, line);
+  // The path must be long enough for the speed, which depends on the path.
+  scenario.speed = std::max(problem.speed, kMinSpeed);
+  for (int pass = 0; pass < 2; ++pass) {
+    const double speed = std::max(scenario.speed, problem.speed);
+    const double stop = speed * speed / (2.0 * kAcceleration) + 10.0;
+    const double ahead = problem.goal.regions.empty() ? speed * problem.goal.time.second : 0.0;
+    const bool has_aim = problem.goal_lanelets.empty() && problem.goal.regions.size() == 1;
+    const auto aim = has_aim ? std::optional(MiddleOf(problem.goal.regions.front())) : std::nullopt;
+    scenario.route = LaneletPath(lanelets, lanes, problem.start, aim, speed, stop + ahead);
+    const std::optional<Passage> passage = PassageOf(scenario.route, problem.goal.regions);
+    if (!passage) {
+      Refuse(file, "goalState", "the route along the lanelets does not pass through the goal",
+             line);
+    }
+    scenario.speed = ChooseSpeed(problem, *passage);
+    if (pass == 1) {
+      const double latest = DrivenIn(problem.goal.time.second, problem.speed, scenario.speed);
+      const double at_goal = std::max(passage->from, std::min(passage->to, latest));
+      Cut(scenario.route, at_goal + stop);
+      MeasureRoute(lanelets, at_goal, scenario);
+      std::erase_if(scenario.goal.regions, [&](const CommonRoadRegion& region) {
+        return std::none_of(scenario.route.begin(), scenario.route.end(),
+                            [&](const Vec2& point) { return region.Contains(point); });
+      });
+    }
+  }
+  if (root.FirstChildElement("environmentObstacle") != nullptr) {
+    scenario.notes.emplace_back("environment obstacles, such as buildings, are not read");
+  }
+  if (root.FirstChildElement("trafficSign") != nullptr ||
+      root.FirstChildElement("trafficLight") != nullptr) {
+    scenario.notes.emplace_back("traffic signs and traffic lights are not read");
+  }
+  return scenario;
+}
+
+}  // namespace trackbed
