@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/method_error.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/version.h"
 #include "trackbed/optimize/search.h"
@@ -62,7 +64,22 @@ std::string VersionText() {
                      OptimizerVersion(), VideoEncoder());
 }
 
+/// Rejects the option --import, which only the program of the Python package has. That program
+/// removes the option from the command line before it calls Main.
+void RejectImport(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument == "--import" || argument.starts_with("--import=")) {
+      throw InputError(Problem{
+          .key = "--import",
+          .message = "this program contains no Python; install the Python package (`pip install .` "
+                     "in the source tree) and call `python3 -m trackbed` with the same arguments"});
+    }
+  }
+}
+
 int Run(int argc, char** argv) {
+  RejectImport(argc, argv);
   CommandLine line("trackbed",
                    "Vehicle simulation testbed on MuJoCo: runs plans and controllers under contact "
                    "dynamics, compares them with a kinematic model, and renders videos off-screen.",
@@ -129,6 +146,8 @@ int Main(int argc, char** argv) {
   } catch (const RunError& error) {
     say(error.what());
     code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
+  } catch (const MethodError& error) {
+    say(error.what());
   } catch (const std::system_error& error) {
     // If fmt throws because stdout cannot be written, print the same error message as for a failed
     // flush of stdout.

@@ -1,0 +1,7 @@
+#include "trackbed/core/method_error.h"
+
+namespace trackbed {
+
+MethodError::MethodError(const std::string& message) : std::runtime_error(message) {}
+
+}  // namespace trackbed
