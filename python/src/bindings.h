@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -40,6 +41,30 @@ class Columns {
 /// Converts JSON to dictionaries, lists, numbers and texts.
 py::object ToPython(const nlohmann::ordered_json& json);
 
+/// Counts the functions of the package that run without the GIL. Python code can register plug-ins
+/// only while no such function runs, because the registries are not thread-safe.
+class RunningFunction {
+ public:
+  RunningFunction() { ++Count(); }
+  RunningFunction(const RunningFunction&) = delete;
+  RunningFunction& operator=(const RunningFunction&) = delete;
+  ~RunningFunction() { --Count(); }
+
+  /// Number of functions that run without the GIL. The caller must have the GIL.
+  static std::atomic<int>& Count();
+};
+
+/// Releases the GIL. The function counts as running before the GIL is released, and until the GIL
+/// is acquired again.
+class WithoutGil {
+ public:
+  WithoutGil() = default;
+
+ private:
+  const RunningFunction running_;
+  const py::gil_scoped_release release_;
+};
+
 /// Asks Python about once in 20 ms, while a run is simulated without the GIL, whether a signal such
 /// as Ctrl-C has arrived. Only the main thread of Python handles signals.
 class Signals {
@@ -62,5 +87,8 @@ void BindRuns(py::module_& module);
 void BindChecks(py::module_& module);
 void BindPictures(py::module_& module);
 void BindLoops(py::module_& module);
+void BindPlugins(py::module_& module);
+void BindSweeps(py::module_& module);
+void BindProgram(py::module_& module);
 
 }  // namespace trackbed::python

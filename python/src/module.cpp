@@ -22,4 +22,6 @@ PYBIND11_MODULE(_trackbed, module) {
   BindChecks(module);
   BindPictures(module);
   BindLoops(module);
+  BindPlugins(module);
+  BindProgram(module);
 }

@@ -44,7 +44,7 @@ py::array_t<std::uint8_t> Frame(const fs::path& folder, double time, int width, 
                                 const std::string& camera, const std::string& quality) {
   Image image;
   {
-    const py::gil_scoped_release release;
+    const WithoutGil release;
     const std::lock_guard lock(RenderMutex());
     const fs::path file = folder / "frame.png";
     RenderPicture(folder, file, time,
@@ -58,7 +58,7 @@ py::array_t<std::uint8_t> Frame(const fs::path& folder, double time, int width, 
 
 void Film(const fs::path& folder, const fs::path& output, int width, int height, double fps,
           const std::string& camera, const std::string& quality) {
-  const py::gil_scoped_release release;
+  const WithoutGil release;
   const std::lock_guard lock(RenderMutex());
   RenderFilm(folder, output,
              {.width = width, .height = height, .fps = fps, .camera = camera, .quality = quality});
@@ -70,7 +70,7 @@ void BindPictures(py::module_& module) {
   module.def("frame", &Frame);
   module.def("film", &Film);
   module.def("report_page", [](const fs::path& folder) {
-    const py::gil_scoped_release release;
+    const WithoutGil release;
     return ReportPageOf({folder}, folder / "report.html", FilmPlace::kAbsent);
   });
 }

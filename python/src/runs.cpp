@@ -51,6 +51,11 @@ void Signals::Rethrow() {
   }
 }
 
+std::atomic<int>& RunningFunction::Count() {
+  static std::atomic<int> count{0};
+  return count;
+}
+
 CarCache& Cars() {
   static CarCache cars;
   return cars;
@@ -60,7 +65,7 @@ namespace {
 
 std::shared_ptr<Scenario> Load(const fs::path& file, const std::vector<std::string>& overrides,
                                const std::vector<fs::path>& asset_folders) {
-  const py::gil_scoped_release release;
+  const WithoutGil release;
   return std::make_shared<Scenario>(LoadScenario(FindScenario(file), overrides, asset_folders));
 }
 
@@ -68,7 +73,7 @@ std::shared_ptr<RunResult> Run(const std::shared_ptr<Scenario>& scenario) {
   Signals signals;
   std::shared_ptr<RunResult> result;
   {
-    const py::gil_scoped_release release;
+    const WithoutGil release;
     const RunHooks hooks{.drive = [&](const std::string&) {
       return DriveHooks{.interrupted = [&] { return signals.Raised(); }};
     }};
@@ -138,7 +143,7 @@ void BindRuns(py::module_& module) {
            })
       .def("log", &LogOf)
       .def("write", [](const RunResult& run, const fs::path& folder, bool mcap) {
-        const py::gil_scoped_release release;
+        const WithoutGil release;
         WriteRunFolder(run, folder, {.mcap = mcap});
       });
   module.def("run", &Run);

@@ -1,0 +1,141 @@
+#include "python/src/observation.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace trackbed::python {
+
+const std::array<Field, kFieldCount> kFields{
+    {{"t_s", [](const Observation& o) { return o.state.time; }, "Time since the start [s]."},
+     {"x_m", [](const Observation& o) { return o.state.pose.x; },
+      "x of the rear-axle center [m], with measurement noise if the scenario has any."},
+     {"y_m", [](const Observation& o) { return o.state.pose.y; },
+      "y of the rear-axle center [m], with measurement noise if the scenario has any."},
+     {"yaw_rad", [](const Observation& o) { return o.state.pose.yaw; },
+      "Yaw [rad], positive to the left, not wrapped, with measurement noise."},
+     {"speed_mps", [](const Observation& o) { return o.state.speed; },
+      "Speed of the rear-axle center along x [m/s], negative backwards."},
+     {"lateral_speed_mps", [](const Observation& o) { return o.state.lateral_speed; },
+      "Speed along y of the ground point below the center of gravity [m/s]."},
+     {"yaw_rate_radps", [](const Observation& o) { return o.state.yaw_rate; }, "Yaw rate [rad/s]."},
+     {"roll_rad", [](const Observation& o) { return o.state.roll; },
+      "Roll angle [rad], positive with the right side down."},
+     {"pitch_rad", [](const Observation& o) { return o.state.pitch; },
+      "Pitch angle [rad], positive with the nose down."},
+     {"longitudinal_acceleration_mps2",
+      [](const Observation& o) { return o.state.longitudinal_acceleration; },
+      "Acceleration of the center of gravity along x [m/s^2]."},
+     {"lateral_acceleration_mps2",
+      [](const Observation& o) { return o.state.lateral_acceleration; },
+      "Acceleration of the center of gravity along y [m/s^2]."},
+     {"sideslip_rad", [](const Observation& o) { return o.state.sideslip; },
+      "Sideslip angle at the center of gravity [rad]."},
+     {"steering_actuator_rad", [](const Observation& o) { return o.state.steering_actuator; },
+      "Angle of the rate-limited steering actuator [rad]."},
+     {"steering_rad", [](const Observation& o) { return o.state.steering; },
+      "Measured steering angle of the bicycle model [rad]."},
+     {"distance_m", [](const Observation& o) { return o.state.distance; }, "Driven distance [m]."},
+     {"station_m", [](const Observation& o) { return o.station; },
+      "Station of the car on the present plan [m], as the scenario's controller receives it."},
+     {"plan_time_s", [](const Observation& o) { return o.plan_time; },
+      "Time since the present plan took effect [s]."},
+     {"cross_track_m", [](const Observation& o) { return o.cross_track; },
+      "Cross-track error [m], positive to the left of the path; NaN without a path."},
+     {"heading_error_rad", [](const Observation& o) { return o.heading_error; },
+      "Heading error [rad]; NaN without a path."},
+     {"curvature_radpm", [](const Observation& o) { return o.curvature; },
+      "Curvature of the path at station_m [1/m]; NaN without a path."},
+     {"planned_speed_mps", [](const Observation& o) { return o.planned_speed; },
+      "Planned speed at station_m [m/s], negative in reverse; NaN without a path."},
+     {"clearance_m", [](const Observation& o) { return o.clearance; },
+      "Smallest clearance from obstacles since the last observation [m]; NaN without obstacles."}}};
+
+Observation Observe(const ControlInput& input) {
+  Observation seen{
+      .state = input.state, .station = input.station, .plan_time = input.plan_time, .status = {}};
+  const Path& path = input.reference.path;
+  if (path.length() > 0.0) {
+    const double station = std::max(0.0, input.station);
+    const Projection at = path.Project(input.state.pose, {station, station});
+    const PathPoint point = path.At(input.station);
+    seen.cross_track = at.cross_track;
+    seen.heading_error = at.heading_error;
+    seen.curvature = point.curvature;
+    seen.planned_speed = point.direction * input.reference.speed.SpeedAt(input.station);
+  }
+  return seen;
+}
+
+Observation Observe(const SteppedLoop& loop) {
+  const ControlInput input = loop.input();
+  const LogRow& row = loop.row();
+  Observation seen{.state = input.state,
+                   .station = input.station,
+                   .plan_time = input.plan_time,
+                   .clearance = row.clearance.value_or(kUnknown),
+                   .status = loop.status()};
+  if (row.tracking) {
+    const PathPoint at = input.reference.path.At(input.station);
+    seen.cross_track = row.tracking->cross_track;
+    seen.heading_error = row.tracking->heading_error;
+    if (row.measured) {
+      const Projection measured = input.reference.path.Project(
+          *row.measured, {std::max(0.0, input.station), std::max(0.0, input.station)});
+      seen.cross_track = measured.cross_track;
+      seen.heading_error = measured.heading_error;
+    }
+    seen.curvature = at.curvature;
+    seen.planned_speed = at.direction * input.reference.speed.SpeedAt(input.station);
+  }
+  return seen;
+}
+
+py::dict ReferenceAt(const std::function<void(const std::function<void(const Reference&)>&)>& with,
+                     const Numbers& stations) {
+  const auto count = static_cast<std::size_t>(stations.size());
+  const char* const names[]{"x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"};
+  std::vector<py::array_t<double>> columns;
+  std::vector<double*> cells;
+  for (std::size_t i = 0; i < std::size(names); ++i) {
+    columns.emplace_back(std::vector<py::ssize_t>{static_cast<py::ssize_t>(count)});
+    cells.push_back(columns.back().mutable_data());
+  }
+  const double* const at = stations.data();
+  {
+    const WithoutGil release;
+    with([&](const Reference& reference) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const PathPoint point = reference.path.At(at[i]);
+        const double speed = point.direction * reference.speed.SpeedAt(at[i]);
+        const double numbers[]{point.pose.x,    point.pose.y, point.pose.yaw,
+                               point.curvature, speed,        static_cast<double>(point.direction)};
+        for (std::size_t column = 0; column < cells.size(); ++column) {
+          cells[column][i] = numbers[column];
+        }
+      }
+    });
+  }
+  py::dict result;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    result[names[i]] = columns[i];
+  }
+  return result;
+}
+
+void BindObservation(py::module_& module) {
+  py::class_<Observation, std::shared_ptr<Observation>> observation(module, "Observation");
+  py::list names;
+  for (const Field& field : kFields) {
+    observation.def_property_readonly(field.name, field.value, field.doc);
+    names.append(field.name);
+  }
+  observation.def_property_readonly(
+      "status", [](const Observation& o) -> std::optional<std::string> {
+        return o.status ? std::optional<std::string>(ToString(*o.status)) : std::nullopt;
+      });
+  observation.def_property_readonly("ended",
+                                    [](const Observation& o) { return o.status.has_value(); });
+  module.attr("observation_columns") = names;
+}
+
+}  // namespace trackbed::python

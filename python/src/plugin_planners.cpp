@@ -1,0 +1,220 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "python/src/joined_path.h"
+#include "python/src/observation.h"
+#include "python/src/plugin_slots.h"
+#include "trackbed/core/error.h"
+#include "trackbed/path/fit_path.h"
+#include "trackbed/planning/common/collision_checker.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
+#include "trackbed/planning/registry/planners.h"
+
+namespace trackbed::python {
+namespace {
+
+struct PlannerKind {
+  static constexpr const char* kText = "planner";
+};
+
+/// What an adapter of a planner returned.
+struct Answer {
+  std::string no_path;  ///< Why there is no path; empty if there is a path.
+  PathPoints points;
+  double max_deviation = 0.0;
+  std::vector<std::string> notes;
+};
+
+std::vector<double> ColumnOf(const Numbers& table, py::ssize_t column) {
+  std::vector<double> numbers;
+  for (py::ssize_t row = 0; row < table.shape(0); ++row) {
+    numbers.push_back(table.at(row, column));
+  }
+  return numbers;
+}
+
+Answer ReadAnswer(const py::dict& given) {
+  Answer answer;
+  if (!given["no_path"].is_none()) {
+    answer.no_path = given["no_path"].cast<std::string>();
+    return answer;
+  }
+  const auto points = given["points"].cast<Numbers>();
+  for (py::ssize_t row = 0; row < points.shape(0); ++row) {
+    answer.points.points.emplace_back(points.at(row, 0), points.at(row, 1));
+  }
+  if (points.shape(1) == 3) {
+    answer.points.yaw = ColumnOf(points, 2);
+  }
+  if (!given["speed"].is_none()) {
+    answer.points.speed = ToNumbers(given["speed"]);
+  }
+  answer.max_deviation = given["max_deviation"].cast<double>();
+  answer.notes = given["notes"].cast<std::vector<std::string>>();
+  return answer;
+}
+
+[[noreturn]] void Refuse(const Plugin& plugin, const std::string& why) {
+  throw PluginError(fmt::format("{} '{}' ({}) returned a path that {}", plugin.kind, plugin.name,
+                                plugin.place, why),
+                    Kept());
+}
+
+/// Fits a path to the points and plans along it, as the planner `path_file` does.
+Plan PlanAlong(const Plugin& plugin, const PlanRequest& request, Answer answer) {
+  PathFileOptions options;
+  options.fit.max_deviation = answer.max_deviation;
+  options.speeds = answer.points.speed.empty() ? PathSpeeds::kMission : PathSpeeds::kFile;
+  const Vec2 first = answer.points.points.front();
+  const double miss = (first - request.start.position()).norm();
+  if (miss > answer.max_deviation) {
+    Refuse(plugin, fmt::format("begins at ({:.6g}, {:.6g}), {:.4g} m from the start ({:.6g}, "
+                               "{:.6g}); must begin within max_deviation = {:.4g} m of the start",
+                               first.x(), first.y(), miss, request.start.x, request.start.y,
+                               answer.max_deviation));
+  }
+  answer.points.points.front() = request.start.position();
+  try {
+    FittedPath fitted = FitPath(std::move(answer.points), options.fit);
+    if (fitted.reversals.empty()) {
+      fitted.path = JoinedToStart(fitted.path, request, answer.max_deviation);
+    }
+    options.path = std::make_shared<const FittedPath>(std::move(fitted));
+  } catch (const InputError& error) {
+    Refuse(plugin, "cannot be fitted: " + error.problems().front().message);
+  }
+  Plan plan = PathFilePlanner().plan(request, options);
+  plan.notes.insert(plan.notes.end(), answer.notes.begin(), answer.notes.end());
+  return plan;
+}
+
+Plan PlanBy(const PluginOptions& options, const PlanRequest& request, bool goes_backwards) {
+  const Plugin& plugin = *options.plugin;
+  Answer answer = Ask(plugin, [&] {
+    const auto copy = std::make_shared<PlanRequest>(request);
+    return ReadAnswer(plugin.adapter.object().attr("plan")(copy, KeywordsOf(options)));
+  });
+  if (!answer.no_path.empty()) {
+    Plan plan;
+    plan.status = PlanStatus::kNoPath;
+    plan.reason = answer.no_path;
+    return plan;
+  }
+  Plan plan = PlanAlong(plugin, request, std::move(answer));
+  const bool reverses = plan.ok() && std::any_of(plan.reference.path.segments().begin(),
+                                                 plan.reference.path.segments().end(),
+                                                 [](const Segment& s) { return s.direction < 0; });
+  if (reverses && !goes_backwards) {
+    Refuse(plugin, "drives in reverse; register the planner with goes_backwards=True");
+  }
+  return plan;
+}
+
+template <std::size_t Slot>
+struct MakePlannerEntry {
+  using Options = SlotOptions<PlannerKind, Slot>;
+
+  static Plan PlanInSlot(const PlanRequest& request, const PlannerOptions& options) {
+    const PlannerEntry& entry = PlannerFor(options);
+    return PlanBy(Bound(options.Get<Options>()), request, entry.goes_backwards);
+  }
+
+  static PlannerEntry Make(const Plugin& plugin) {
+    return {.name = plugin.name.c_str(),
+            .summary = plugin.summary.c_str(),
+            .defaults = Options{},
+            .plan = PlanInSlot};
+  }
+};
+
+py::array_t<double> ToArray(const std::vector<double>& numbers, py::ssize_t columns) {
+  const auto rows = static_cast<py::ssize_t>(numbers.size()) / columns;
+  py::array_t<double> array({rows, columns});
+  std::copy(numbers.begin(), numbers.end(), array.mutable_data());
+  return array;
+}
+
+py::array_t<double> WaypointsOf(const PlanRequest& request) {
+  std::vector<double> numbers;
+  for (const Vec2& point : request.waypoints) {
+    numbers.insert(numbers.end(), {point.x(), point.y()});
+  }
+  return ToArray(numbers, 2);
+}
+
+py::array_t<double> ObstaclesOf(const PlanRequest& request) {
+  std::vector<double> numbers;
+  for (const OrientedBox& box : request.obstacles) {
+    numbers.insert(numbers.end(),
+                   {box.center.x, box.center.y, box.center.yaw, box.length, box.width});
+  }
+  return ToArray(numbers, 5);
+}
+
+/// Returns the clearance at each pose, a row (x, y, yaw).
+py::array_t<double> ClearanceAt(const PlanRequest& request, const Numbers& poses) {
+  py::array_t<double> result(poses.shape(0));
+  const double* const pose = poses.data();
+  double* const clearance = result.mutable_data();
+  const auto count = static_cast<std::size_t>(poses.shape(0));
+  const WithoutGil release;
+  const CollisionChecker checker(request.vehicle, request.obstacles, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    clearance[i] = checker.Clearance({pose[3 * i], pose[3 * i + 1], pose[3 * i + 2]});
+  }
+  return result;
+}
+
+}  // namespace
+
+void RegisterPythonPlanner(const py::dict& given) {
+  RegisterInSlot<PlannerKind, MakePlannerEntry>(ReadPlugin(given), [&](PlannerEntry entry) {
+    entry.min_waypoints = given["min_waypoints"].cast<std::size_t>();
+    entry.keeps_clear = given["keeps_clear"].cast<bool>();
+    entry.goes_backwards = given["goes_backwards"].cast<bool>();
+    entry.is_random = given["is_random"].cast<bool>();
+    RegisterPlanner(std::move(entry));
+  });
+}
+
+void BindPlannerRequest(py::module_& module) {
+  py::class_<VehicleParams>(module, "Vehicle")
+      .def_readonly("name", &VehicleParams::name)
+      .def_readonly("wheelbase", &VehicleParams::wheelbase)
+      .def_readonly("cg_to_rear", &VehicleParams::cg_to_rear)
+      .def_readonly("mass", &VehicleParams::mass)
+      .def_readonly("yaw_inertia", &VehicleParams::yaw_inertia)
+      .def_readonly("cornering_stiffness_front", &VehicleParams::cornering_stiffness_front)
+      .def_readonly("cornering_stiffness_rear", &VehicleParams::cornering_stiffness_rear)
+      .def_readonly("steering_limit", &VehicleParams::steering_limit)
+      .def_readonly("steering_rate", &VehicleParams::steering_rate)
+      .def_readonly("length", &VehicleParams::length)
+      .def_readonly("width", &VehicleParams::width)
+      .def_readonly("rear_overhang", &VehicleParams::rear_overhang)
+      .def_readonly("max_acceleration", &VehicleParams::max_acceleration)
+      .def_readonly("max_deceleration", &VehicleParams::max_deceleration)
+      .def_readonly("top_speed", &VehicleParams::top_speed)
+      .def_property_readonly("min_turning_radius", &VehicleParams::min_turning_radius);
+
+  py::class_<PlanRequest, std::shared_ptr<PlanRequest>>(module, "PlanRequest")
+      .def_readonly("vehicle", &PlanRequest::vehicle)
+      .def_property_readonly("waypoints", &WaypointsOf)
+      .def_readonly("headings", &PlanRequest::headings)
+      .def_property_readonly("obstacles", &ObstaclesOf)
+      .def_property_readonly("start",
+                             [](const PlanRequest& request) {
+                               const Pose2& pose = request.start;
+                               return py::make_tuple(pose.x, pose.y, pose.yaw);
+                             })
+      .def_readonly("start_speed", &PlanRequest::start_speed)
+      .def_readonly("start_steering", &PlanRequest::start_steering)
+      .def_property_readonly("speed", [](const PlanRequest& r) { return r.speed.speed; })
+      .def_readonly("seed", &PlanRequest::seed)
+      .def_readonly("friction", &PlanRequest::friction)
+      .def_readonly("max_waypoint_miss", &PlanRequest::max_waypoint_miss)
+      .def("clearance", &ClearanceAt);
+}
+
+}  // namespace trackbed::python

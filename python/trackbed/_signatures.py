@@ -1,0 +1,198 @@
+"""Checks of the functions and classes that become plug-ins, and their registration."""
+
+from __future__ import annotations
+
+import inspect
+import numbers
+import re
+import sys
+import traceback
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Callable, Optional
+
+from . import _trackbed
+from ._arguments import number, text, type_name
+
+NAME = re.compile(r"[a-z][a-z0-9_]*")
+METRIC_NAME = re.compile(r"[a-z][a-z0-9_]*(\.[a-z][a-z0-9_]*)*")
+_registered: dict[tuple[str, str], dict[str, Any]] = {}
+
+
+class Key:
+    """Unit, range and description of a keyword parameter, which is a key in scenarios.
+
+    unit: such as "m/s". text: one line for users. min, max: allowed values, inclusive; above:
+    exclusive. allowed: the allowed texts.
+    """
+
+    def __init__(
+        self,
+        unit: str = "",
+        text: str = "",
+        *,
+        min: Optional[float] = None,
+        max: Optional[float] = None,
+        above: Optional[float] = None,
+        allowed: Sequence[str] = (),
+    ) -> None:
+        for name, value in (("unit", unit), ("text", text)):
+            if not isinstance(value, str):
+                raise TypeError(f"{name} must be a str, not {type_name(value)}")
+        self.unit, self.text = unit, text
+        self.min = None if min is None else number("min", min)
+        self.max = None if max is None else number("max", max)
+        self.above = None if above is None else number("above", above)
+        self.allowed = list(allowed)
+
+
+def print_traceback(exception: BaseException) -> None:
+    traceback.print_exception(type(exception), exception, exception.__traceback__, file=sys.stderr)
+    sys.stderr.flush()
+
+
+def _own_type(default: Any, annotation: Any, where: str) -> str:
+    hint = str(getattr(annotation, "__name__", annotation)).replace(" ", "")
+    if default is None or default is inspect.Parameter.empty:
+        kinds = {"float": "number", "int": "whole", "bool": "flag", "str": "text"}
+        if default is None and ("float" in hint or annotation is inspect.Parameter.empty):
+            return "optional"
+        if default is not None and hint in kinds:
+            return kinds[hint]
+        if default is not None and hint.lower().startswith(("list", "sequence", "tuple")):
+            return "numbers"
+        raise TypeError(f"{where} needs a default, or the annotation float, int, bool, str or list")
+    if isinstance(default, bool):
+        return "flag"
+    if isinstance(default, numbers.Integral) and hint != "float":
+        return "whole"
+    if isinstance(default, numbers.Real):
+        return "number"
+    if isinstance(default, str):
+        return "text"
+    if isinstance(default, (list, tuple)) and all(isinstance(v, numbers.Real) for v in default):
+        return "numbers"
+    raise TypeError(
+        f"{where} has the default {default!r}; must be a number, bool, str, list of numbers or None"
+    )
+
+
+def parameters_of(what: str, function: Callable[..., Any], leading: Sequence[str]) -> list[Any]:
+    """Returns the keyword parameters, after checking that `leading` are the positional ones."""
+    try:
+        parameters = list(inspect.signature(function).parameters.values())
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} must be a function or a class with a signature") from None
+    keywords = [p for p in parameters if p.kind is inspect.Parameter.KEYWORD_ONLY]
+    others = [p for p in parameters if p.kind is not inspect.Parameter.KEYWORD_ONLY]
+    if [p for p in others if p.kind not in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]:
+        raise TypeError(f"{what} must not have *args or **kwargs, because its keys must be known")
+    if len(others) != len(leading):
+        wanted = ", ".join((*leading, "*", "keys"))
+        found = ", ".join(p.name for p in others) or "none"
+        raise TypeError(
+            f"{what} must have the parameters ({wanted}); its positional parameters are: {found}"
+        )
+    return keywords
+
+
+def keys_of(what: str, parameters: Iterable[Any], given: Mapping[str, Key], section: str) -> list[Any]:
+    taken = _trackbed.keys_of_section(section)
+    result = []
+    names = [p.name for p in parameters]
+    for name in given:
+        if name not in names:
+            raise ValueError(f"keys[{name!r}] is no keyword parameter of {what}: {', '.join(names)}")
+    for parameter in parameters:
+        where = f"the parameter {parameter.name} of {what}"
+        if parameter.name in taken:
+            raise ValueError(f"{where} has the name of a key that every {section} section has")
+        key = given.get(parameter.name, Key())
+        if not isinstance(key, Key):
+            raise TypeError(f"keys[{parameter.name!r}] must be a trackbed.Key, not {type_name(key)}")
+        default = parameter.default
+        required = default is inspect.Parameter.empty
+        result.append(
+            {
+                "name": parameter.name,
+                "unit": key.unit,
+                "text": key.text or f"parameter of {what}",
+                "type": _own_type(default, parameter.annotation, where),
+                "required": required,
+                "default": None if required else default,
+                "min": key.min,
+                "max": key.max,
+                "above": key.above,
+                "allowed": key.allowed,
+            }
+        )
+    return result
+
+
+def register_plugin(
+    kind: str,
+    name: str,
+    function: Any,
+    adapter: Any,
+    keys: list[Any],
+    replace: bool,
+    register: Callable[[dict[str, Any]], None],
+    **properties: Any,
+) -> None:
+    place = f"{function.__module__}.{function.__qualname__}"
+    before = _registered.get((kind, name))
+    if before is not None and not replace:
+        raise ValueError(
+            f"{kind} {name!r} is already registered, by {before['place']}; give {place} another "
+            "name, or register it with replace=True"
+        )
+    if before is not None and before["properties"] != properties:
+        raise ValueError(
+            f"{kind} {name!r} is registered with {before['properties']}; replace=True cannot change "
+            f"them to {properties}"
+        )
+    summary = (inspect.getdoc(function) or "").strip().split("\n")[0].rstrip(".")
+    plugin = {
+        "kind": kind,
+        "name": name,
+        "summary": summary or f"{place}, written in Python",
+        "place": place,
+        "adapter": adapter,
+        "keys": keys,
+    }
+    try:
+        register({**plugin, **properties})
+    except _trackbed.PreconditionError as error:
+        raise ValueError(f"{kind} {name!r} ({place}): {error}") from None
+    _registered[(kind, name)] = {"place": place, "properties": properties}
+
+
+def name_of(kind: str, name: object, pattern: re.Pattern[str] = NAME) -> str:
+    if callable(name):
+        raise TypeError(f"{kind} needs a name: @trackbed.{kind}(\"name\")")
+    if not pattern.fullmatch(text("name", name)):
+        raise ValueError(f"name is {name!r}; must be of a-z, 0-9 and '_', and begin with a letter")
+    return str(name)
+
+
+def returned(what: str, value: object, meaning: str) -> float:
+    try:
+        return number(f"{what} returned {meaning}, which", value)
+    except ValueError:
+        raise ValueError(f"{what} returned {meaning} {value}; must be finite") from None
+
+
+def require_method(what: str, own: type, name: str, parameters: Sequence[str]) -> int:
+    """Checks that a class has a method, and returns the number of its positional parameters."""
+    method = getattr(own, name, None)
+    wanted = f"{name}({', '.join(('self', *parameters))})"
+    if not callable(method):
+        raise TypeError(f"{what} must be a class with the method {wanted}")
+    found = [
+        p
+        for p in inspect.signature(method).parameters.values()
+        if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)
+    ]
+    needed = [p for p in found if p.default is inspect.Parameter.empty]
+    if not len(needed) <= len(parameters) + 1 <= len(found):
+        raise TypeError(f"{what}: {name} must have the parameters of {wanted}")
+    return len(found) - 1
