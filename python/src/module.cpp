@@ -23,5 +23,6 @@ PYBIND11_MODULE(_trackbed, module) {
   BindPictures(module);
   BindLoops(module);
   BindPlugins(module);
+  BindSweeps(module);
   BindProgram(module);
 }

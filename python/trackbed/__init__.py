@@ -39,6 +39,7 @@ from ._plugins import (
     plant,
 )
 from ._runs import Comparison, Log, Path, Run, film, frame, run
+from ._sweeps import Sweep, sweep
 
 __all__ = [
     "Comparison",
@@ -59,6 +60,7 @@ __all__ = [
     "PreconditionError",
     "Run",
     "RunError",
+    "Sweep",
     "VectorLoop",
     "Vehicle",
     "__version__",
@@ -77,5 +79,6 @@ __all__ = [
     "run",
     "satisfies",
     "stays_within",
+    "sweep",
     "tracks_within",
 ]

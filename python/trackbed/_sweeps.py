@@ -1,0 +1,201 @@
+"""Studies: one scenario with many values of some keys, in one table."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import sys
+import time
+import weakref
+from collections.abc import Iterator, Mapping
+from typing import Any, Optional, Union
+
+import numpy
+
+from . import _trackbed
+from ._arguments import Overrides, Scenario, overrides, type_name, whole
+from ._runs import _pandas
+
+
+class Sweep(Mapping[str, numpy.ndarray]):
+    """The table of a study: a column for each key that varies, then `status` and the outputs.
+
+    sweep["status"] is an array of text, one for each finished row in the order of the study; columns
+    of numbers are arrays of float64, with NaN where a run has no value. While the study runs, the
+    table grows with every finished row.
+    """
+
+    def __init__(self, job: _trackbed.SweepJob) -> None:
+        self._job = job
+
+    @property
+    def name(self) -> str:
+        """Name of the study."""
+        return self._job.name
+
+    @property
+    def columns(self) -> list[str]:
+        return self._job.columns
+
+    @property
+    def rows(self) -> int:
+        """Number of finished rows."""
+        return self._job.count
+
+    @property
+    def rows_expected(self) -> int:
+        """Number of rows of the complete study."""
+        return self._job.rows_expected
+
+    @property
+    def complete(self) -> bool:
+        return self.rows == self.rows_expected
+
+    @property
+    def numbers(self) -> list[int]:
+        """Numbers of the finished rows, from 0."""
+        return list(self._job.rows)
+
+    @property
+    def exceptions(self) -> dict[int, BaseException]:
+        """Exceptions of plug-ins, with their tracebacks, by the numbers of the rows."""
+        return self._job.causes
+
+    def __getitem__(self, name: str) -> numpy.ndarray:
+        if name not in self.columns:
+            raise KeyError(f"no column {name!r}; the columns are {', '.join(self.columns)}")
+        column = self.columns.index(name)
+        return _column([cells[column] for cells in self._job.rows.values()])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+    def __len__(self) -> int:
+        return len(self.columns)
+
+    def wait(self, seconds: Optional[float] = None) -> bool:
+        """Waits until the study has finished, or for some seconds; returns whether it has."""
+        end = None if seconds is None else time.monotonic() + seconds
+        while not self._job.wait(0.1):
+            if end is not None and time.monotonic() >= end:
+                return False
+        return True
+
+    def stop(self) -> None:
+        """Ends the study after the runs' present control period. The finished rows remain."""
+        self._job.stop()
+        self.wait()
+
+    def to_pandas(self) -> Any:
+        """Returns a pandas.DataFrame of the finished rows. Needs pandas."""
+        rows = self._job.rows
+        columns = list(zip(*rows.values())) or [()] * len(self.columns)
+        data = {name: _column(list(cells)) for name, cells in zip(self.columns, columns)}
+        return _pandas().DataFrame(data, index=list(rows))
+
+    def _repr_html_(self) -> Optional[str]:
+        try:
+            return self.to_pandas()._repr_html_()
+        except ImportError:
+            return None
+
+    def __repr__(self) -> str:
+        return f"<Sweep {self.name}: {self.rows} of {self.rows_expected} rows>"
+
+
+def _column(cells: list[str]) -> numpy.ndarray:
+    try:
+        return numpy.array([float(cell) if cell else numpy.nan for cell in cells])
+    except ValueError:
+        return numpy.array(cells, dtype=object)
+
+
+class _Bar:
+    """A progress bar on a terminal; elsewhere, one line at the end."""
+
+    def __init__(self, sweep: Sweep, shown: bool) -> None:
+        self._sweep = sweep
+        self._shown = shown and sys.stderr.isatty()
+        self._start, self._before = time.monotonic(), sweep.rows
+
+    def show(self) -> None:
+        if not self._shown:
+            return
+        done, rows = self._sweep.rows, self._sweep.rows_expected
+        width = 30
+        filled = width * done // max(rows, 1)
+        left = ""
+        if done > self._before and done < rows:
+            per_row = (time.monotonic() - self._start) / (done - self._before)
+            left = f", {per_row * (rows - done):.0f} s left"
+        bar = "#" * filled + "." * (width - filled)
+        sys.stderr.write(f"\r\x1b[K{self._sweep.name} [{bar}] {done}/{rows}{left}")
+        sys.stderr.flush()
+
+    def end(self) -> None:
+        if self._shown:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()
+
+
+_running: weakref.WeakSet[_trackbed.SweepJob] = weakref.WeakSet()
+
+
+@atexit.register
+def _stop_all() -> None:
+    for job in list(_running):
+        job.stop()
+        for _ in range(50):
+            if job.wait(0.1):
+                break
+
+
+def sweep(
+    study: Scenario,
+    out: Union[str, os.PathLike[str], None] = None,
+    set: Overrides = None,
+    *,
+    jobs: Optional[int] = None,
+    restart: bool = False,
+    progress: bool = True,
+    wait: bool = True,
+) -> Sweep:
+    """Runs a study as `trackbed sweep` does, and returns its table.
+
+    study: a YAML file, or the name of a study that comes with the package.
+    out: folder for sweep.csv, sweep.json and the finished rows; a study that was interrupted goes on
+        there. By default, nothing is written. Run folders (`keep`) are not written.
+    set: keys of the scenario and their values, in all runs.
+    jobs: number of runs at the same time, by default one for each processor.
+    restart: whether rows that are already in `out` are run again.
+    progress: whether a terminal shows a progress bar.
+    wait: if false, returns at once; the table grows while the study runs.
+
+    Ctrl-C ends the study and returns the table of the finished rows (Sweep.complete). A row whose
+    plug-in raises an exception has the status "error" (Sweep.exceptions).
+    """
+    if not isinstance(study, (str, os.PathLike)):
+        raise TypeError(f"study must be a str or a path, not {type_name(study)}")
+    if out is not None and not isinstance(out, (str, os.PathLike)):
+        raise TypeError(f"out must be a str or a path, not {type_name(out)}")
+    count = len(os.sched_getaffinity(0)) if jobs is None else whole("jobs", jobs, 1)
+    folder = None if out is None else os.fspath(out)
+    job = _trackbed.sweep(os.fspath(study), overrides(set), folder, bool(restart))
+    result = Sweep(job)
+    _running.add(job)
+    job.start(count)
+    if not wait:
+        return result
+    bar = _Bar(result, progress)
+    try:
+        while not job.wait(0.1):
+            bar.show()
+    except KeyboardInterrupt:
+        job.stop()
+        while not job.wait(0.1):  # A second Ctrl-C leaves the loop.
+            pass
+        bar.end()
+        sys.stderr.write(f"{result.name}: interrupted after {result.rows} rows\n")
+    finally:
+        bar.end()
+    return result
