@@ -163,6 +163,18 @@ char FindDelimiter(const std::filesystem::path& file) {
 
 }  // namespace
 
+namespace {
+
+/// Explains an error of libcsv.
+std::string ParserError(csv_parser& parser) {
+  return csv_error(&parser) == CSV_EPARSE ? "a quote within a cell, as in 48\xC2\xB0"
+                                            "07'30\"; write decimal numbers, or put the whole "
+                                            "cell in quotes and double the quotes in it"
+                                          : csv_strerror(csv_error(&parser));
+}
+
+}  // namespace
+
 void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, ProblemList& problems,
                  const TakeCsvRow& take) {
   RowReader reader{.file = file, .max_cells = limits.max_cells, .problems = problems, .take = take};
@@ -182,7 +194,7 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
   // stopped, and buffers a cell until the cell ends.
   const auto parse = [&](std::string_view part) {
     if (csv_parse(&parser, part.data(), part.size(), cell, row, &reader) != part.size()) {
-      reader.Stop(csv_strerror(csv_error(&parser)));
+      reader.Stop(ParserError(parser));
     } else if (parser.entry_pos > kMaxCellLength) {
       reader.Stop(fmt::format("a cell of more than {} characters", kMaxCellLength));
     }
@@ -198,7 +210,7 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
   ReadBlocks(file, take_block, limits.max_bytes);
   comments.Finish();
   if (!reader.stopped && csv_fini(&parser, cell, row, &reader) != 0) {
-    reader.Stop(csv_strerror(csv_error(&parser)));
+    reader.Stop(ParserError(parser));
   }
   if (!reader.any_row && problems.empty()) {
     reader.Stop("empty file; expected a header line of column names");

@@ -13,6 +13,8 @@
 #include "trackbed/core/csv_rows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/core/text_table.h"
+#include "trackbed/core/timestamp.h"
 
 namespace trackbed {
 namespace {
@@ -23,6 +25,7 @@ struct Selection {
   std::vector<std::string> needed{};    // Columns that the table must have, if `all` is false.
   std::vector<std::string> optional{};  // Columns that the table may have, if `all` is false.
   bool finite = false;                  // Whether infinite and NaN cells are errors.
+  std::string timestamps{};             // Column whose cells may be timestamps.
   bool empty = false;                   // Whether cells may be empty; an empty cell is read as NaN.
 
   [[nodiscard]] bool Takes(const std::string& column) const {
@@ -30,6 +33,19 @@ struct Selection {
            std::find(optional.begin(), optional.end(), column) != optional.end();
   }
 };
+
+/// Explains why a cell is not a number.
+std::string NotANumber(const std::string& cell) {
+  std::string pointed = cell;
+  const std::size_t comma = pointed.find(',');
+  if (comma != std::string::npos) {
+    pointed[comma] = '.';
+    if (CellNumber(pointed)) {
+      return fmt::format("'{}' has a decimal comma; write {}", cell, pointed);
+    }
+  }
+  return fmt::format("'{}' is not a number", cell);
+}
 
 /// Converts rows of text to a table of numbers.
 struct Reader {
@@ -114,8 +130,17 @@ struct Reader {
       }
       double value = 0.0;
       const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-      if (error != std::errc{} || end != cell.data() + cell.size()) {
-        AddCellError(i, fmt::format("'{}' is not a number", cell));
+      const bool is_number = error == std::errc{} && end == cell.data() + cell.size();
+      if (!is_number && !selection.timestamps.empty() && header[i] == selection.timestamps) {
+        const std::optional<double> time = TimestampSeconds(cell);
+        value = time.value_or(0.0);
+        if (!time) {
+          AddCellError(i, fmt::format("'{}' is neither a number nor a timestamp such as "
+                                      "2024-05-01T12:30:00Z",
+                                      cell));
+        }
+      } else if (!is_number) {
+        AddCellError(i, NotANumber(cell));
       } else if (selection.finite && !std::isfinite(value)) {
         AddCellError(i, fmt::format("'{}' is not a finite number", cell));
       }
@@ -232,9 +257,19 @@ CsvExcerpt ReadCsvExcerpt(const std::filesystem::path& file, std::vector<std::st
 void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::string>& columns,
                     char delimiter,
                     const std::function<void(const std::vector<double>&, int)>& take) {
+  ReadCsvColumns(file, columns, delimiter, "", take);
+}
+
+void ReadCsvColumns(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                    char delimiter, const std::string& timestamps,
+                    const std::function<void(const std::vector<double>&, int)>& take) {
   TRACKBED_CHECK(!columns.empty(), "numbers need columns");
   Reader reader{.file = file.string(),
-                .selection = {.all = false, .needed = columns, .optional = {}, .empty = true}};
+                .selection = {.all = false,
+                              .needed = columns,
+                              .optional = {},
+                              .timestamps = timestamps,
+                              .empty = true}};
   std::vector<double> ordered(columns.size());
   // For each requested column, its index among the columns that were read.
   std::vector<std::size_t> place;
@@ -263,6 +298,19 @@ void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::st
     reader.AddError("", "no rows after the comments");
   }
   reader.problems.ThrowIfAny();
+}
+
+std::vector<std::string> ReadCsvNames(const std::filesystem::path& file, std::size_t& rows) {
+  std::vector<std::string> found;
+  ProblemList problems;
+  rows = 0;
+  constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
+  ReadCsvTable(
+      file, {.max_cells = kAny, .max_bytes = kAny, .delimiter = kFindDelimiter}, problems,
+      [&](std::vector<std::string>& names, int) { found = std::move(names); },
+      [&](std::vector<std::string>&, int) { ++rows; });
+  problems.ThrowIfAny();
+  return found;
 }
 
 }  // namespace trackbed
