@@ -45,3 +45,22 @@ if(NOT TARGET csv::csv)
   set_target_properties(csv::csv PROPERTIES IMPORTED_LOCATION ${CSV_LIBRARY}
                                             INTERFACE_INCLUDE_DIRECTORIES ${CSV_INCLUDE_DIR})
 endif()
+
+# Libraries that read bags of ROS 2. The CMake package of zstd and the pkg-config file of lz4 are not
+# used, because not every Debian release has them.
+find_package(fastcdr REQUIRED)
+find_package(SQLite3 3.40 REQUIRED)
+if(NOT TARGET lz4::lz4)
+  find_path(LZ4_INCLUDE_DIR lz4frame.h REQUIRED)
+  find_library(LZ4_LIBRARY lz4 REQUIRED)
+  add_library(lz4::lz4 UNKNOWN IMPORTED)
+  set_target_properties(lz4::lz4 PROPERTIES IMPORTED_LOCATION ${LZ4_LIBRARY}
+                                            INTERFACE_INCLUDE_DIRECTORIES ${LZ4_INCLUDE_DIR})
+endif()
+if(NOT TARGET zstd::zstd)
+  find_path(ZSTD_INCLUDE_DIR zstd.h REQUIRED)
+  find_library(ZSTD_LIBRARY zstd REQUIRED)
+  add_library(zstd::zstd UNKNOWN IMPORTED)
+  set_target_properties(zstd::zstd PROPERTIES IMPORTED_LOCATION ${ZSTD_LIBRARY}
+                                              INTERFACE_INCLUDE_DIRECTORIES ${ZSTD_INCLUDE_DIR})
+endif()

@@ -27,6 +27,10 @@ set(pkg_config_names
     Threads::Threads=-pthread
     OpenSSL::Crypto=libcrypto
     csv::csv=-lcsv
+    fastcdr=-lfastcdr
+    SQLite::SQLite3=sqlite3
+    lz4::lz4=liblz4
+    zstd::zstd=libzstd
     "mujoco::mujoco=${mujoco}")
 
 set(requires "")
