@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "src/path_files/csv_globe.h"
 #include "src/path_files/formats.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/csv_rows.h"
@@ -16,6 +17,7 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/table.h"
 #include "trackbed/core/text_table.h"
+#include "trackbed/core/timestamp.h"
 
 // Reads paths from CSV tables with a header line of column names (ReadCsvTable). The reader
 // identifies columns by their usual names (PathColumnNames) or by names that the caller specifies.
@@ -59,8 +61,8 @@ struct InvalidCells {
 
 class CsvPath {
  public:
-  CsvPath(const fs::path& file, const PathColumns& requested)
-      : file_(file), requested_(requested) {}
+  CsvPath(const fs::path& file, const PathMap& map)
+      : file_(file), requested_(map.columns), origin_(OriginOf(map)) {}
 
   PathFile Read() {
     const bool has_names = ReadCsvTable(
@@ -87,6 +89,9 @@ class CsvPath {
   /// Drops the columns of curvature, speed and time that have an invalid cell, and evaluates the
   /// times.
   void FinishOptionalColumns() {
+    if (is_globe_) {
+      ProjectCsv(found_, times_, origin_, file_);
+    }
     PathPoints& points = found_.points;
     const auto describe = [&](const InvalidCells& invalid) {
       return invalid.count > 1 ? fmt::format("{}, and {} more invalid cells in this column",
@@ -131,6 +136,11 @@ class CsvPath {
         columns_[kYaw]->factor != 1.0 || requested_.yaw_unit || boost::iends_with(name, "_rad");
     const HeadingReading reading =
         ReadHeadings(points, boost::iequals(name, "psi_rad"), is_unit_known);
+    if (!reading.problem.empty() && is_globe_ && !requested_.yaw) {
+      points.yaw.clear();
+      found_.notes.push_back(fmt::format("column {} is ignored: {}", name, reading.problem));
+      return;
+    }
     if (!reading.problem.empty()) {
       Refuse(file_, name, reading.problem);
     }
@@ -201,7 +211,8 @@ class CsvPath {
                     {"speed", &requested_.speed},
                     {"time", &requested_.time},
                     {"direction", &requested_.direction}}};
-    for (std::size_t i = 0; i < kQuantities; ++i) {
+    FindGlobe(line);
+    for (std::size_t i = is_globe_ ? kYaw : kX; i < kQuantities; ++i) {
       Find(static_cast<Quantity>(i), quantities[i].first, *quantities[i].second, line);
     }
     is_broken_ = is_broken_ || !columns_[kX] || !columns_[kY];
@@ -215,6 +226,31 @@ class CsvPath {
       }
     }
     found_.notes.push_back(fmt::format("CSV, columns {}", fmt::join(used, ", ")));
+  }
+
+  /// Finds columns of latitude and longitude, unless the file has columns of x and y.
+  void FindGlobe(int line) {
+    const bool has_plane = requested_.x || requested_.y || (HasUsual("x") && HasUsual("y"));
+    const CsvGlobe found = FindCsvGlobe(names_, requested_, has_plane);
+    for (const auto& [column, message] : found.problems) {
+      AddError(line, column, message);
+      is_broken_ = true;
+    }
+    if (found.latitude && found.longitude) {
+      // The limits are those of GlobeProblem, which explains positions that do not exist.
+      constexpr double kAny = 1e12;
+      columns_[kX] = Column{*found.longitude, found.longitude_unit, 0.0, kAny};
+      columns_[kY] = Column{*found.latitude, found.latitude_unit, 0.0, kAny};
+      is_globe_ = true;
+    }
+  }
+
+  [[nodiscard]] bool HasUsual(const char* quantity) const {
+    const std::vector<PathColumnName>& usual = PathColumnNames(quantity);
+    return std::any_of(names_.begin(), names_.end(), [&](const std::string& name) {
+      return std::any_of(usual.begin(), usual.end(),
+                         [&](const PathColumnName& own) { return boost::iequals(name, own.name); });
+    });
   }
 
   void Find(Quantity quantity, const char* name, const std::optional<std::string>& requested,
@@ -249,9 +285,12 @@ class CsvPath {
         is_broken_ = true;
       } else if (quantity == kX || quantity == kY) {
         AddError(line, name,
-                 fmt::format("no column for {}: none is called {}; the file has {}; name it by "
-                             "columns.{}",
-                             name, fmt::join(usual, ", "), fmt::join(names_, ", "), name));
+                 fmt::format("no column for {}: none is called {}; the file has {}; {}", name,
+                             fmt::join(usual, ", "), fmt::join(names_, ", "),
+                             std::any_of(names_.begin(), names_.end(), NamesGlobeAxis)
+                                 ? "name both columns in degrees by columns.latitude and "
+                                   "columns.longitude"
+                                 : fmt::format("name it by columns.{}", name)));
       }
       return;
     }
@@ -295,16 +334,24 @@ class CsvPath {
         continue;
       }
       const Column& column = *columns_[i];
-      const std::optional<double> number = CellNumber(cells[column.index]);
+      std::optional<double> number = CellNumber(cells[column.index]);
+      if (!number && i == kTime) {
+        number = TimestampSeconds(cells[column.index]);
+      }
       values[i] = number.value_or(0.0) * column.factor + column.offset;
       const auto quantity = static_cast<Quantity>(i);
       if (!number) {
-        TakeInvalidCell(quantity, line,
-                        fmt::format("'{}' is not a finite number", cells[column.index]));
+        TakeInvalidCell(quantity, line, NumberProblem(cells[column.index]));
       } else if (values[i] < -column.largest || values[i] > column.largest) {
         TakeInvalidCell(quantity, line,
                         fmt::format("{} is out of range; must be between {} and {} in SI units",
                                     *number, -column.largest, column.largest));
+      }
+    }
+    if (is_globe_) {
+      for (const auto& [column, message] :
+           CsvGlobeProblems({.latitude = values[kY], .longitude = values[kX]}, names_, cells)) {
+        AddError(line, column, message);
       }
     }
     PathPoints& points = found_.points;
@@ -340,6 +387,8 @@ class CsvPath {
 
   const fs::path& file_;
   const PathColumns& requested_;
+  std::optional<GlobePosition> origin_;
+  bool is_globe_ = false;  // whether kX and kY are longitudes and latitudes [deg]
   ProblemList problems_;
   bool is_broken_ = false;
   std::vector<std::string> names_;
@@ -353,37 +402,8 @@ class CsvPath {
 
 }  // namespace
 
-PathFile ReadPathCsv(const fs::path& file, const PathColumns& columns) {
-  return CsvPath(file, columns).Read();
-}
-
-std::string PathCsv(const PathPoints& points) {
-  std::vector<std::string> columns{"x_m", "y_m"};
-  std::vector<const std::vector<double>*> lists;
-  const auto add = [&](const char* name, const std::vector<double>& list) {
-    if (!list.empty()) {
-      columns.emplace_back(name);
-      lists.push_back(&list);
-    }
-  };
-  add("yaw_rad", points.yaw);
-  add("curvature_radpm", points.curvature);
-  add("speed_mps", points.speed);
-  if (!points.direction.empty()) {
-    columns.emplace_back("direction");
-  }
-  Table table(columns);
-  for (std::size_t i = 0; i < points.points.size(); ++i) {
-    std::vector<double> row{points.points[i].x(), points.points[i].y()};
-    for (const std::vector<double>* list : lists) {
-      row.push_back((*list)[i]);
-    }
-    if (!points.direction.empty()) {
-      row.push_back(points.direction[i]);
-    }
-    table.AddRow(row);
-  }
-  return table.ToCsv();
+PathFile ReadPathCsv(const fs::path& file, const PathMap& map) {
+  return CsvPath(file, map).Read();
 }
 
 }  // namespace trackbed

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trackbed/path_files/globe_file.h"
 #include "trackbed/path_files/path_file.h"
 
 namespace trackbed {
@@ -16,6 +17,8 @@ inline constexpr double kMaxPosition = 1e7;
 inline constexpr double kMaxPathSpeed = 100.0;    ///< Largest speed [m/s].
 inline constexpr double kMaxPathCurvature = 1e6;  ///< Largest curvature [1/m].
 inline constexpr int kMaxDepth = 64;              ///< Largest nesting depth.
+/// Largest size of a GPX, KML or GeoJSON file that is read as a recording [bytes].
+inline constexpr std::size_t kMaxGlobeBytes = std::size_t{64} << 20U;
 
 /// A format of path files.
 struct PathFormatEntry {
@@ -34,12 +37,25 @@ struct PathFormatEntry {
 /// format.
 const std::vector<PathFormatEntry>& PathFormats();
 
-PathFile ReadPathCsv(const std::filesystem::path& file, const PathColumns& columns);
+PathFile ReadPathCsv(const std::filesystem::path& file, const PathMap& map);
 /// Reads a ROS message nav_msgs/Path, or a message that contains a nav_msgs/Path as member `path`.
 PathFile ReadNavPath(const std::filesystem::path& file, const nlohmann::json& message);
 PathFile ReadGeoJson(const std::filesystem::path& file, const nlohmann::json& json,
                      const PathMap& map);
+/// Reads a path from a bag of ROS 2: a message nav_msgs/Path, or the positions of the messages of a
+/// topic.
+PathFile ReadPathBag(const std::filesystem::path& file, const PathMap& map);
+/// Reads GPX or KML.
+GlobeFile ReadGlobeXml(const std::filesystem::path& file, const std::string& text);
+GlobeFile ReadGeoJsonLines(const std::filesystem::path& file, const nlohmann::json& root);
+/// Returns the path along one line of the file: the only line, or the line PathMap::line.
+PathFile PathOfGlobeFile(const std::filesystem::path& file, GlobeFile lines, const PathMap& map);
+/// Returns the origin that the map specifies for the projection, if any.
+std::optional<GlobePosition> OriginOf(const PathMap& map);
 PathFile ReadCommonRoad(const std::filesystem::path& file, const std::string& text);
+
+/// Returns the ending of a file's name in lower case, such as ".gpx".
+std::string LowerEnding(const std::filesystem::path& file);
 
 /// Parses a JSON text. Throws InputError if the text is not valid JSON.
 nlohmann::json ParseJsonText(const std::string& text, const std::string& file);

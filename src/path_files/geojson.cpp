@@ -1,15 +1,15 @@
 #include <fmt/format.h>
-#include <proj.h>
 
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include "src/path_files/formats.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/timestamp.h"
 
-// Reads a path from GeoJSON (RFC 7946). The file must contain one line string, alone, in a feature
-// or in a collection of features.
+// Reads line strings from GeoJSON (RFC 7946): alone, in features or in collections of features.
+// Times are read from the members `coordTimes` or `coordinateProperties.times` of a feature, as
+// converters of GPX files write them.
 namespace trackbed {
 namespace {
 
@@ -17,8 +17,8 @@ using nlohmann::json;
 
 struct Found {
   const json* coordinates = nullptr;
+  const json* times = nullptr;  // one timestamp for each position, or null
   std::string key;
-  std::size_t lines = 0;
 };
 
 std::string TypeOf(const json& value) {
@@ -27,13 +27,31 @@ std::string TypeOf(const json& value) {
              : "";
 }
 
+/// Returns the list of times in the properties of a feature; null if there is none.
+const json* TimesOf(const json& feature) {
+  if (!feature.contains("properties") || !feature["properties"].is_object()) {
+    return nullptr;
+  }
+  const json& properties = feature["properties"];
+  if (properties.contains("coordTimes")) {
+    return &properties["coordTimes"];
+  }
+  if (properties.contains("coordinateProperties") &&
+      properties["coordinateProperties"].is_object() &&
+      properties["coordinateProperties"].contains("times")) {
+    return &properties["coordinateProperties"]["times"];
+  }
+  return nullptr;
+}
+
 /// Collects all line strings in features and geometry collections, and ignores other geometries.
-void FindLines(const json& value, const std::string& key, Found& found) {
+void FindLines(const json& value, const std::string& key, const json* times,
+               std::vector<Found>& found) {
   const std::string type = TypeOf(value);
   const auto inside = [&](const char* name) {
     if (value.contains(name) && value[name].is_array()) {
       for (std::size_t i = 0; i < value[name].size(); ++i) {
-        FindLines(value[name][i], fmt::format("{}{}[{}].", key, name, i), found);
+        FindLines(value[name][i], fmt::format("{}{}[{}].", key, name, i), times, found);
       }
     }
   };
@@ -42,17 +60,16 @@ void FindLines(const json& value, const std::string& key, Found& found) {
   } else if (type == "GeometryCollection") {
     inside("geometries");
   } else if (type == "Feature" && value.contains("geometry")) {
-    FindLines(value["geometry"], key + "geometry.", found);
+    FindLines(value["geometry"], key + "geometry.", TimesOf(value), found);
   } else if (type == "LineString" && value.contains("coordinates")) {
-    ++found.lines;
-    found.coordinates = &value["coordinates"];
-    found.key = key + "coordinates";
+    found.push_back({&value["coordinates"], times, key + "coordinates"});
   } else if (type == "MultiLineString" && value.contains("coordinates") &&
              value["coordinates"].is_array()) {
-    for (std::size_t i = 0; i < value["coordinates"].size(); ++i) {
-      ++found.lines;
-      found.coordinates = &value["coordinates"][i];
-      found.key = fmt::format("{}coordinates[{}]", key, i);
+    const json& lines = value["coordinates"];
+    const bool has_times = times != nullptr && times->is_array() && times->size() == lines.size();
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      found.push_back({&lines[i], has_times ? &(*times)[i] : nullptr,
+                       fmt::format("{}coordinates[{}]", key, i)});
     }
   }
 }
@@ -72,105 +89,113 @@ bool IsWgs84(const std::string& system) {
   return system.find("CRS84") != std::string::npos || system.ends_with("4326");
 }
 
-/// Converts longitude and latitude to meters by a transverse Mercator projection centered at an
-/// origin.
-class Projection84 {
- public:
-  Projection84(double longitude, double latitude)
-      : context_(proj_context_create(), proj_context_destroy), projection_(nullptr, proj_destroy) {
-    const std::string definition =
-        fmt::format("+proj=tmerc +lat_0={:.12f} +lon_0={:.12f} +k=1 +ellps=WGS84 +units=m",
-                    latitude, longitude);
-    projection_.reset(proj_create(context_.get(), definition.c_str()));
-    TRACKBED_CHECK(projection_ != nullptr, "PROJ does not know {}", definition);
-  }
-
-  [[nodiscard]] Vec2 ToMeters(double longitude, double latitude) const {
-    const PJ_COORD at = proj_trans(projection_.get(), PJ_FWD,
-                                   proj_coord(proj_torad(longitude), proj_torad(latitude), 0, 0));
-    return {at.xy.x, at.xy.y};
-  }
-
- private:
-  std::unique_ptr<PJ_CONTEXT, PJ_CONTEXT* (*)(PJ_CONTEXT*)> context_;
-  std::unique_ptr<PJ, PJ* (*)(PJ*)> projection_;
-};
-
-/// Returns the first two numbers of each position; ignores the third number, the height.
-std::vector<Vec2> Positions(const Found& found, const std::string& file, double largest) {
+/// Returns the first two numbers of each position, and the third number, the height, if any.
+std::vector<std::pair<Vec2, std::optional<double>>> Positions(const Found& found,
+                                                              const std::string& file) {
   const json& list = *found.coordinates;
   if (!list.is_array()) {
     Refuse(file, found.key, "must be a list of positions");
   }
-  std::vector<Vec2> positions;
+  std::vector<std::pair<Vec2, std::optional<double>>> positions;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string key = fmt::format("{}[{}]", found.key, i);
     if (!list[i].is_array() || list[i].size() < 2 || list[i].size() > 4) {
       Refuse(file, key, "must be a position of two or three numbers");
     }
-    positions.emplace_back(NumberOf(list[i][0], key + "[0]", largest, file),
-                           NumberOf(list[i][1], key + "[1]", largest, file));
+    const Vec2 position(NumberOf(list[i][0], key + "[0]", kMaxPosition, file),
+                        NumberOf(list[i][1], key + "[1]", kMaxPosition, file));
+    positions.emplace_back(position, list[i].size() > 2 && list[i][2].is_number()
+                                         ? std::optional(list[i][2].get<double>())
+                                         : std::nullopt);
   }
   return positions;
 }
 
-void Project(std::vector<Vec2>& positions, const Found& line, const PathMap& map,
-             const std::string& file) {
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Vec2& degrees = positions[i];
-    if (std::abs(degrees.x()) > 180.0 || std::abs(degrees.y()) > 89.0) {
-      Refuse(file, fmt::format("{}[{}]", line.key, i),
-             fmt::format("({}, {}) are no longitude and latitude in degrees; if these are meters, "
-                         "say coordinates: meters",
-                         degrees.x(), degrees.y()));
+std::optional<double> TimeOf(const json* times, std::size_t i) {
+  return times != nullptr && times->is_array() && i < times->size() && (*times)[i].is_string()
+             ? TimestampSeconds((*times)[i].get_ref<const std::string&>())
+             : std::nullopt;
+}
+
+GlobeLine LineOf(const Found& found, const std::string& file) {
+  GlobeLine line{.name = found.key, .track = 0, .points = {}};
+  for (const auto& [position, height] : Positions(found, file)) {
+    const GlobePosition at{.latitude = position.y(), .longitude = position.x()};
+    if (const std::string problem = GlobeProblem(at); !problem.empty()) {
+      Refuse(file, fmt::format("{}[{}]", found.key, line.points.size()),
+             problem +
+                 "; GeoJSON has the longitude first; if these are meters, say coordinates: "
+                 "meters");
     }
+    const std::optional<double> time = TimeOf(found.times, line.points.size());
+    line.points.push_back({.position = at, .time = time, .height = height});
   }
-  const double latitude = map.origin_latitude.value_or(positions.front().y());
-  const double longitude = map.origin_longitude.value_or(positions.front().x());
-  const Projection84 projection(longitude, latitude);
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Vec2 degrees = positions[i];
-    positions[i] = projection.ToMeters(degrees.x(), degrees.y());
-    // Largest distance of a path point east or west of the origin [m]. At this distance, the scale
-    // error of the projection is about 1/1000 (scale at 300 km: 1.0011).
-    constexpr double kMaxEasting = 3e5;
-    if (!positions[i].allFinite() || std::abs(positions[i].x()) > kMaxEasting ||
-        std::abs(positions[i].y()) > kMaxPosition) {
-      Refuse(file, fmt::format("{}[{}]", line.key, i),
-             fmt::format("({}, {}) is too far from the origin of the projection, ({}, {})",
-                         degrees.x(), degrees.y(), longitude, latitude));
-    }
-  }
+  return line;
+}
+
+std::vector<Found> LinesOf(const json& root) {
+  std::vector<Found> lines;
+  FindLines(root, "", nullptr, lines);
+  return lines;
 }
 
 }  // namespace
 
+GlobeFile ReadGeoJsonLines(const std::filesystem::path& file, const json& root) {
+  GlobeFile found{.format = "GeoJSON", .lines = {}};
+  const std::optional<std::string> system = NamedSystem(root);
+  if (system && !IsWgs84(*system)) {
+    Refuse(file, "crs",
+           fmt::format("{} is not WGS 84; convert the file (ogr2ogr -t_srs EPSG:4326)", *system));
+  }
+  for (const Found& line : LinesOf(root)) {
+    found.lines.push_back(LineOf(line, file.string()));
+    found.lines.back().track = found.lines.size();
+    if (found.lines.back().points.empty()) {
+      found.lines.pop_back();
+    }
+  }
+  return found;
+}
+
 PathFile ReadGeoJson(const std::filesystem::path& path, const json& root, const PathMap& map) {
   const std::string file = path.string();
-  Found line;
-  FindLines(root, "", line);
-  if (line.lines != 1) {
-    Refuse(file, "", fmt::format("{} line strings; must be one", line.lines));
-  }
+  const std::vector<Found> lines = LinesOf(root);
   const std::optional<std::string> system = NamedSystem(root);
   const bool in_degrees =
       map.coordinates == PathCoordinates::kWgs84 ||
       (map.coordinates == PathCoordinates::kAuto && (!system || IsWgs84(*system)));
-  PathFile found;
-  found.points.points = Positions(line, file, kMaxPosition);
-  if (found.points.points.empty()) {
-    Refuse(file, line.key, "has no positions");
+  const std::size_t wanted = map.line == 0 ? 1 : static_cast<std::size_t>(map.line);
+  if (lines.empty() ||
+      (!in_degrees && (wanted > lines.size() || (map.line == 0 && lines.size() > 1)))) {
+    Refuse(file, "",
+           fmt::format("{} line strings; must be one{}", lines.size(),
+                       lines.size() > 1
+                           ? fmt::format(", or select one by line: 1 to line: {}", lines.size())
+                           : std::string()));
   }
   if (in_degrees) {
-    const Vec2 first = found.points.points.front();
-    Project(found.points.points, line, map, file);
-    found.notes.push_back(fmt::format(
-        "GeoJSON, WGS 84 by transverse Mercator about latitude {:.7g}, longitude {:.7g}, x east, y "
-        "north",
-        map.origin_latitude.value_or(first.y()), map.origin_longitude.value_or(first.x())));
-  } else {
-    found.notes.push_back("GeoJSON, meters" + (system ? " of " + *system : std::string()));
+    GlobeFile found{.format = "GeoJSON", .lines = {}};
+    for (const Found& line : lines) {
+      found.lines.push_back(LineOf(line, file));
+      found.lines.back().track = found.lines.size();
+      if (found.lines.back().points.empty()) {
+        found.lines.pop_back();
+      }
+    }
+    if (found.lines.empty()) {
+      Refuse(file, lines.front().key, "has no positions");
+    }
+    return PathOfGlobeFile(path, std::move(found), map);
   }
+  PathFile found;
+  for (const auto& [position, height] : Positions(lines[wanted - 1], file)) {
+    found.points.points.push_back(position);
+  }
+  if (found.points.points.empty()) {
+    Refuse(file, lines[wanted - 1].key, "has no positions");
+  }
+  found.notes.push_back("GeoJSON, meters" + (system ? " of " + *system : std::string()));
   return found;
 }
 

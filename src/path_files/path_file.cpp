@@ -18,13 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxTextBytes = std::size_t{16} << 20U;
 
-std::string Ending(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 /// Returns whether a .json file contains GeoJSON instead of a nav_msgs/Path.
 bool HoldsGeoJson(const fs::path& file) {
   const nlohmann::json value = ParseJsonText(ReadFile(file, kMaxTextBytes), file.string());
@@ -32,20 +25,30 @@ bool HoldsGeoJson(const fs::path& file) {
 }
 
 bool MayBeNavPath(const fs::path& file) {
-  return Ending(file) != ".json" || !HoldsGeoJson(file);
+  return LowerEnding(file) != ".json" || !HoldsGeoJson(file);
 }
 
 PathFile ReadAsNavPath(const fs::path& file, const PathMap& /*map*/) {
   const std::string text = ReadFile(file, kMaxTextBytes);
-  const bool is_json = Ending(file) == ".json";
+  const bool is_json = LowerEnding(file) == ".json";
   return ReadNavPath(
       file, is_json ? ParseJsonText(text, file.string()) : ParseYamlText(text, file.string()));
+}
+
+PathFile ReadAsGlobeXml(const fs::path& file, const PathMap& map) {
+  GlobeFile lines = ReadGlobeXml(file, ReadFile(file, kMaxTextBytes));
+  if (lines.lines.empty()) {
+    Refuse(file, "",
+           fmt::format("has no line: no {}", lines.format == "GPX" ? "trk with trkpt, no rte"
+                                                                   : "LineString, no gx:Track"));
+  }
+  return PathOfGlobeFile(file, std::move(lines), map);
 }
 
 /// Determines the format of a path file from the ending of its name and from its content. Returns
 /// the first registered format if no format has this file name ending.
 const PathFormatEntry& FormatOf(const fs::path& file) {
-  const std::string ending = Ending(file);
+  const std::string ending = LowerEnding(file);
   for (const PathFormatEntry& entry : PathFormats()) {
     const bool has_ending =
         std::find(entry.endings.begin(), entry.endings.end(), ending) != entry.endings.end();
@@ -70,13 +73,16 @@ PathFile Read(const fs::path& file, const PathMap& map) {
 
 }  // namespace
 
+std::string LowerEnding(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
 const std::vector<PathFormatEntry>& PathFormats() {
   static const std::vector<PathFormatEntry> formats{
-      {.format = PathFormat::kCsv,
-       .name = "csv",
-       .description = "CSV",
-       .read = [](const fs::path& file,
-                  const PathMap& map) { return ReadPathCsv(file, map.columns); }},
+      {.format = PathFormat::kCsv, .name = "csv", .description = "CSV", .read = ReadPathCsv},
       {.format = PathFormat::kNavPath,
        .name = "nav_path",
        .description = "nav_msgs/Path (YAML, JSON)",
@@ -100,6 +106,21 @@ const std::vector<PathFormatEntry>& PathFormats() {
              return ReadGeoJson(file, ParseJsonText(ReadFile(file, kMaxTextBytes), file.string()),
                                 map);
            }},
+      {.format = PathFormat::kGpx,
+       .name = "gpx",
+       .description = "GPX",
+       .endings = {".gpx"},
+       .read = ReadAsGlobeXml},
+      {.format = PathFormat::kKml,
+       .name = "kml",
+       .description = "KML",
+       .endings = {".kml", ".kmz"},
+       .read = ReadAsGlobeXml},
+      {.format = PathFormat::kBag,
+       .name = "rosbag2",
+       .description = "rosbag2",
+       .endings = {".mcap", ".db3", ".zstd"},
+       .read = ReadPathBag},
   };
   return formats;
 }

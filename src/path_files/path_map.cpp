@@ -1,11 +1,15 @@
 #include "trackbed/path_files/path_map.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "src/path_files/formats.h"
 #include "trackbed/core/error.h"
+#include "trackbed/path_files/globe.h"
 
 namespace trackbed {
 
@@ -17,6 +21,53 @@ EnumNames<PathFormat> FormatNames() {
     names.emplace_back(entry.format, entry.name);
   }
   return names;
+}
+
+using Problems = std::vector<std::pair<std::string, std::string>>;
+
+/// Refuses to read degrees as meters, and latitudes as longitudes.
+void CheckGlobeColumns(const PathColumns& columns, Problems& problems) {
+  if (columns.latitude.has_value() != columns.longitude.has_value()) {
+    problems.emplace_back(columns.latitude ? "columns.longitude" : "columns.latitude",
+                          "missing; give the columns of latitude and longitude or none");
+  }
+  if (columns.latitude && (columns.x || columns.y)) {
+    problems.emplace_back(columns.x ? "columns.x" : "columns.y",
+                          "not allowed with columns.latitude and columns.longitude");
+  }
+  const auto is_angle = [](const std::string& unit) { return unit == "deg" || unit == "rad"; };
+  for (const auto& [key, name] :
+       {std::pair("columns.x", &columns.x), std::pair("columns.y", &columns.y)}) {
+    if (!*name) {
+      continue;
+    }
+    if (NamesGlobeAxis(**name) || (columns.position_unit && is_angle(*columns.position_unit))) {
+      problems.emplace_back(
+          key,
+          fmt::format("'{}' is in degrees, which are not meters: name it by columns.latitude "
+                      "or columns.longitude{}",
+                      **name,
+                      NamesGlobeAxis(**name)
+                          ? fmt::format("; if it is in meters, rename the column to {}_m", **name)
+                          : ""));
+    }
+  }
+  if (columns.latitude && columns.position_unit && !is_angle(*columns.position_unit)) {
+    problems.emplace_back(
+        "columns.position_unit",
+        "'" + *columns.position_unit + "' is no unit of latitude and longitude; allowed: deg, rad");
+  }
+  for (const auto& [key, name, axis] :
+       {std::tuple("columns.latitude", &columns.latitude, GlobeAxis::kLatitude),
+        std::tuple("columns.longitude", &columns.longitude, GlobeAxis::kLongitude)}) {
+    const std::optional<GlobeColumn> meaning = *name ? GlobeColumnOf(**name) : std::nullopt;
+    if (meaning && meaning->axis != axis) {
+      problems.emplace_back(
+          key, fmt::format("'{}' is the other coordinate by its name: swap columns.latitude and "
+                           "columns.longitude",
+                           **name));
+    }
+  }
 }
 
 }  // namespace
@@ -34,6 +85,13 @@ std::string PathFormatList() {
 void Visit(KeyVisitor& keys, PathColumns& columns) {
   keys.Field({"x", "", "column of the position; default: x_m, x or another usual name"}, columns.x);
   keys.Field({"y", "", "column of the position; default: y_m, y or another usual name"}, columns.y);
+  keys.Field({"latitude", "",
+              "column of the latitude (WGS 84); default: latitude, lat or the like, without x and "
+              "y"},
+             columns.latitude);
+  keys.Field({"longitude", "",
+              "column of the longitude (WGS 84); default: longitude, lon, lng or the like"},
+             columns.longitude);
   keys.Field({"yaw", "",
               "column of the car's heading; default: yaw_rad, psi_rad, heading, ... if "
               "present"},
@@ -55,8 +113,11 @@ void Visit(KeyVisitor& keys, PathColumns& columns) {
        "column of the direction of motion or the gear, such as 1 and -1, D and R, or forward "
        "and reverse; default: direction, gear, ... if present"},
       columns.direction);
-  keys.Field({"position_unit", "", "m, cm, mm or km; default: that in the column's name, or m"},
-             columns.position_unit);
+  keys.Field(
+      {"position_unit", "",
+       "m, cm, mm or km, deg or rad of latitude and longitude; default: that in the column's "
+       "name, or m or deg"},
+      columns.position_unit);
   keys.Field({"yaw_unit", "", "rad or deg; default: that in the column's name, or rad"},
              columns.yaw_unit);
   keys.Field({"speed_unit", "", "m/s, km/h or mph; default: that in the column's name, or m/s"},
@@ -82,6 +143,13 @@ void Visit(KeyVisitor& keys, PathMap& map) {
   keys.Field(
       {"origin_longitude", "deg", "origin of the projection of WGS 84; default: the first point"},
       map.origin_longitude, Range{.min = -180.0, .max = 180.0});
+  keys.Field({"line", "",
+              "which line of GPX, KML or GeoJSON, counted from 1; 0: the only line of the file"},
+             map.line, Need::kOptional, Range{.min = 0, .max = 1e6});
+  keys.Field({"topic", "",
+              "topic of a bag; default: the only topic of nav_msgs/Path, whose first message is "
+              "read; other topics: the position of each message"},
+             map.topic);
 }
 
 std::vector<std::pair<std::string, std::string>> PathMapProblems(const PathMap& map) {
@@ -103,7 +171,8 @@ std::vector<std::pair<std::string, std::string>> PathMapProblems(const PathMap& 
                             "unknown unit '" + *unit + "'; allowed: " + list);
     }
   };
-  check("position_unit", map.columns.position_unit, {"m", "cm", "mm", "km"});
+  CheckGlobeColumns(map.columns, problems);
+  check("position_unit", map.columns.position_unit, {"m", "cm", "mm", "km", "deg", "rad"});
   check("yaw_unit", map.columns.yaw_unit, {"rad", "deg"});
   check("speed_unit", map.columns.speed_unit, {"m/s", "km/h", "mph"});
   return problems;

@@ -7,7 +7,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace trackbed;
   const std::filesystem::path file = fuzz::Write("path.txt", fuzz::Text(data, size));
   for (const PathFormat format :
-       {PathFormat::kCsv, PathFormat::kNavPath, PathFormat::kCommonRoad, PathFormat::kGeoJson}) {
+       {PathFormat::kCsv, PathFormat::kNavPath, PathFormat::kCommonRoad, PathFormat::kGeoJson,
+        PathFormat::kGpx, PathFormat::kKml, PathFormat::kBag}) {
     fuzz::Expect([&] {
       PathMap map;
       map.format = format;

@@ -61,7 +61,8 @@ TEST(PathFormats, AreThoseOfTheMapWhateverTheEnding) {
 }
 
 TEST(PathFormats, AreListedForUsers) {
-  EXPECT_EQ(PathFormatList(), "CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution or GeoJSON");
+  EXPECT_EQ(PathFormatList(),
+            "CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution, GeoJSON, GPX, KML or rosbag2");
 }
 
 }  // namespace

@@ -42,6 +42,10 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// the list is empty, except for CommonRoad solutions with orientations: their velocities are
 /// signed.
 ///
+/// Latitudes and longitudes are projected to meters (LocalPlane) about the first point or the
+/// origin of the map; a note states the origin and the scale error. Points without a fix are
+/// dropped, with a note (PositionsWithoutFix).
+///
 /// ReadPathFile does not fit a curve, and does not check whether a car can follow the path.
 ///
 /// Throws InputError, with file, line and column or key, for every other cell that is not a finite

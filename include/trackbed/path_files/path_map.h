@@ -18,10 +18,13 @@ enum class PathFormat {
   kNavPath,     ///< A ROS message of the type nav_msgs/Path, as YAML or JSON.
   kCommonRoad,  ///< A solution of CommonRoad, or the route of a scenario (XML).
   kGeoJson,     ///< A GeoJSON line string according to RFC 7946.
+  kGpx,         ///< A track or route of GPX 1.0 or 1.1.
+  kBag,         ///< A message nav_msgs/Path in a bag of ROS 2 (MCAP, SQLite).
+  kKml,         ///< A LineString or gx:Track of KML 2.2 or 2.3.
 };
 
 /// Returns the list of formats as text for users: "CSV, nav_msgs/Path (YAML, JSON), CommonRoad
-/// solution or GeoJSON".
+/// solution, GeoJSON, GPX, KML or rosbag2".
 std::string PathFormatList();
 
 /// The names of the columns of a CSV file. If the name of a column is not set, the reader looks for
@@ -31,12 +34,17 @@ std::string PathFormatList();
 struct PathColumns {
   std::optional<std::string> x;
   std::optional<std::string> y;
+  /// Column of the latitude in WGS 84. Without columns of x and y, the reader also recognizes
+  /// columns of latitude and longitude by their names (GlobeColumnOf).
+  std::optional<std::string> latitude;
+  std::optional<std::string> longitude;  ///< Column of the longitude in WGS 84.
   std::optional<std::string> yaw;
   std::optional<std::string> curvature;
   std::optional<std::string> speed;
   std::optional<std::string> time;
   std::optional<std::string> direction;  ///< Column of the direction of motion, or of the gear.
-  /// Unit of the position columns: "m", "cm", "mm" or "km".
+  /// Unit of the position columns: "m", "cm", "mm" or "km"; "deg" or "rad" of latitude and
+  /// longitude.
   std::optional<std::string> position_unit;
   std::optional<std::string> yaw_unit;    ///< Unit of the yaw column: "rad" or "deg".
   std::optional<std::string> speed_unit;  ///< Unit of the speed column: "m/s", "km/h" or "mph".
@@ -62,6 +70,11 @@ struct PathMap {
   /// Longitude in WGS 84 of the path's coordinate origin [deg]; default: the longitude of the first
   /// point.
   std::optional<double> origin_longitude;
+  /// Number of the line in a GPX, KML or GeoJSON file with several tracks, routes or line strings,
+  /// counted from 1; 0: the only line.
+  int line = 0;
+  /// Topic of a bag; default: the only topic of the type nav_msgs/Path.
+  std::optional<std::string> topic;
 };
 void Visit(KeyVisitor& keys, PathMap& map);
 

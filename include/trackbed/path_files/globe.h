@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trackbed/geometry/pose.h"
+
+/// Positions on the globe: latitude and longitude of GPS logs and maps, and their projection to
+/// meters with PROJ.
+namespace trackbed {
+
+/// Geodetic position in WGS 84 [deg]: latitude positive to the north, longitude positive to the
+/// east.
+struct GlobePosition {
+  double latitude = 0.0;
+  double longitude = 0.0;
+};
+
+/// Largest magnitude of a latitude that can be projected [deg]. The direction of north turns too
+/// fast closer to a pole.
+inline constexpr double kMaxLatitude = 89.0;
+/// Largest magnitude of a longitude [deg]; some receivers count from 0 to 360 degrees.
+inline constexpr double kMaxLongitude = 360.0;
+
+/// Returns why no car can be at the position, and the remedy; "" if the position is valid. The text
+/// names swapped coordinates, degrees and minutes of NMEA 0183, and numbers in 1e-7 degrees.
+std::string GlobeProblem(const GlobePosition& position);
+
+/// Returns the numbers of the positions at which a receiver had no fix: latitude and longitude are
+/// exactly 0. Returns none if the other positions are near latitude 0 and longitude 0, so that
+/// the position may be real.
+std::vector<std::size_t> PositionsWithoutFix(const std::vector<GlobePosition>& positions);
+
+/// Returns the note about skipped positions without a fix.
+std::string NoFixNote(std::size_t count, const std::string& first);
+
+/// A transverse Mercator projection of the ellipsoid WGS 84, with the scale 1 on the meridian of
+/// its origin. The x axis points to the east and the y axis to the north at the origin.
+///
+/// Scale: lengths at the distance x east or west of the origin are too long by the factor
+/// 1 + x^2/(2 R^2) with the earth's radius R: 1.2e-8 at 1 km, 1.2e-6 at 10 km, 1.2e-4 at 100 km. In
+/// a UTM zone, lengths are too short by 4e-4 on the zone's meridian. Heights are ignored: a road at
+/// the height h is longer than its projection by the factor 1 + h/R, 1.6e-4 at 1 km.
+class LocalPlane {
+ public:
+  explicit LocalPlane(const GlobePosition& origin);
+  LocalPlane(LocalPlane&&) noexcept;
+  LocalPlane& operator=(LocalPlane&&) noexcept;
+  ~LocalPlane();
+
+  /// Projects a valid position [m]; returns nullopt if it is more than 300 km east or west or
+  /// 5000 km north or south of the origin. Longitudes that differ by 360 degrees are equal.
+  /// Cost: 1 us.
+  [[nodiscard]] std::optional<Vec2> ToMeters(const GlobePosition& position) const;
+  [[nodiscard]] const GlobePosition& origin() const { return origin_; }
+
+  /// States the projection, its origin, the origin's coordinates in its UTM zone and the largest
+  /// scale error at the eastings up to `max_easting` [m].
+  [[nodiscard]] std::string Note(double max_easting) const;
+
+ private:
+  struct Projection;
+  GlobePosition origin_;
+  std::unique_ptr<Projection> projection_;
+};
+
+/// Positions in meters, and how they were projected.
+struct GlobePoints {
+  std::vector<Vec2> points;  ///< Positions [m]; empty if `problem` is not.
+  std::string note;
+  std::size_t bad = 0;  ///< Number of the position that cannot be projected.
+  std::string problem;  ///< Why this position cannot be projected; empty if all can.
+};
+
+/// Projects valid positions to a plane about `origin`, by default the first position.
+GlobePoints ProjectGlobe(const std::vector<GlobePosition>& positions,
+                         const std::optional<GlobePosition>& origin);
+
+enum class GlobeAxis { kLatitude, kLongitude };
+
+/// Meaning of a column of latitudes or longitudes.
+struct GlobeColumn {
+  GlobeAxis axis = GlobeAxis::kLatitude;
+  double degrees = 1.0;  ///< Value of one unit of the column [deg].
+};
+
+/// Returns the meaning of a column by its name, such as "lat", "latitude_deg", "GPS Longitude",
+/// "lng", "position_lat", "latRad" or "lon_e7". Returns nullopt for other names, among them
+/// "lat_acc" and "longitudinal".
+std::optional<GlobeColumn> GlobeColumnOf(std::string_view name);
+
+/// Returns whether a column's name contains a word for latitude or longitude, without a unit of
+/// length. The numbers of this column may not be read as meters.
+bool NamesGlobeAxis(std::string_view name);
+
+/// Returns whether a column's name is usual for letters of hemispheres, such as "N/S" or "lat_dir".
+bool NamesHemisphere(std::string_view name);
+
+/// Returns the columns of latitude and longitude in a header. If several columns of an axis fit,
+/// returns the column with the shortest name.
+struct GlobeColumns {
+  std::optional<std::size_t> latitude;
+  std::optional<std::size_t> longitude;
+  GlobeColumn latitude_meaning{};
+  GlobeColumn longitude_meaning{};
+};
+GlobeColumns FindGlobeColumns(const std::vector<std::string>& names);
+
+/// Explains why a text is not a number, with the number to write instead: a decimal comma
+/// ("48,137"), degrees with minutes and seconds ("48°08'14.3\"N") or a letter for the hemisphere
+/// ("48.137N"). For other texts: "'...' is not a finite number".
+std::string NumberProblem(const std::string& text);
+
+}  // namespace trackbed
