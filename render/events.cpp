@@ -57,8 +57,7 @@ void AddRateLimits(const Recording& recording, std::vector<RunEvent>& events) {
   // Fraction of the maximum steering rate above which the steering counts as being at the rate
   // limit, because the log is rounded.
   constexpr double kShare = 0.98;
-  // Tolerance within which the steering counts as having reached its command [rad], as for
-  // steering_saturated_fraction in metrics.json.
+  // Tolerance within which the steering counts as having reached its command [rad].
   constexpr double kReached = 1e-6;
   // Maximum gap between two periods at the rate limit that count as one event [s].
   constexpr double kSameEvent = 0.5;

@@ -22,7 +22,7 @@ const std::vector<ManeuverMetric>& CommonMetrics() {
       {"passed", "passed", "", true},
       {"begin", "evaluated from", "s"},
       {"end", "evaluated until", "s"},
-      {"steering_saturated_fraction", "fraction of time at the steering rate limit", ""},
+      {"steering_saturated_fraction", "fraction of time at a steering limit", ""},
       {"missing", "not measured", ""}};
   return metrics;
 }

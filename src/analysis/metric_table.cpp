@@ -161,7 +161,7 @@ std::vector<MetricEntry> BuiltInMetrics() {
       Located({"steering_rate_max", "Maximum steering rate (0.1 s mean)", "rad/s",
                At(&P::steering_rate_max, &P::steering_rate_max_s, &P::steering_rate_max_t)}),
       {"steering_rate_rms", "Steering rate, rms", "rad/s", Of(&P::steering_rate_rms)},
-      {"steering_saturated_fraction", "Fraction of time at the steering rate limit", "",
+      {"steering_saturated_fraction", "Fraction of time at a steering limit", "",
        Of(&P::steering_saturated_fraction)},
       {"yaw_rate_ratio", "Yaw rate relative to the kinematic model", "", YawRateRatio},
       Headline({"recorded.yaw_rate.relative_rms", "Yaw rate against the record, relative rms", "",

@@ -48,9 +48,12 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
 
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin,
                          double end) {
-  // The steering command counts as reached within one microradian, which is smaller than any
-  // relevant change of the command and larger than the rounding errors of the simulated actuator.
-  constexpr double kReachedTolerance = 1e-6;
+  // Share of a limit from which on the actuator counts as being at the limit. The remaining
+  // thousandth covers rounding errors and the tolerances of controllers that solve for a command.
+  constexpr double kAtLimit = 0.999;
+  const auto reaches = [](double value, double limit) {
+    return limit > 0.0 && value >= kAtLimit * limit;
+  };
   double saturated = 0.0;
   double periods = 0.0;
   for (std::size_t i = 0; i + 1 < log.rows.size(); ++i) {
@@ -61,12 +64,9 @@ double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double
     }
     const double period = after.time - row.state.time;
     const double turned = std::abs(after.steering_actuator - row.state.steering_actuator);
-    const bool missed =
-        std::abs(row.command.steering - after.steering_actuator) > kReachedTolerance;
-    const bool limited =
-        turned >= vehicle.steering_rate * period - kReachedTolerance ||
-        std::abs(after.steering_actuator) >= vehicle.steering_limit - kReachedTolerance;
-    saturated += missed && limited ? 1.0 : 0.0;
+    const bool limited = reaches(turned, vehicle.steering_rate * period) ||
+                         reaches(std::abs(after.steering_actuator), vehicle.steering_limit);
+    saturated += limited ? 1.0 : 0.0;
     periods += 1.0;
   }
   return periods > 0.0 ? saturated / periods : 0.0;

@@ -20,10 +20,10 @@ void MeasureLateralAcceleration(const RunLog& log, std::size_t window, PlantMetr
 void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metrics);
 
 /// Returns the fraction of the control periods from `begin` to `end` [s] in which the steering
-/// actuator was saturated. A saturated actuator moves at its maximum rate or is at its maximum
-/// angle, but has not reached the command. Deviations due to delay or backlash do not count as
-/// saturation. If the actuator's limits are unknown (0), every control period in which the actuator
-/// misses the command counts as saturated.
+/// actuator was saturated, in [0, 1]. A saturated actuator turns at its maximum rate during the
+/// whole period, or is at its maximum angle at the end of the period; a thousandth of the limit may
+/// be missing. The command does not matter: a controller that knows the limits commands angles that
+/// the actuator just reaches. An unknown limit (0) is never reached.
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin, double end);
 
 }  // namespace trackbed

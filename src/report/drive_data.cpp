@@ -19,8 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-// Tolerance within which the actuator counts as having reached the commanded steering angle [rad],
-// as in PlantMetrics.
+// Tolerance within which the actuator counts as having reached the commanded steering angle [rad].
 constexpr double kReachedTolerance = 1e-6;
 // Shortest interval of rate-limited steering that is shown [s].
 constexpr double kMinSpan = 0.1;

@@ -27,6 +27,8 @@ VehicleParams Car() {
   car.wheelbase = kWheelbase;
   car.cg_to_rear = 1.2;
   car.steering_ratio = 20.0;
+  car.steering_rate = 0.5;
+  car.steering_limit = 0.6;
   car.length = 4.5;
   car.width = 1.6;
   car.rear_overhang = 1.0;
@@ -160,9 +162,8 @@ TEST(StepSteer, OfFirstOrder) {
     EXPECT_NEAR(Of(metrics, "yaw_rate_gain"), 6.0, Tolerance(1e-7));
     EXPECT_NEAR(Of(metrics, "yaw_rate_overshoot"), 0.0, Tolerance(1e-8));
     EXPECT_EQ(Of(metrics, "speed"), 25.0);
-    // The actuator moves toward the command in 10 control periods of the evaluated 4.99 s, and
-    // reaches the command only in the last one.
-    EXPECT_NEAR(metrics.steering_saturated_fraction, 9.0 / 500.0, Tolerance(1.1 / 500.0));
+    // The actuator turns at its full rate in 10 control periods of the evaluated 4.99 s.
+    EXPECT_NEAR(metrics.steering_saturated_fraction, 10.0 / 500.0, Tolerance(1.1 / 500.0));
   }
 }
 

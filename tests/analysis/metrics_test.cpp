@@ -95,16 +95,23 @@ double Saturated(double step, double limit, const std::function<double(int)>& co
 }
 
 TEST(SaturatedFraction, CountsTheRateLimit) {
-  // Turning by 0.08 rad at 0.008 rad per period takes ten periods. The last of these periods
-  // reaches the command, so only nine periods are saturated.
-  EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return i >= 100 ? 0.08 : 0.0; }), 9.0 / 400.0);
+  // Turning by 0.08 rad at 0.008 rad per period takes ten periods.
+  EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return i >= 100 ? 0.08 : 0.0; }), 10.0 / 400.0);
 }
 
-TEST(SaturatedFraction, CountsTheAngleLimit) {
-  // The last 200 of 400 periods command 0.6 rad, which exceeds the angle limit of 0.5 rad. The
-  // wheels first turn at the rate limit for 62 periods and then stay at the angle limit. All 200
-  // periods are saturated.
-  EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return i >= 200 ? 0.6 : 0.0; }), 200.0 / 400.0);
+TEST(SaturatedFraction, CountsCommandsThatTheActuatorJustReaches) {
+  // The command rises by 0.008 rad per period for 30 periods, as fast as the actuator turns. The
+  // actuator reaches each command within its period.
+  EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return 0.008 * std::clamp(i - 100, 0, 30); }),
+            30.0 / 400.0);
+  // At 99 % of the rate, no period is saturated.
+  EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return 0.00792 * std::clamp(i - 100, 0, 30); }), 0.0);
+}
+
+TEST(SaturatedFraction, CountsCommandsOfTheLargestAngle) {
+  // The command rises by 0.002 rad per period, a quarter of the rate, to the largest angle of 0.5
+  // rad. Periods 250 to 399 end at this angle; period 249 ends at 0.498 rad.
+  EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return std::min(0.002 * i, 0.5); }), 150.0 / 400.0);
 }
 
 TEST(SaturatedFraction, DoesNotCountWhatTheActuatorWasNotAsked) {

@@ -134,8 +134,8 @@ struct PlantMetrics {
   /// Root mean square of the steering rate [rad/s], each rate being the mean over one control
   /// period.
   double steering_rate_rms = 0.0;
-  /// Fraction of the control periods in which the actuator misses the commanded angle because of
-  /// its rate or angle limit.
+  /// Fraction of the control periods in which the actuator turns at its maximum rate or is at its
+  /// maximum angle, whatever the command is.
   double steering_saturated_fraction = 0.0;
   /// Ratio of the measured yaw rate to v tan(delta)/L, fitted by least squares over the run. The
   /// divisor v tan(delta)/L is the kinematic model's yaw rate at the measured speed and steering.
