@@ -2,6 +2,7 @@
 
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/control/tyre_forces.h"
+#include "trackbed/vehicle/steady_turn.h"
 
 namespace trackbed {
 
@@ -28,49 +29,16 @@ struct CarScale {
 
 CarScale ComputeCarScale(const VehicleParams& vehicle);
 
-/// Returns whether mass, inertia and tyre coefficients of the car are known, which dynamic models
-/// require.
-bool HasTyres(const VehicleParams& vehicle);
-
-/// Cornering stiffness of each axle, the sum of its two tyres [N/rad].
-struct CorneringStiffness {
-  double front = 0.0;
-  double rear = 0.0;
-};
-
 /// Returns the matrix of SingleTrackCar's lateral equations at the signed speed u: (v', r') =
 /// matrix (v, r, tan(delta)).
 Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle,
-                                         const CorneringStiffness& stiffness, double speed);
-
-/// Steady circular motion of a car whose rear axle follows the circle. The turn is the steady state
-/// of SingleTrackCar, or of KinematicCar for a car without tyre coefficients.
-struct SteadyTurn {
-  /// Steering angle delta_0 of the turn [rad], with tan(delta_0) = kappa (L + K u |u|).
-  double steering = 0.0;
-  /// Heading error psi_0 in the turn, equal to the negative slip angle of the rear axle [rad].
-  double heading_error = 0.0;
-  double lateral_speed = 0.0;  ///< Lateral speed v of the center of gravity in the turn [m/s].
-  double yaw_rate = 0.0;       ///< Yaw rate of the car in the turn, r = u kappa [rad/s].
-};
-
-/// Computes the steady turn at `curvature` [1/m] and the signed `speed` u [m/s].
-SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double speed);
+                                         const AxleStiffness& stiffness, double speed);
 
 /// Motion that a car should have at a point of its path.
-struct Motion {
-  double curvature = 0.0;     ///< Curvature of the path at this point [1/m].
-  double speed = 0.0;         ///< Signed speed u of the car [m/s].
-  double acceleration = 0.0;  ///< Acceleration of the car, the rate of change of abs(u) [m/s^2].
-};
+using Motion = TurnMotion;
 
-/// A turn in which only the car's speed may change, with the stiffness of the axles in this turn.
-struct TurnOperation {
-  SteadyTurn turn;
-  /// Cornering stiffness of the axles in the turn; 0 for a car without tyre coefficients.
-  CorneringStiffness stiffness;
-};
-
+/// Returns the steady turn of a car with the given model of its tyres. With kBrush, the turn
+/// includes the load transfer of the acceleration.
 TurnOperation OperateOn(const VehicleParams& vehicle, TyreForces tyres, const Motion& motion);
 
 }  // namespace trackbed

@@ -216,7 +216,7 @@ VehicleParams CarWithAxles() {
 
 /// Largest real part of the eigenvalues of the lateral dynamics (lateral speed and yaw rate) at a
 /// speed [1/s]; above 0 the car spins.
-double FastestGrowth(const VehicleParams& car, const CorneringStiffness& stiffness, double speed) {
+double FastestGrowth(const VehicleParams& car, const AxleStiffness& stiffness, double speed) {
   const Eigen::Matrix2d rates = LateralRates(car, stiffness, speed).leftCols<2>();
   return rates.eigenvalues().real().maxCoeff();
 }
@@ -242,7 +242,7 @@ TEST(OperateOn, IsTheLinearCarWhereTyresCarryLittle) {
 TEST(OperateOn, MovesTheLoadWhenTheCarBrakes) {
   const VehicleParams car = CarWithAxles();
   const Motion braking{.speed = 45.0, .acceleration = -6.5};
-  const CorneringStiffness stiffness = OperateOn(car, TyreForces::kBrush, braking).stiffness;
+  const AxleStiffness stiffness = OperateOn(car, TyreForces::kBrush, braking).stiffness;
   // Braking with a = 6.5 m/s^2 multiplies the load of the rear axle by 1 - h a/(g l_f). `use` is
   // the axle's braking force divided by its friction force. The cornering stiffness is C times the
   // load factor times 1 - q + q^2/3.
@@ -254,8 +254,8 @@ TEST(OperateOn, MovesTheLoadWhenTheCarBrakes) {
   EXPECT_NEAR(stiffness.rear, rear, Tolerance(1e-9) * rear);
   // An understeering car becomes unstable if it brakes while turning.
   const Motion turning{.curvature = -0.0016, .speed = 45.0, .acceleration = -6.5};
-  const CorneringStiffness both = OperateOn(car, TyreForces::kBrush, turning).stiffness;
-  const CorneringStiffness coasting{car.cornering_stiffness_front, car.cornering_stiffness_rear};
+  const AxleStiffness both = OperateOn(car, TyreForces::kBrush, turning).stiffness;
+  const AxleStiffness coasting{car.cornering_stiffness_front, car.cornering_stiffness_rear};
   EXPECT_LT(FastestGrowth(car, coasting, 45.0), 0.0);
   EXPECT_GT(FastestGrowth(car, both, 45.0), 0.5);
   // In reverse, braking instead loads the axle at the rear of the car.

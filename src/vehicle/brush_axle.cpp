@@ -1,4 +1,4 @@
-#include "src/control/brush_axle.h"
+#include "src/vehicle/brush_axle.h"
 
 #include <algorithm>
 #include <cmath>
