@@ -17,10 +17,10 @@ def test_a_planner_of_ompl_avoids_obstacles(monkeypatch):
     box = {"box": {"x": 20, "y": 0, "length": 4, "width": 4, "height": 1}}
     change = {
         "plan": {"method": "ompl", "safe_distance": 0.5},
-        "mission.waypoints": [[0, 0], [50, 0]],
+        "mission": {"speed": 3, "start": {"speed": 0}, "waypoints": [[0, 0], [50, 0]]},
         "world.obstacles": [box],
         "expect": {"reach_goal": 1.0, "max_cross_track": 0.5},
     }
-    run = trackbed.run("three_turns", plants=["kinematic"], set=change)
+    run = trackbed.run("three_turns", plants=["kinematic", "mujoco"], set=change)
     assert run.passed, run.verdict
     trackbed.keeps_clearance(run, 0.1)

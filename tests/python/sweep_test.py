@@ -112,7 +112,7 @@ def test_an_exception_of_a_plugin_is_the_error_of_its_row(study):
         (dict(jobs=1.5), TypeError, "jobs must be a whole number"),
         (dict(set=3), TypeError, "set must be a dict"),
         (dict(study="robustnes"), trackbed.InputError, "robustness"),
-        (dict(study="three_turns"), trackbed.InputError, ""),
+        (dict(study="three_turns"), trackbed.InputError, "three_turns"),
     ],
 )
 def test_wrong_arguments_are_named(study, arguments, error, text):

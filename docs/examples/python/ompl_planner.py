@@ -12,6 +12,9 @@ import trackbed
 util.RNG.setSeed(1)  # OMPL can be seeded only once in a process.
 util.setLogLevel(util.LogLevel.LOG_WARN)
 
+# The curvature of Dubins curves jumps; the car drives a smooth path this near to them [m].
+DEVIATION = 0.3
+
 
 @trackbed.planner(
     "ompl",
@@ -25,7 +28,7 @@ util.setLogLevel(util.LogLevel.LOG_WARN)
 )
 def plan(request, *, safe_distance: float = 0.3, seconds: float = 5.0, margin: float = 15.0):
     """Dubins curves around obstacles, by OMPL's RRT-Connect"""
-    space = base.DubinsStateSpace(1.2 * request.vehicle.min_turning_radius)
+    space = base.DubinsStateSpace(2.0 * request.vehicle.min_turning_radius)
     bounds = base.RealVectorBounds(2)
     for axis in (0, 1):
         bounds.setLow(axis, float(request.waypoints[:, axis].min()) - margin)
@@ -35,7 +38,7 @@ def plan(request, *, safe_distance: float = 0.3, seconds: float = 5.0, margin: f
 
     def is_free(state):
         pose = [[state.getX(), state.getY(), state.getYaw()]]
-        return bool(request.clearance(pose)[0] > safe_distance)
+        return bool(request.clearance(pose)[0] > safe_distance + DEVIATION)
 
     setup.setStateValidityChecker(is_free)
     start, goal = space.allocState(), space.allocState()
@@ -53,4 +56,4 @@ def plan(request, *, safe_distance: float = 0.3, seconds: float = 5.0, margin: f
     path = setup.getSolutionPath()
     path.interpolate(max(2, int(path.length() / 0.25)))
     points = [[s.getX(), s.getY()] for s in path.getStates()]
-    return trackbed.PlannedPath(points, max_deviation=0.1)
+    return trackbed.PlannedPath(points, max_deviation=DEVIATION)
