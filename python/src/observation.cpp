@@ -57,7 +57,7 @@ Observation Observe(const ControlInput& input) {
   if (path.length() > 0.0) {
     const double station = std::max(0.0, input.station);
     const Projection at = path.Project(input.state.pose, {station, station});
-    const PathPoint point = path.At(input.station);
+    const PathBend point = path.BendAt(input.station);
     seen.cross_track = at.cross_track;
     seen.heading_error = at.heading_error;
     seen.curvature = point.curvature;
@@ -75,7 +75,7 @@ Observation Observe(const SteppedLoop& loop) {
                    .clearance = row.clearance.value_or(kUnknown),
                    .status = loop.status()};
   if (row.tracking) {
-    const PathPoint at = input.reference.path.At(input.station);
+    const PathBend at = input.reference.path.BendAt(input.station);
     seen.cross_track = row.tracking->cross_track;
     seen.heading_error = row.tracking->heading_error;
     if (row.measured) {
