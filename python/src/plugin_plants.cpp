@@ -90,7 +90,15 @@ class PluginPlant final : public Plant {
   [[nodiscard]] std::vector<double> Configuration() const override {
     return car_.FlatConfiguration(state_.pose, state_.steering, {});
   }
-  [[nodiscard]] bool diverged() const override { return false; }  // Read refuses NaN.
+  /// Whether a coordinate exceeds the limit of the built-in plants. _plugins.py refuses NaN.
+  [[nodiscard]] bool diverged() const override {
+    constexpr double kMaxCoordinate = 1e10;
+    return !(std::abs(state_.pose.x) < kMaxCoordinate && std::abs(state_.pose.y) < kMaxCoordinate &&
+             std::abs(state_.pose.yaw) < kMaxCoordinate);
+  }
+  [[nodiscard]] std::string divergence() const override {
+    return diverged() ? "the plant's position or yaw is beyond 1e10" : "";
+  }
 
   [[nodiscard]] std::unique_ptr<Plant> Clone() const override {
     auto copy = std::unique_ptr<PluginPlant>(new PluginPlant(*this));
@@ -129,7 +137,6 @@ class PluginPlant final : public Plant {
 }  // namespace
 
 void RegisterPythonPlant(const py::dict& given) {
-  py::list columns;
   auto plugin = ReadPlugin(given);
   RequireNothingRuns(*plugin);
   auto& plants = PluginsOf<PlantKind>();

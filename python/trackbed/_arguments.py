@@ -32,9 +32,13 @@ def number(name: str, value: object) -> float:
     """Returns the finite number `value` of the argument `name`."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number, not {type_name(value)}")
-    if not math.isfinite(value):
+    try:
+        result = float(value)
+    except OverflowError:
+        raise ValueError(f"{name} is too large; must be at most 1.8e308") from None
+    if not math.isfinite(result):
         raise ValueError(f"{name} is {value}; must be finite")
-    return float(value)
+    return result
 
 
 def whole(name: str, value: object, least: int) -> int:

@@ -178,7 +178,8 @@ def returned(what: str, value: object, meaning: str) -> float:
     try:
         return number(f"{what} returned {meaning}, which", value)
     except ValueError:
-        raise ValueError(f"{what} returned {meaning} {value}; must be finite") from None
+        shown = value if isinstance(value, float) else "that is too large"
+        raise ValueError(f"{what} returned {meaning} {shown}; must be finite") from None
 
 
 def require_method(what: str, own: type, name: str, parameters: Sequence[str]) -> int:

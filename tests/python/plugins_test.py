@@ -242,6 +242,8 @@ def raised(method, set):
         (lambda seen: "left", "the steering angle .* must be a number, not str"),
         (lambda seen: None, "the steering angle .* must be a number, not NoneType"),
         (lambda seen: (1.0, 2.0, 3.0), "step returned 3 values"),
+        (lambda seen: 10**400, "the steering angle .* too large; must be finite"),
+        (lambda seen: numpy.float32("nan"), r"the steering angle \[rad\] .*; must be finite"),
         (lambda seen: seen.nothing, "AttributeError.*nothing"),
     ],
 )
@@ -294,6 +296,33 @@ def test_wrong_states_are_named(state, text):
     trackbed.plant("test_wrong", replace=True)(Wrong)
     with pytest.raises(trackbed.PluginError, match=f"plant 'test_wrong' .*{text}"):
         trackbed.run("three_turns", plants="test_wrong")
+
+
+def test_a_plant_that_runs_away_has_diverged():
+    class Rocket(Bicycle):
+        def step(self, steering, acceleration):
+            self.x = 10.0 * self.x + 1.0
+
+    trackbed.plant("test_wrong", replace=True)(Rocket)
+    run = trackbed.run("three_turns", plants="test_wrong")
+    assert run.metrics["test_wrong"]["status"] == "diverged"
+
+
+def test_vector_loops_raise_the_exception_of_a_thread():
+    def step(seen):
+        if seen.t_s > 0.1:
+            raise Broken("on a thread")
+        return 0.0
+
+    trackbed.controller("test_broken", replace=True)(step)
+    change = {"control": {"method": "test_broken"}}
+    cars = trackbed.VectorLoop("three_turns", plant="kinematic", count=16, set=change, threads=8)
+    with pytest.raises(trackbed.PluginError, match="on a thread") as error:
+        for _ in range(100):
+            cars.step()
+    assert isinstance(error.value.__cause__, Broken)
+    cars.reset()
+    assert not cars.ended.any()
 
 
 @pytest.mark.parametrize("value", [float("nan"), "a", [1, 2]])
