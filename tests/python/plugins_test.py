@@ -592,3 +592,21 @@ def test_sweep_of_the_program_goes_on_after_an_exception(folder):
     assert [row.split(",")[1] for row in table.splitlines()[1:]] == ["passed", "error", "passed"]
     assert "gain 9 burns the motor" in table
     assert told.returncode == 1
+
+
+def test_falsify_of_the_program_searches_a_requirement(folder):
+    module = (folder / "my_module.py").read_text()
+    (folder / "my_module.py").write_text(
+        module + "\n@trackbed.requirement('slow')\ndef slow(log):\n    return 4 - log['speed_mps'].max()\n"
+    )
+    scenario = (folder / "own.yaml").read_text()
+    (folder / "own.yaml").write_text(scenario + "expect: {metrics: [{metric: slow, min: 0}]}\n")
+    (folder / "study.yaml").write_text(
+        "schema: 1\nname: search\nscenario: own.yaml\n"
+        "vary: {mission.speed: {distribution: uniform, from: 1, to: 6}}\n"
+        "search: {method: random, runs: 30, shrink_runs: 3}\n"
+    )
+    told = program(folder, "falsify", "--import", "my_module", "study.yaml", "--out", "out")
+    # A run fails with the probability 2/5: all of 30 pass with 2e-7, and the seed is fixed.
+    assert told.returncode == 3, told.stderr
+    assert "slow" in told.stdout and (folder / "out/counterexample/counterexample.yaml").exists()
