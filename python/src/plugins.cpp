@@ -6,6 +6,9 @@
 #include <atomic>
 #include <cmath>
 #include <map>
+#include <set>
+
+#include "python/src/plugin_threads.h"
 
 namespace trackbed::python {
 namespace {
@@ -13,6 +16,13 @@ namespace {
 thread_local int depth_of_calls = 0;
 
 std::atomic<bool> prints_tracebacks{false};
+
+/// Identifiers of the threads that are inside of plug-ins. Only a thread with the GIL may use the
+/// set, which is never destroyed.
+std::set<unsigned long>& ThreadsInside() {
+  static auto* const threads = new std::set<unsigned long>;
+  return *threads;
+}
 
 /// Returns the text of an exception, such as "ValueError: a is 3".
 std::string TextOf(const py::handle& exception) {
@@ -175,11 +185,26 @@ void PrintTracebacks() {
 }
 
 PluginCall::PluginCall() {
-  ++depth_of_calls;
+  if (++depth_of_calls == 1) {
+    ThreadsInside().insert(PyThread_get_thread_ident());
+  }
 }
 
 PluginCall::~PluginCall() {
-  --depth_of_calls;
+  if (--depth_of_calls == 0) {
+    ThreadsInside().erase(PyThread_get_thread_ident());
+  }
+}
+
+std::size_t InterruptPlugins() {
+  std::size_t count = 0;
+  for (const unsigned long thread : ThreadsInside()) {
+    if (thread != PyThread_get_thread_ident()) {
+      PyThreadState_SetAsyncExc(thread, PyExc_SystemExit);
+      ++count;
+    }
+  }
+  return count;
 }
 
 void RequireNothingRuns(const Plugin& plugin) {

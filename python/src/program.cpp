@@ -1,3 +1,4 @@
+#include "python/src/plugin_threads.h"
 #include "python/src/plugins.h"
 #include "trackbed/cli/main.h"
 #include "trackbed/control/controllers.h"
@@ -66,6 +67,7 @@ void BindPlugins(py::module_& module) {
   module.def("register_plant", &RegisterPythonPlant);
   module.def("register_metric", &RegisterPythonMetric);
   module.def("keys_of_section", &KeysOfSection);
+  module.def("interrupt_plugins", &InterruptPlugins);
   BindPlannerRequest(module);
   BindControllerInput(module);
   BindPlantSetup(module);

@@ -141,13 +141,33 @@ class _Bar:
 _running: weakref.WeakSet[_trackbed.SweepJob] = weakref.WeakSet()
 
 
+def _has_finished(job: _trackbed.SweepJob) -> bool:
+    try:
+        return job.wait(0.05)
+    except BaseException:  # The study ended with an error.
+        return job.wait(0.0)
+
+
 @atexit.register
-def _stop_all() -> None:
-    for job in list(_running):
+def _end() -> None:
+    """Ends studies and plug-ins on other threads before the interpreter ends."""
+    jobs = list(_running)
+    for job in jobs:
         job.stop()
-        for _ in range(50):
-            if job.wait(0.1):
-                break
+    start = time.monotonic()
+    while True:
+        waited = time.monotonic() - start
+        finished = all([_has_finished(job) for job in jobs])
+        # A plug-in gets a second to return by itself.
+        inside = _trackbed.interrupt_plugins() if waited > 1.0 or finished else 0
+        if finished and not inside:
+            return
+        if waited > 5.0:
+            sys.stderr.write("trackbed: a plug-in on another thread does not return\n")
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(1)
+        time.sleep(0.05)
 
 
 def sweep(

@@ -125,3 +125,25 @@ def test_to_pandas(study):
     table = trackbed.sweep(study, progress=False).to_pandas()
     assert isinstance(table, pandas.DataFrame)
     assert len(table) == 8
+
+
+@pytest.mark.parametrize(
+    "body, code, told",
+    [("while True: pass", 0, ""), ("time.sleep(600)", 1, "a plug-in on another thread does not return")],
+)
+def test_a_plugin_that_does_not_return_does_not_crash_the_end(study, body, code, told):
+    program = (
+        "import time, trackbed\n"
+        "@trackbed.controller('stuck')\n"
+        "def stuck(seen):\n"
+        f"    {body}\n"
+        f"sweep = trackbed.sweep({str(study)!r}, set={{'control': {{'method': 'stuck'}}}}, wait=False)\n"
+        "time.sleep(0.5)\n"
+    )
+    text = study.read_text().replace(", control.distance: [3, 4]", "")
+    study.write_text(text)
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60
+    )
+    assert done.returncode == code, done.stderr
+    assert told in done.stderr

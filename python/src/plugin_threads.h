@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstddef>
+
+namespace trackbed::python {
+
+/// Raises SystemExit in the Python code of all plug-ins that run on other threads. Returns the
+/// number of these threads. Used when the interpreter ends: a thread must not be inside of a
+/// plug-in then, because Python would end the thread in the middle of C++ code. Requires the GIL.
+std::size_t InterruptPlugins();
+
+}  // namespace trackbed::python
