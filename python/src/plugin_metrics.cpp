@@ -9,7 +9,7 @@ namespace {
 
 struct MetricKind {};
 
-/// Converts what an adapter returned: None, or a value with the station and the time of its moment.
+/// Converts the result of a metric: None, or a value with the station and the time of its moment.
 std::optional<MetricReading> ReadReading(const py::object& given) {
   if (given.is_none()) {
     return std::nullopt;

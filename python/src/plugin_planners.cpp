@@ -15,13 +15,11 @@
 namespace trackbed::python {
 namespace {
 
-struct PlannerKind {
-  static constexpr const char* kText = "planner";
-};
+struct PlannerKind {};
 
-/// What an adapter of a planner returned.
+/// Result of a planner in Python.
 struct Answer {
-  std::string no_path;  ///< Why there is no path; empty if there is a path.
+  std::string no_path;  ///< Reason why there is no path; empty if there is a path.
   PathPoints points;
   double max_deviation = 0.0;
   std::vector<std::string> notes;

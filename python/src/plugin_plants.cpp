@@ -25,7 +25,7 @@ constexpr std::array<std::pair<const char*, double VehicleState::*>, 10> kStateC
      {"steering_actuator_rad", &VehicleState::steering_actuator},
      {"steering_rad", &VehicleState::steering}}};
 
-/// What a plant in Python is made from.
+/// Arguments of the constructor of a plant in Python.
 struct PlantStart {
   double timestep = 0.0;
   double friction = 1.0;

@@ -78,7 +78,7 @@ class PlannedPath:
 
 
 class PlanRequest:
-    """What a planner receives: the mission, the car and the obstacles.
+    """The input of a planner: the mission, the car and the obstacles.
 
     waypoints: shape (n, 2) [m], the first is the start of the route. headings: required yaw at
     each waypoint [rad], or empty. start: (x, y, yaw) of the rear-axle center [m, m, rad], where the
