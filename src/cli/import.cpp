@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -11,8 +12,12 @@
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/core/error.h"
+#include "trackbed/path_files/globe_file.h"
 #include "trackbed/recording/import_log.h"
+#include "trackbed/recording/log_listing.h"
 #include "trackbed/report/report.h"
+#include "trackbed/scenario/log_map_text.h"
 #include "trackbed/scenario/record.h"
 
 namespace trackbed::cli {
@@ -30,7 +35,52 @@ struct ImportOptions {
   bool report = false;
   bool mcap = false;
   bool quiet = false;
+  bool list = false;
 };
+
+/// Prints the topics and columns of a log, and a map that reads it.
+int List(const std::string& log) {
+  const LogListing listing = ListLog(log);
+  for (const LogTopic& topic : listing.topics) {
+    Print("# {}{}{}, {} {}{}\n", topic.name, topic.name.empty() ? "" : ": ", topic.type, topic.rows,
+          topic.rows == 1 ? "row" : "rows",
+          topic.problem.empty() ? "" : ", not readable: " + topic.problem);
+    for (const std::string& column : topic.columns) {
+      Print("#   {}\n", column);
+    }
+  }
+  for (const std::string& note : listing.notes) {
+    Print("# {}\n", note);
+  }
+  if (listing.map) {
+    Print("# A map that reads this log; check the units and frames.\n");
+    std::istringstream lines(LogMapText(*listing.map));
+    for (std::string line; std::getline(lines, line);) {
+      Print("{}\n", line);
+    }
+  } else {
+    Print("# No map: {}\n", listing.problem);
+  }
+  return kOk;
+}
+
+/// Returns the map that the user gives, or else the map of a GPX, KML or GeoJSON file.
+LogMap MapOf(const ImportOptions& options) {
+  if (!options.map.empty()) {
+    return ReadLogMap(options.map);
+  }
+  if (!IsGlobeFile(options.log)) {
+    throw InputError(Problem{
+        .key = "--map",
+        .message = fmt::format("missing; `trackbed import {} --list` prints a map to begin with",
+                               options.log)});
+  }
+  const LogListing listing = ListLog(options.log);
+  if (!listing.map) {
+    throw InputError(Problem{.file = options.log, .message = listing.problem});
+  }
+  return *listing.map;
+}
 
 void PrintImport(const RunResult& result, const fs::path& out) {
   const RecordedDrive& drive = *result.scenario.record->data;
@@ -43,7 +93,10 @@ void PrintImport(const RunResult& result, const fs::path& out) {
 }
 
 int Import(const ImportOptions& options) {
-  LogMap map = ReadLogMap(options.map);
+  if (options.list) {
+    return List(options.log);
+  }
+  LogMap map = MapOf(options);
   map.align = map.align || options.align;
   auto drive = std::make_shared<const RecordedDrive>(ImportLog(options.log, map));
   Scenario scenario = RecordScenario(std::move(drive), options.vehicle);
@@ -66,14 +119,19 @@ int Import(const ImportOptions& options) {
 
 void AddImport(const Command& command) {
   const auto options = std::make_shared<ImportOptions>();
-  command.AddPositional("log", options->log, "Log of a real vehicle, a CSV file")
+  command
+      .AddPositional("log", options->log,
+                     "Log of a real vehicle: CSV, GPX, KML, GeoJSON, or a bag of ROS 2 (.mcap, "
+                     ".db3, a folder)")
       .Required()
       .TypeName("LOG");
   command
       .AddOption("--map", options->map,
-                 "How to read it: names of columns, units, frames and filters")
-      .Required()
+                 "How to read it: names of columns, units, frames and filters; required for CSV "
+                 "and bags")
       .TypeName("MAP");
+  command.AddFlag("--list", options->list,
+                  "Print the topics and columns of the log, and a map that reads it");
   command.AddOption("-o,--out", options->out, "Output folder (default: out/<log>)").TypeName("DIR");
   command
       .AddOption("--vehicle", options->vehicle,
@@ -90,6 +148,8 @@ void AddImport(const Command& command) {
   command.AddFlag("-q,--quiet", options->quiet, "Print errors only");
   command.AddExample("A log as a run whose plant is recorded",
                      "trackbed import drive.csv --map map.yaml --vehicle bmw320i --report");
+  command.AddExample("What is in a bag of ROS 2, and a map to begin with",
+                     "trackbed import drive.mcap --list > map.yaml");
   command.AddExample("Replay it on other plants",
                      "trackbed run out/drive/scenario.resolved.yaml --plants "
                      "recorded,kinematic,mujoco -o out/replay");

@@ -87,6 +87,9 @@ class Importer {
     NoteRows();
     Check();
     BuildTimeGrid();
+    if (const std::string problem = GapProblem(rows_.time, map_.gap); !problem.empty()) {
+      Refuse(problem);
+    }
     FitPoses();
     for (std::string& note : CompareClocks(rows_, map_, drive_, start_)) {
       drive_.notes.push_back(std::move(note));
@@ -146,7 +149,8 @@ void Importer::RequireRows() const {
     Refuse(
         fmt::format("the position never changes ({}, {}): the car stands, or these are other "
                     "columns",
-                    map_.position.x, map_.position.y));
+                    map_.position.latitude.value_or(map_.position.x),
+                    map_.position.longitude.value_or(map_.position.y)));
   }
   for (std::size_t signal = 0; signal < kLogSignals; ++signal) {
     if (rows_.has[signal] && rows_.signals[signal].time.size() < 2) {
@@ -309,6 +313,9 @@ void Importer::NoteRows() {
   const double mean = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   Note("{}, read by the map {}: {} of {} rows used, {:.4g} s apart on average, {:.4g} s at most",
        log_.filename().string(), map_.name, time.size(), rows_.rows, mean, longest);
+  for (const std::string& note : rows_.notes) {
+    Note("{}", note);
+  }
   if (rows_.invalid > 0) {
     Note("{} rows dropped that `valid` excludes", rows_.invalid);
   }

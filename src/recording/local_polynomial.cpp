@@ -36,6 +36,15 @@ LocalFit LocalPolynomial::At(double at, const LogStretch& stretch) const {
   auto last = std::lower_bound(first, end, at + half_width_);
   const std::ptrdiff_t needed = std::min<std::ptrdiff_t>(degree_ + 1, end - begin);
   double width = half_width_;
+  // Rows so close to the edge of the window that they have nearly no weight do not determine the
+  // polynomial: their weight is below 1e-6 of that of a row in the middle.
+  constexpr double kEdge = 0.9966;
+  const auto inner_first = std::upper_bound(first, last, at - kEdge * half_width_);
+  const auto inner_last = std::lower_bound(inner_first, last, at + kEdge * half_width_);
+  if (inner_last - inner_first < needed) {
+    first = inner_first;
+    last = inner_last;
+  }
   if (last - first < needed) {
     // Add the nearest further row, until there are enough rows to determine the polynomial.
     while (last - first < needed) {

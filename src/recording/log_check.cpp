@@ -267,8 +267,10 @@ void CheckSteering(const LogRows& rows, const std::vector<Moment>& moments, LogS
 Found FindContradictions(const LogRows& rows, const LogMap& map) {
   Found found;
   const std::vector<Moment> moments = Moments(rows, map, 1.0);
-  CheckYawRateOfYaw(rows, map, found);
-  if (found.empty()) {
+  if (!map.heading_from_motion) {
+    CheckYawRateOfYaw(rows, map, found);
+  }
+  if (found.empty() && !map.heading_from_motion) {
     CheckHeading(moments, map, found);
   }
   if (rows.has[kSpeedSignal]) {

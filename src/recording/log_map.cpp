@@ -1,13 +1,17 @@
 #include "trackbed/recording/log_map.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <utility>
 
+#include "src/recording/log_source.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/path_files/globe.h"
 
 namespace trackbed {
 namespace {
@@ -89,11 +93,24 @@ void Visit(KeyVisitor& keys, LogTime& time) {
 
 void Visit(KeyVisitor& keys, LogPosition& position) {
   keys.Field({"x", "", "name of the column; east, or north with frame: ned"}, position.x,
-             Need::kRequired);
+             Need::kOptional);
   keys.Field({"y", "", "name of the column; north, or east with frame: ned"}, position.y,
-             Need::kRequired);
-  keys.Field({"unit", "", "unit of the numbers"}, position.unit, Need::kOptional,
-             Names{"m", "cm", "mm"});
+             Need::kOptional);
+  keys.Field({"latitude", "", "name of the column (WGS 84), instead of x and y"},
+             position.latitude);
+  keys.Field({"longitude", "", "name of the column (WGS 84), instead of x and y"},
+             position.longitude);
+  keys.Field(
+      {"unit", "",
+       "unit of the numbers: m, cm or mm; of latitude and longitude deg or rad; default: m or "
+       "deg"},
+      position.unit);
+  keys.Field(
+      {"origin_latitude", "deg", "origin of the projection of WGS 84; default: the first row"},
+      position.origin_latitude, Range{.min = -89.0, .max = 89.0});
+  keys.Field(
+      {"origin_longitude", "deg", "origin of the projection of WGS 84; default: the first row"},
+      position.origin_longitude, Range{.min = -180.0, .max = 180.0});
 }
 
 void Visit(KeyVisitor& keys, LogOrientation& orientation) {
@@ -164,6 +181,10 @@ void Visit(KeyVisitor& keys, LogMap& map) {
   keys.Section(
       {"orientation", "", "unit quaternion of the measured axes, of which the yaw is taken"},
       map.orientation);
+  keys.Field({"heading_from_motion", "",
+              "take the yaw from the direction of motion, for logs without a heading such as GPS "
+              "tracks; the car must not drive in reverse"},
+             map.heading_from_motion, Need::kOptional);
   static const EnumNames<LogFrame> frames{{LogFrame::kEnu, "enu"}, {LogFrame::kNed, "ned"}};
   keys.Field({"frame", "",
               "enu: x east, y north, angles and rates positive to the left; ned: x north, y east, "
@@ -202,10 +223,71 @@ void Visit(KeyVisitor& keys, LogMap& map) {
       map.align, Need::kOptional);
 }
 
+namespace {
+
+using MapProblems = std::vector<std::pair<std::string, std::string>>;
+
+/// Requires one pair of columns, and refuses to read degrees as meters.
+void AddPositionProblems(const LogPosition& position, MapProblems& found) {
+  const bool has_globe = position.latitude || position.longitude;
+  const bool has_plane = !position.x.empty() || !position.y.empty();
+  if (has_globe && has_plane) {
+    found.emplace_back("position", "give either x and y or latitude and longitude");
+    return;
+  }
+  if (has_globe ? !position.latitude || !position.longitude
+                : position.x.empty() || position.y.empty()) {
+    found.emplace_back(has_globe ? (position.latitude ? "position.longitude" : "position.latitude")
+                                 : (position.x.empty() ? "position.x" : "position.y"),
+                       "missing; give x and y, or latitude and longitude");
+    return;
+  }
+  const Names units = has_globe ? Names{"deg", "rad"} : Names{"m", "cm", "mm"};
+  if (position.unit && std::find(units.begin(), units.end(), *position.unit) == units.end()) {
+    found.emplace_back(
+        "position.unit",
+        fmt::format("'{}' is not a unit of {}; allowed: {}", *position.unit,
+                    has_globe ? "latitude and longitude" : "x and y", fmt::join(units, ", ")));
+  }
+  for (const auto& [key, name] :
+       {std::pair("position.x", &position.x), std::pair("position.y", &position.y)}) {
+    if (!has_globe && NamesGlobeAxis(FieldOfColumn(*name))) {
+      found.emplace_back(
+          key, fmt::format("'{0}' is in degrees, which are not meters: name it by "
+                           "position.latitude or position.longitude; if it is in meters, rename "
+                           "the column to {0}_m",
+                           *name));
+    }
+  }
+  for (const auto& [key, name, axis] :
+       {std::tuple("position.latitude", &position.latitude, GlobeAxis::kLatitude),
+        std::tuple("position.longitude", &position.longitude, GlobeAxis::kLongitude)}) {
+    const auto meaning = *name ? GlobeColumnOf(FieldOfColumn(**name)) : std::nullopt;
+    if (meaning && meaning->axis != axis) {
+      found.emplace_back(key, fmt::format("'{}' is the other coordinate by its name: swap "
+                                          "position.latitude and position.longitude",
+                                          **name));
+    }
+  }
+  if (position.origin_latitude.has_value() != position.origin_longitude.has_value()) {
+    found.emplace_back(
+        position.origin_latitude ? "position.origin_longitude" : "position.origin_latitude",
+        "missing; give both coordinates of the origin or none");
+  }
+}
+
+}  // namespace
+
 std::vector<std::pair<std::string, std::string>> LogMapProblems(const LogMap& map) {
   std::vector<std::pair<std::string, std::string>> found;
-  if (map.yaw.has_value() == map.orientation.has_value()) {
-    found.emplace_back("yaw", "give either yaw or orientation");
+  AddPositionProblems(map.position, found);
+  if (map.heading_from_motion && (map.yaw || map.orientation)) {
+    found.emplace_back("heading_from_motion", "not allowed with yaw or orientation");
+  } else if (!map.heading_from_motion && map.yaw.has_value() == map.orientation.has_value()) {
+    found.emplace_back("yaw",
+                       map.yaw ? "give either yaw or orientation"
+                               : "give either yaw or orientation, or heading_from_motion: true if "
+                                 "the log has no heading");
   }
   if (map.yaw && map.yaw->file) {
     found.emplace_back("yaw.file", "not allowed: position and yaw are columns of the log itself");

@@ -10,12 +10,17 @@
 #include <string>
 #include <utility>
 
+#include "src/recording/bag_map.h"
+#include "src/recording/log_globe.h"
+#include "src/recording/log_source.h"
+#include "trackbed/bag/bag.h"
 #include "trackbed/control/signal.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/csv_rows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
+#include "trackbed/path_files/globe.h"
 
 // Reads the CSV file of a log, and the other files that the log's map names, row by row. Times are
 // relative to the first row of the log. The reader skips rows outside the imported part and rows
@@ -95,8 +100,18 @@ double Yaw(double x, double y, double z, double w) {
 
 class LogReader {
  public:
-  LogReader(const fs::path& log, const LogMap& map)
-      : log_(log), map_(map), signals_(SignalColumns(map)) {
+  /// Reads a topic of a bag, if `topic` is not empty.
+  LogReader(const fs::path& log, const LogMap& map, std::string topic)
+      : log_(log),
+        topic_(std::move(topic)),
+        map_(map),
+        signals_(SignalColumns(map)),
+        is_globe_(map.position.latitude) {
+    if (is_globe_) {
+      const std::optional<GlobeColumn> meaning = GlobeColumnOf(*map.position.latitude);
+      globe_unit_ = map.position.unit ? UnitInSi(*map.position.unit) / UnitInSi("deg")
+                                      : meaning.value_or(GlobeColumn{}).degrees;
+    }
     for (const SignalColumn& signal : signals_) {
       rows_.has[signal.signal] = true;
     }
@@ -104,6 +119,12 @@ class LogReader {
 
   LogRows Read() {
     ReadPoses();
+    if (is_globe_) {
+      ProjectRows(log_, map_.position, lines_, rows_);
+    }
+    if (map_.heading_from_motion) {
+      TakeHeadings(log_, map_, rows_);
+    }
     std::vector<std::string> others;
     for (const SignalColumn& signal : signals_) {
       const std::optional<std::string>& file = signal.column.file;
@@ -198,13 +219,18 @@ class LogReader {
     series.value.push_back(signal.sign * value);
   }
 
+  [[nodiscard]] WantedColumns Wanted(const ColumnNames& names) const {
+    return {.names = names.names(), .time = map_.time.column, .delimiter = DelimiterOf(map_)};
+  }
+
   void ReadPoses();
   void ReadOther(const std::string& name, const char* key);
   /// Adds the position and the yaw of a row, unless one of them is missing.
   void TakePose(const Numbers& numbers, double time, int line,
-                const std::vector<std::size_t>& columns);
+                const std::vector<std::size_t>& columns, ProblemList& problems);
 
   const fs::path& log_;
+  std::string topic_;  // topic of the position in a bag; else empty
   const LogMap& map_;
   std::vector<SignalColumn> signals_;
   LogRows rows_;
@@ -212,10 +238,13 @@ class LogReader {
   // column of additional nanoseconds.
   std::optional<std::pair<double, double>> origin_;
   std::size_t kept_ = 0;
+  bool is_globe_;            // whether positions are longitude and latitude [deg] until projected
+  double globe_unit_ = 1.0;  // value of one unit of the columns [deg]
+  std::vector<int> lines_;   // line of each position on the globe
 };
 
 void LogReader::TakePose(const Numbers& numbers, double time, int line,
-                         const std::vector<std::size_t>& columns) {
+                         const std::vector<std::size_t>& columns, ProblemList& problems) {
   const bool complete = std::all_of(columns.begin(), columns.end(), [&](std::size_t column) {
     return std::isfinite(numbers[column]);
   });
@@ -229,28 +258,43 @@ void LogReader::TakePose(const Numbers& numbers, double time, int line,
     return;
   }
   Count(4);
-  const double unit = UnitInSi(map_.position.unit);
-  const Vec2 position = unit * Vec2(numbers[columns[0]], numbers[columns[1]]);
   double yaw = 0.0;
   if (map_.yaw) {
     yaw = map_.yaw->scale * (numbers[columns[2]] * UnitInSi(map_.yaw->unit)) + map_.yaw->offset;
     yaw = map_.yaw->curve.empty() ? yaw : Signal{map_.yaw->curve}.At(yaw);
-  } else {
+  } else if (map_.orientation) {
     yaw = Yaw(numbers[columns[2]], numbers[columns[3]], numbers[columns[4]], numbers[columns[5]]);
   }
   const bool ned = map_.frame == LogFrame::kNed;
   rows_.time.push_back(time);
-  rows_.position.push_back(ned ? Vec2(position.y(), position.x()) : position);
+  const Vec2 numbers_xy(numbers[columns[0]], numbers[columns[1]]);
+  if (is_globe_) {
+    const Vec2 degrees = globe_unit_ * numbers_xy;
+    const GlobePosition position{.latitude = degrees.y(), .longitude = degrees.x()};
+    if (std::string problem = GlobeProblem(position); !problem.empty()) {
+      problems.Add({log_.string(), line, 0, *map_.position.latitude, std::move(problem)});
+    }
+    rows_.position.push_back(degrees);
+    lines_.push_back(line);
+  } else {
+    const Vec2 position = UnitInSi(map_.position.unit.value_or("m")) * numbers_xy;
+    rows_.position.push_back(ned ? Vec2(position.y(), position.x()) : position);
+  }
   rows_.yaw.push_back(ned ? 0.5 * kPi - yaw : yaw);
 }
 
 void LogReader::ReadPoses() {
   ColumnNames names;
   Clock clock = MakeClock(names);
-  std::vector<std::size_t> pose{names.Add(map_.position.x), names.Add(map_.position.y)};
+  std::vector<std::size_t> pose;
+  if (is_globe_) {
+    pose = {names.Add(*map_.position.longitude), names.Add(*map_.position.latitude)};
+  } else {
+    pose = {names.Add(map_.position.x), names.Add(map_.position.y)};
+  }
   if (map_.yaw) {
     pose.push_back(names.Add(map_.yaw->column));
-  } else {
+  } else if (map_.orientation) {
     for (const std::string& part :
          {map_.orientation->x, map_.orientation->y, map_.orientation->z, map_.orientation->w}) {
       pose.push_back(names.Add(part));
@@ -267,7 +311,7 @@ void LogReader::ReadPoses() {
     conditions.push_back(names.Add(condition.column));
   }
   ProblemList problems;
-  ReadCsvNumbers(log_, names.names(), DelimiterOf(map_), [&](const Numbers& numbers, int line) {
+  ReadLogNumbers({log_, topic_}, Wanted(names), [&](const Numbers& numbers, int line) {
     ++rows_.rows;
     const std::optional<double> time = TimeOf(clock, numbers, log_, line, problems);
     if (!time || !IsWanted(*time)) {
@@ -283,7 +327,7 @@ void LogReader::ReadPoses() {
         return;
       }
     }
-    TakePose(numbers, *time, line, pose);
+    TakePose(numbers, *time, line, pose, problems);
     for (const auto& [signal, column] : signals) {
       TakeSignal(*signal, numbers[column], *time);
     }
@@ -293,7 +337,8 @@ void LogReader::ReadPoses() {
 
 void LogReader::ReadOther(const std::string& name, const char* key) {
   const fs::path folder = log_.parent_path();
-  if (const std::string why = ReadAccessError(name, folder, {}); !why.empty()) {
+  if (const std::string why = topic_.empty() ? ReadAccessError(name, folder, {}) : "";
+      !why.empty()) {
     throw InputError(Problem{.file = log_.string(),
                              .key = fmt::format("{}.file", key),
                              .message = fmt::format("{} {}", name, why)});
@@ -306,25 +351,50 @@ void LogReader::ReadOther(const std::string& name, const char* key) {
       signals.emplace_back(&signal, names.Add(signal.column.column));
     }
   }
-  const fs::path file = folder / name;
+  const fs::path file = topic_.empty() ? folder / name : log_;
   ProblemList problems;
-  ReadCsvNumbers(file, names.names(), DelimiterOf(map_), [&](const Numbers& numbers, int line) {
-    const std::optional<double> time = TimeOf(clock, numbers, file, line, problems);
-    // Keep also rows outside the imported part, because the rows of this file may be far apart in
-    // time.
-    if (time) {
-      for (const auto& [signal, column] : signals) {
-        TakeSignal(*signal, numbers[column], *time);
-      }
-    }
-  });
+  ReadLogNumbers({file, topic_.empty() ? "" : name}, Wanted(names),
+                 [&](const Numbers& numbers, int line) {
+                   const std::optional<double> time = TimeOf(clock, numbers, file, line, problems);
+                   // Keep also rows outside the imported part, because the rows of this file may be
+                   // far apart in time.
+                   if (time) {
+                     for (const auto& [signal, column] : signals) {
+                       TakeSignal(*signal, numbers[column], *time);
+                     }
+                   }
+                 });
   problems.ThrowIfAny();
 }
 
 }  // namespace
 
 LogRows ReadLogRows(const fs::path& log, const LogMap& map) {
-  return LogReader(log, map).Read();
+  if (IsBag(log)) {
+    const BagMap bag = DivideByTopics(log, map);
+    return LogReader(log, bag.map, bag.topic).Read();
+  }
+  return LogReader(log, map, "").Read();
+}
+
+std::string GapProblem(const std::vector<double>& time, double gap) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    steps.push_back(time[i] - time[i - 1]);
+  }
+  if (steps.empty()) {
+    return "";
+  }
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle <= gap
+             ? ""
+             : fmt::format(
+                   "most rows are {0:.4g} s or more apart, more than gap, {1:.4g} s, so nearly all "
+                   "samples would be in gaps: set gap: {2:.3g} and resample: {{half_width: "
+                   "{3:.3g}}} "
+                   "in the map",
+                   *middle, gap, 3.0 * *middle, 1.7 * *middle);
 }
 
 void Unwrap(std::vector<double>& yaw) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "trackbed/geometry/pose.h"
@@ -49,11 +50,16 @@ struct LogRows {
   std::size_t repeated = 0;      // Number of rows with the same time as the previous row.
   // Line number of the first row that has the same time as the previous row.
   int repeated_line = 0;
+  std::vector<std::string> notes{};  // How positions on the globe were projected.
 };
 
 /// Reads the rows of the log and of the other files that the map names. ReadLogRows throws
 /// InputError under the same conditions as ImportLog.
 LogRows ReadLogRows(const std::filesystem::path& log, const LogMap& map);
+
+/// Returns the problem, with its remedy, if most rows are farther apart than `gap` [s], so that
+/// nearly all samples would be in gaps; else "".
+std::string GapProblem(const std::vector<double>& time, double gap);
 
 /// Removes jumps by multiples of 2 pi from a series of yaw angles.
 void Unwrap(std::vector<double>& yaw);

@@ -83,5 +83,32 @@ TEST(Import, IsNoScenarioToCheckOrTest) {
   EXPECT_EQ(checked.code, 0) << checked.output;
 }
 
+TEST(Import, ListsABagAndReadsItByTheProposedMap) {
+  const TempFolder folder;
+  const std::string bag = (kSource / "tests/data/bags/odometry.mcap").string();
+  const Outcome listed = Trackbed(folder, "import " + bag + " --list");
+  EXPECT_EQ(listed.code, 0) << listed.output;
+  EXPECT_THAT(listed.output, HasSubstr("# /odom: nav_msgs/msg/Odometry, 21 rows\n"));
+  EXPECT_THAT(listed.output, HasSubstr("#   /drive.drive.steering_angle\n"));
+  folder.Write("map.yaml", listed.output);
+  const Outcome imported =
+      Trackbed(folder, "import " + bag + " --map map.yaml --vehicle " +
+                           (kSource / "tests/data/models/small_car.xml").string() + " -o in");
+  EXPECT_EQ(imported.code, 0) << imported.output;
+  EXPECT_THAT(imported.output, HasSubstr("odometry: 2 s, "));
+}
+
+TEST(Import, ReadsAGpsTrackWithoutAMap) {
+  const TempFolder folder;
+  const Outcome imported =
+      Trackbed(folder, "import " + (kSource / "tests/data/paths/track.gpx").string() + " -o in");
+  EXPECT_EQ(imported.code, 0) << imported.output;
+  EXPECT_THAT(imported.output, HasSubstr("UTM zone 32N"));
+  folder.Write("log.csv", "t,lat,lon\n0,48.1,11.5\n1,48.1001,11.5\n");
+  const Outcome missing = Trackbed(folder, "import log.csv");
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_THAT(missing.output, HasSubstr("trackbed import log.csv --list"));
+}
+
 }  // namespace import_test
 }  // namespace trackbed

@@ -399,7 +399,9 @@ TEST(ImportLog, SaysWhatIsWrongInAFile) {
   EXPECT_THAT(Problems("t,x,y,yaw\n0,0,0,0\n1e6,1,0,0\n", map),
               HasSubstr("log.csv: 1e+08 samples at 100 per second; must be at most 1e+06"));
   map.yaw.reset();
-  EXPECT_EQ(Problems(good, map), "yaw: give either yaw or orientation");
+  EXPECT_EQ(Problems(good, map),
+            "yaw: give either yaw or orientation, or heading_from_motion: true if the log has no "
+            "heading");
 }
 
 constexpr const char* kAnyway = " (check: false in the map imports it anyway)";

@@ -56,10 +56,18 @@ struct LogTime {
   std::optional<std::string> nanoseconds{};
 };
 
+/// The columns of the position: x and y in a plane, or latitude and longitude in WGS 84.
 struct LogPosition {
-  std::string x;
-  std::string y;
-  std::string unit = "m";
+  std::string x{};
+  std::string y{};
+  std::optional<std::string> latitude{};
+  std::optional<std::string> longitude{};
+  /// "m", "cm" or "mm", by default "m"; "deg" or "rad" of latitude and longitude, by default "deg".
+  std::optional<std::string> unit{};
+  /// Latitude of the drive's coordinate origin [deg]; default: the first row's.
+  std::optional<double> origin_latitude{};
+  /// Longitude of the drive's coordinate origin [deg]; default: the first row's.
+  std::optional<double> origin_longitude{};
 };
 
 /// The columns of a unit quaternion, from which the yaw is computed.
@@ -132,6 +140,9 @@ struct LogMap {
   /// Column with the measured yaw; cannot be combined with `orientation`.
   std::optional<LogColumnOf<LogQuantity::kAngle>> yaw{};
   std::optional<LogOrientation> orientation{};
+  /// Whether the yaw is the direction of motion of the measured point, for logs without a heading
+  /// such as GPS tracks. A car that drives in reverse would be read as a car that turned around.
+  bool heading_from_motion = false;
   LogFrame frame = LogFrame::kEnu;
   LogSensor sensor{};
   /// Column with the measured speed, which replaces the speed computed from the position.

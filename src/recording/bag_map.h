@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "trackbed/recording/log_map.h"
+
+namespace trackbed {
+
+/// The map of a bag, divided for its topics.
+struct BagMap {
+  /// The map with the names of fields instead of columns. LogColumn::file is the topic of a column
+  /// in another topic than the position's.
+  LogMap map;
+  std::string topic;  ///< Topic of the position and of the orientation.
+};
+
+/// Divides the columns of a map into topics and fields. Throws InputError, with the key, if a
+/// column names no topic, or if a column of the pose or of a condition is in another topic.
+BagMap DivideByTopics(const std::filesystem::path& log, LogMap map);
+
+}  // namespace trackbed

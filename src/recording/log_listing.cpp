@@ -1,0 +1,304 @@
+#include "trackbed/recording/log_listing.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <boost/algorithm/string.hpp>
+#include <cctype>
+
+#include "src/recording/log_source.h"
+#include "trackbed/bag/bag.h"
+#include "trackbed/bag/message.h"
+#include "trackbed/core/csv_rows.h"
+#include "trackbed/core/error.h"
+#include "trackbed/path_files/globe_file.h"
+
+// Lists a log and proposes a map. In CSV files, columns are recognized by the names that path files
+// use, too. In bags, the type of a topic's messages decides: the position is that of an odometry, a
+// pose or a satellite fix, the first of these that the bag has.
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Name of a map for a log: the letters, digits and '_' of the file's name.
+std::string MapName(const fs::path& log) {
+  std::string name = log.stem().string();
+  std::erase_if(name, [](unsigned char c) {
+    return c >= 0x80 || (std::isalnum(c) == 0 && c != '_' && c != '-');
+  });
+  return name.empty() ? "log" : name;
+}
+
+/// Sets `gap` and the half width of the polynomials for rows that are `step` seconds apart.
+void FitTo(double step, LogMap& map) {
+  const LogMap usual;
+  if (step > 0.3 * usual.gap) {
+    const auto rounded = [](double value) { return std::stod(fmt::format("{:.2g}", value)); };
+    map.gap = rounded(3.0 * step);
+    map.resample.half_width = std::min(10.0, rounded(1.7 * step));
+    map.resample.rate = std::clamp(rounded(10.0 / step), 1.0, usual.resample.rate);
+  }
+}
+
+double MedianStep(std::vector<double> times) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i] > times[i - 1]) {
+      steps.push_back(times[i] - times[i - 1]);
+    }
+  }
+  if (steps.empty()) {
+    return 0.0;
+  }
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+LogListing ListGlobe(const fs::path& log) {
+  const GlobeFile file = ReadGlobeFile(log);
+  LogListing listing;
+  std::vector<double> times;
+  LogTopic topic{.name = {}, .type = file.format, .rows = 0, .columns = {}, .problem = {}};
+  for (const GlobeLine& line : file.lines) {
+    topic.rows += line.points.size();
+    for (const GlobePoint& point : line.points) {
+      if (point.time) {
+        times.push_back(*point.time);
+      }
+    }
+  }
+  topic.columns.assign(std::begin(kGlobeColumns), std::end(kGlobeColumns));
+  listing.topics.push_back(std::move(topic));
+  if (times.size() < 2) {
+    listing.problem =
+        "the file has no times, so it is a path and not a recording: drive it with plan: {method: "
+        "path_file}";
+    return listing;
+  }
+  LogMap& map = listing.map.emplace();
+  map.name = MapName(log);
+  map.time.column = "time";
+  map.position.latitude = "latitude";
+  map.position.longitude = "longitude";
+  map.heading_from_motion = true;
+  FitTo(MedianStep(times), map);
+  return listing;
+}
+
+/// Returns the first of the names that the log has, ignoring case; "" if it has none.
+std::string AnyOf(const std::vector<std::string>& names, const std::vector<const char*>& wanted) {
+  for (const char* own : wanted) {
+    for (const std::string& name : names) {
+      if (boost::iequals(name, own)) {
+        return name;
+      }
+    }
+  }
+  return "";
+}
+
+LogListing ListCsv(const fs::path& log) {
+  LogListing listing;
+  LogTopic topic{.name = {}, .type = "CSV", .rows = 0, .columns = {}, .problem = {}};
+  topic.columns = ReadCsvNames(log, topic.rows);
+  const std::vector<std::string>& names = topic.columns;
+  LogMap map;
+  map.name = MapName(log);
+  map.time.column = AnyOf(names, {"t_s", "t", "time_s", "time", "timestamp_s", "timestamp", "stamp",
+                                  "datetime", "utc"});
+  map.position.x = AnyOf(names, {"x_m", "x", "pos_x", "position_x", "easting"});
+  map.position.y = AnyOf(names, {"y_m", "y", "pos_y", "position_y", "northing"});
+  const GlobeColumns globe = FindGlobeColumns(names);
+  if (map.position.x.empty() || map.position.y.empty()) {
+    map.position = {};
+    if (globe.latitude && globe.longitude) {
+      map.position.latitude = names[*globe.latitude];
+      map.position.longitude = names[*globe.longitude];
+    }
+  }
+  const std::string yaw =
+      AnyOf(names, {"yaw_rad", "yaw", "heading_rad", "theta_rad", "theta", "psi"});
+  if (map.position.latitude || yaw.empty()) {
+    map.heading_from_motion = true;
+  } else {
+    map.yaw.emplace();
+    map.yaw->column = yaw;
+  }
+  if (const std::string speed =
+          AnyOf(names, {"speed_mps", "vx_mps", "v_mps", "speed", "velocity", "v"});
+      !speed.empty()) {
+    map.speed.emplace();
+    map.speed->column = speed;
+  }
+  listing.topics.push_back(std::move(topic));
+  const bool has_position = map.position.latitude || !map.position.x.empty();
+  if (map.time.column.empty() || !has_position) {
+    listing.problem =
+        fmt::format("no column has a usual name for {}{}{}",
+                    map.time.column.empty() ? "the time (t_s, time)" : "",
+                    map.time.column.empty() && !has_position ? " and " : "",
+                    has_position ? "" : "the position (x_m, y_m, latitude, longitude)");
+    return listing;
+  }
+  std::vector<double> times;
+  ReadCsvColumns(log, {map.time.column}, kFindDelimiter, map.time.column,
+                 [&](const std::vector<double>& numbers, int /*line*/) {
+                   constexpr std::size_t kEnough = 10'000;
+                   if (times.size() < kEnough) {
+                     times.push_back(numbers.front());
+                   }
+                 });
+  FitTo(MedianStep(std::move(times)), map);
+  listing.map = std::move(map);
+  return listing;
+}
+
+/// Proposes a map for a bag.
+class BagProposal {
+ public:
+  BagProposal(const std::vector<BagTopic>& topics, const fs::path& log) : topics_(topics) {
+    map_.name = MapName(log);
+    map_.time = {.column = "stamp.sec", .unit = "s", .nanoseconds = "stamp.nanosec"};
+  }
+
+  std::optional<LogMap> Make() {
+    if (!TakePose("nav_msgs/msg/Odometry", "pose.pose.") &&
+        !TakePose("geometry_msgs/msg/PoseStamped", "pose.") &&
+        !TakePose("geometry_msgs/msg/PoseWithCovarianceStamped", "pose.pose.") && !TakeFix()) {
+      return std::nullopt;
+    }
+    Take(map_.speed, {{"nav_msgs/msg/Odometry", "twist.twist.linear.x"},
+                      {"autoware_vehicle_msgs/msg/VelocityReport", "longitudinal_velocity"},
+                      {"autoware_auto_vehicle_msgs/msg/VelocityReport", "longitudinal_velocity"},
+                      {"geometry_msgs/msg/TwistStamped", "twist.linear.x"},
+                      {"geometry_msgs/msg/TwistWithCovarianceStamped", "twist.twist.linear.x"}});
+    Take(map_.yaw_rate, {{"nav_msgs/msg/Odometry", "twist.twist.angular.z"},
+                         {"sensor_msgs/msg/Imu", "angular_velocity.z"},
+                         {"autoware_vehicle_msgs/msg/VelocityReport", "heading_rate"},
+                         {"autoware_auto_vehicle_msgs/msg/VelocityReport", "heading_rate"},
+                         {"geometry_msgs/msg/TwistStamped", "twist.angular.z"}});
+    Take(map_.steering, {{"autoware_vehicle_msgs/msg/SteeringReport", "steering_tire_angle"},
+                         {"autoware_auto_vehicle_msgs/msg/SteeringReport", "steering_tire_angle"}});
+    Take(map_.steering_command,
+         {{"ackermann_msgs/msg/AckermannDriveStamped", "drive.steering_angle"},
+          {"ackermann_msgs/msg/AckermannDrive", "steering_angle"},
+          {"autoware_control_msgs/msg/Control", "lateral.steering_tire_angle"},
+          {"autoware_auto_control_msgs/msg/AckermannControlCommand",
+           "lateral.steering_tire_angle"}});
+    Take(map_.throttle,
+         {{"autoware_control_msgs/msg/Control", "longitudinal.acceleration"},
+          {"autoware_auto_control_msgs/msg/AckermannControlCommand", "longitudinal.acceleration"}});
+    return map_;
+  }
+
+  [[nodiscard]] const std::string& topic() const { return topic_; }
+
+ private:
+  /// Returns the topic of a type that has the most messages, at least two; null if there is none.
+  [[nodiscard]] const BagTopic* Find(const std::string& type) const {
+    const BagTopic* found = nullptr;
+    for (const BagTopic& topic : topics_) {
+      if (topic.type == type && topic.messages >= 2 && topic.encoding == "cdr" &&
+          (found == nullptr || topic.messages > found->messages)) {
+        found = &topic;
+      }
+    }
+    return found;
+  }
+
+  bool TakePose(const char* type, const std::string& prefix) {
+    const BagTopic* topic = Find(type);
+    if (topic == nullptr) {
+      return false;
+    }
+    topic_ = topic->name;
+    const std::string start = topic_ + "." + prefix;
+    map_.position.x = start + "position.x";
+    map_.position.y = start + "position.y";
+    map_.orientation = LogOrientation{start + "orientation.x", start + "orientation.y",
+                                      start + "orientation.z", start + "orientation.w"};
+    return true;
+  }
+
+  bool TakeFix() {
+    const BagTopic* topic = Find("sensor_msgs/msg/NavSatFix");
+    if (topic == nullptr) {
+      return false;
+    }
+    topic_ = topic->name;
+    map_.position.latitude = topic_ + ".latitude";
+    map_.position.longitude = topic_ + ".longitude";
+    map_.heading_from_motion = true;
+    map_.valid.push_back({.column = topic_ + ".status.status", .min = 0.0});
+    return true;
+  }
+
+  template <typename Column>
+  void Take(std::optional<Column>& column,
+            const std::vector<std::pair<const char*, const char*>>& sources) {
+    for (const auto& [type, field] : sources) {
+      if (const BagTopic* topic = Find(type)) {
+        column.emplace();
+        column->column = topic->name + "." + field;
+        return;
+      }
+    }
+  }
+
+  const std::vector<BagTopic>& topics_;
+  LogMap map_;
+  std::string topic_;  // topic of the position
+};
+
+LogListing ListBag(const fs::path& log) {
+  const BagContent content = ReadBagTopics(log);
+  LogListing listing;
+  listing.notes = content.notes;
+  for (const BagTopic& own : content.topics) {
+    LogTopic topic{
+        .name = own.name, .type = own.type, .rows = own.messages, .columns = {}, .problem = {}};
+    try {
+      if (own.encoding != "cdr") {
+        throw InputError(
+            Problem{.message = fmt::format("encoding '{}'; must be cdr", own.encoding)});
+      }
+      const BagMessage message(own.type, own.definition);
+      for (const std::string& column : message.columns()) {
+        topic.columns.push_back(own.name + "." + column);
+      }
+    } catch (const InputError& error) {
+      topic.problem = error.problems().front().message;
+    }
+    listing.topics.push_back(std::move(topic));
+  }
+  BagProposal proposal(content.topics, log);
+  listing.map = proposal.Make();
+  if (!listing.map) {
+    listing.problem =
+        "no topic has at least two messages of the types nav_msgs/Odometry, "
+        "geometry_msgs/PoseStamped, geometry_msgs/PoseWithCovarianceStamped or "
+        "sensor_msgs/NavSatFix, which have a position";
+    return listing;
+  }
+  std::vector<double> times;
+  ReadLogNumbers({log, proposal.topic()}, {.names = {"stamp.sec", "stamp.nanosec"}, .time = {}},
+                 [&](const std::vector<double>& numbers, int /*row*/) {
+                   times.push_back(numbers[0] + 1e-9 * numbers[1]);
+                 });
+  FitTo(MedianStep(std::move(times)), *listing.map);
+  return listing;
+}
+
+}  // namespace
+
+LogListing ListLog(const fs::path& log) {
+  if (IsGlobeFile(log)) {
+    return ListGlobe(log);
+  }
+  return IsBag(log) ? ListBag(log) : ListCsv(log);
+}
+
+}  // namespace trackbed

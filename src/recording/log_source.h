@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "trackbed/bag/message.h"
+
+namespace trackbed {
+
+/// Series of rows in a log.
+struct LogSource {
+  std::filesystem::path file;
+  std::string topic;  ///< Topic of a bag; empty for other files.
+};
+
+/// Columns of rows that are read, and how.
+struct WantedColumns {
+  std::vector<std::string> names;
+  std::string time;  ///< Column whose cells may be timestamps (TimestampSeconds) in a CSV file.
+  char delimiter = ',';
+};
+
+using TakeLogRow = std::function<void(const std::vector<double>& numbers, int line)>;
+
+/// Reads columns of a log by name: of a CSV file (ReadCsvNumbers), of a GPX, KML or GeoJSON file,
+/// whose columns are kGlobeColumns, or of a topic of a bag, whose columns are those of its messages
+/// (BagMessage) and kBagTimes. In a bag, `stamp.sec` is the time in the message's header; without
+/// it, the time at which the message was logged. Throws InputError in the same cases as
+/// ReadCsvNumbers, ReadGlobeFile, ReadBagMessages and BagMessage.
+void ReadLogNumbers(const LogSource& source, const WantedColumns& columns, const TakeLogRow& take);
+
+/// The columns of a GPX, KML or GeoJSON file: seconds since 1970, degrees, degrees and meters.
+inline constexpr const char* kGlobeColumns[] = {"time", "latitude", "longitude", "elevation"};
+
+/// Columns of every topic: the time at which a message was logged [s, ns].
+inline constexpr const char* kBagTimes[] = {"log_time.sec", "log_time.nanosec"};
+
+/// Returns the type of the messages of a topic. Throws InputError if the bag has no such topic.
+BagMessage MessageOfTopic(const std::filesystem::path& file, const std::string& topic);
+
+/// Returns the field of a column of a bag, such as "pose.position.x" of "/odom.pose.position.x".
+/// Returns all other names unchanged.
+std::string FieldOfColumn(const std::string& column);
+/// Returns the topic of a column of a bag, "/odom" in this example; "" for all other names.
+std::string TopicOfColumn(const std::string& column);
+
+}  // namespace trackbed

@@ -1,0 +1,206 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/path_files/globe.h"
+#include "trackbed/path_files/path_file.h"
+#include "trackbed/recording/import_log.h"
+#include "trackbed/recording/log_listing.h"
+
+// Tests the import of GPS tracks and of bags of ROS 2 by the maps that ListLog proposes, against
+// the motion that the files were made from.
+namespace trackbed {
+namespace import_other_logs_test {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::HasSubstr;
+
+const fs::path kBags = fs::path(TRACKBED_SOURCE_DIR) / "tests/data/bags";
+
+constexpr double kRadius = 20.0;
+constexpr double kSpeed = 5.0;
+constexpr double kRate = kSpeed / kRadius;
+
+TEST(ListLog, ProposesAMapThatReadsABag) {
+  for (const char* name : {"odometry.mcap", "autoware.mcap", "sqlite", "sqlite_zstd", "mcap"}) {
+    SCOPED_TRACE(name);
+    const LogListing listing = ListLog(kBags / name);
+    ASSERT_TRUE(listing.map.has_value()) << listing.problem;
+    const RecordedDrive drive = ImportLog(kBags / name, *listing.map);
+    EXPECT_NEAR(drive.duration(), 2.0, Tolerance(0.05));
+    EXPECT_EQ(drive.valid_fraction(), 1.0);
+    for (const RecordedSample& sample : drive.samples) {
+      const double angle = kRate * sample.time;
+      // A parabola through rows 0.1 s apart within 0.17 s (0.3 s at an end, with the nearest rows)
+      // deviates from the circle by up to R rate^3 h^3/6 = 1.4 mm, times the sum of the magnitudes
+      // of the weights, below 3.
+      EXPECT_NEAR(sample.pose.x, kRadius * std::sin(angle), Tolerance(4.2e-3));
+      EXPECT_NEAR(sample.pose.y, kRadius * (1.0 - std::cos(angle)), Tolerance(4.2e-3));
+      // The yaw, the speed and the yaw rate are linear in time, which parabolas fit exactly.
+      EXPECT_NEAR(sample.pose.yaw, angle, Tolerance(1e-9));
+      if (listing.map->speed) {
+        EXPECT_NEAR(sample.velocity_V.x(), kSpeed, Tolerance(1e-6));
+      }
+      EXPECT_NEAR(sample.yaw_rate, kRate, Tolerance(1e-6));
+    }
+  }
+}
+
+// The rows at the edges of the window have no weight, so that they cannot determine a parabola.
+TEST(ImportLog, UsesFurtherRowsIfThoseAtTheEdgeOfTheWindowHaveNoWeight) {
+  for (const double half_width : {0.1, 0.15, 0.2}) {
+    LogMap map = *ListLog(kBags / "sqlite").map;
+    map.resample = {.rate = 100.0, .half_width = half_width, .degree = 2};
+    for (const RecordedSample& sample : ImportLog(kBags / "sqlite", map).samples) {
+      // As above; the yaw is linear in time.
+      EXPECT_NEAR(sample.pose.yaw, kRate * sample.time, Tolerance(1e-6));
+      EXPECT_NEAR(sample.pose.x, kRadius * std::sin(kRate * sample.time), Tolerance(4.2e-3));
+    }
+  }
+}
+
+TEST(ListLog, FindsSteeringAndCommands) {
+  const RecordedDrive odometry =
+      ImportLog(kBags / "odometry.mcap", *ListLog(kBags / "odometry.mcap").map);
+  EXPECT_FALSE(odometry.has_steering);
+  // Commands of 32 bits have an error of half a unit in the last place, 2^-28 here.
+  EXPECT_NEAR(odometry.samples[3].steering_command, 0.12, Tolerance(4e-9));
+  const RecordedDrive autoware =
+      ImportLog(kBags / "autoware.mcap", *ListLog(kBags / "autoware.mcap").map);
+  EXPECT_NEAR(autoware.samples[3].steering, 0.1, Tolerance(4e-9));
+  EXPECT_NEAR(autoware.samples[3].steering_command, 0.12, Tolerance(4e-9));
+  EXPECT_EQ(autoware.samples[3].throttle, 0.25);
+}
+
+TEST(ImportLog, SaysWhatIsWrongWithTheColumnsOfABag) {
+  const auto error = [](const std::function<void(LogMap&)>& change) -> std::string {
+    LogMap map = *ListLog(kBags / "odometry.mcap").map;
+    change(map);
+    try {
+      ImportLog(kBags / "odometry.mcap", map);
+      return "no error";
+    } catch (const InputError& problem) {
+      return problem.what();
+    }
+  };
+  EXPECT_THAT(error([](LogMap& map) { map.position.x = "x"; }), HasSubstr("names no topic"));
+  EXPECT_THAT(error([](LogMap& map) { map.position.y = "/drive.drive.speed"; }),
+              HasSubstr("not a column of the topic of the position, /odom"));
+  EXPECT_THAT(error([](LogMap& map) { map.speed->column = "/odom.twist.twist.linear.xx"; }),
+              HasSubstr("twist.twist.linear.x'?"));
+  EXPECT_THAT(error([](LogMap& map) { map.speed->column = "/drives.drive.speed"; }),
+              HasSubstr("no topic '/drives'; did you mean '/drive'?"));
+}
+
+TEST(ReadPathFile, ReadsAPathOfABag) {
+  const PathFile path = ReadPathFile(kBags / "odometry.mcap");
+  ASSERT_EQ(path.points.points.size(), 12U);
+  EXPECT_NEAR(path.points.points[4].x(), kRadius * std::sin(kRate * 0.8), Tolerance(1e-14));
+  EXPECT_NEAR(path.points.yaw[4], kRate * 0.8, Tolerance(1e-14));
+  PathMap map;
+  map.topic = "/odom";
+  EXPECT_EQ(ReadPathFile(kBags / "odometry.mcap", map).points.points.size(), 21U);
+  map.topic = "/odo";
+  EXPECT_THROW(ReadPathFile(kBags / "odometry.mcap", map), InputError);
+}
+
+/// A drive on a circle around the origin of a plane at latitude 48.1, longitude 11.5, at 5 m/s:
+/// rows of GPS at 1 Hz. The degrees are found by Newton's method on the projection.
+std::string Fixes(const char* row) {
+  const LocalPlane plane({48.1, 11.5});
+  std::string rows;
+  for (int second = 0; second <= 30; ++second) {
+    const double angle = kRate * 0.2 * second;
+    const Vec2 wanted(5.0 * kRadius * std::sin(angle), 5.0 * kRadius * (1.0 - std::cos(angle)));
+    GlobePosition at{48.1, 11.5};
+    for (int i = 0; i < 10; ++i) {
+      const Vec2 error = wanted - *plane.ToMeters(at);
+      at.latitude += error.y() / 111'000.0;
+      at.longitude += error.x() / 74'000.0;
+    }
+    rows += fmt::format(fmt::runtime(row), at.latitude, at.longitude, second);
+  }
+  return rows;
+}
+
+void ExpectCircle(const fs::path& log, const LogMap& map) {
+  const RecordedDrive drive = ImportLog(log, map);
+  EXPECT_NEAR(drive.duration(), 30.0, Tolerance(0.1));
+  EXPECT_EQ(drive.valid_fraction(), 1.0);
+  for (const RecordedSample& sample : drive.samples) {
+    const double angle = 0.2 * kRate * sample.time;  // radius 100 m
+    // As above, with h up to 2 s at an end: R rate^3 h^3/6 = 17 mm, times 3.
+    EXPECT_NEAR(sample.pose.x, 100.0 * std::sin(angle), Tolerance(0.05));
+    EXPECT_NEAR(sample.pose.y, 100.0 * (1.0 - std::cos(angle)), Tolerance(0.05));
+    // Slopes have twice the error of values divided by h, 0.05 m/s of 5 m/s.
+    EXPECT_NEAR(AngleDifference(sample.pose.yaw, angle), 0.0, Tolerance(0.02));
+  }
+  EXPECT_THAT(drive.notes, Contains(HasSubstr("UTM zone 32N")));
+  EXPECT_THAT(drive.notes, Contains(HasSubstr("the yaw is the direction of motion")));
+}
+
+TEST(ImportLog, ReadsGpsTracks) {
+  const TempFolder folder;
+  const fs::path gpx = folder.Write(
+      "ride.gpx",
+      "<gpx><trk><trkseg><trkpt lat='0' lon='0'><time>2024-04-30T23:59:50Z</time></trkpt>" +
+          Fixes("<trkpt lat='{:.10f}' lon='{:.10f}'><time>2024-05-01T00:00:{:02d}Z</time>"
+                "</trkpt>") +
+          "</trkseg></trk></gpx>");
+  const LogListing listing = ListLog(gpx);
+  ASSERT_TRUE(listing.map.has_value()) << listing.problem;
+  ExpectCircle(gpx, *listing.map);
+  EXPECT_THAT(ImportLog(gpx, *listing.map).notes, Contains(HasSubstr("1 position skipped")));
+  const fs::path csv = folder.Write(
+      "ride.csv", "time;GPS Latitude;GPS Longitude\n" + [] {
+        std::string rows = Fixes("2024-05-01T00:00:{2:02d}+00:00;{0:.10f};{1:.10f}\n");
+        return rows;
+      }());
+  const LogListing of_csv = ListLog(csv);
+  ASSERT_TRUE(of_csv.map.has_value()) << of_csv.problem;
+  ExpectCircle(csv, *of_csv.map);
+}
+
+TEST(ImportLog, RefusesDegreesAsMeters) {
+  const auto error = [](const std::function<void(LogMap&)>& change) -> std::string {
+    LogMap map;
+    map.name = "log";
+    map.time.column = "t";
+    map.heading_from_motion = true;
+    map.position = {.x = "lon", .y = "lat"};
+    change(map);
+    const TempFolder folder;
+    try {
+      ImportLog(folder.Write("log.csv", "t,lat,lon\n0,48.1,11.5\n1,48.1001,11.5\n2,48.1002,11.5\n"),
+                map);
+      return "no error";
+    } catch (const InputError& problem) {
+      return problem.what();
+    }
+  };
+  EXPECT_THAT(error([](LogMap&) {}),
+              HasSubstr("position.x: 'lon' is in degrees, which are not meters"));
+  EXPECT_THAT(error([](LogMap& map) { map.position = {.latitude = "lon", .longitude = "lat"}; }),
+              HasSubstr("swap position.latitude and position.longitude"));
+  EXPECT_THAT(error([](LogMap& map) {
+                map.position = {.latitude = "lat", .longitude = "lon", .unit = "m"};
+              }),
+              HasSubstr("not a unit of latitude and longitude"));
+  EXPECT_THAT(error([](LogMap& map) { map.position = {.latitude = "lat", .longitude = "lon"}; }),
+              HasSubstr("set gap: 3 "));
+  EXPECT_THAT(error([](LogMap& map) {
+                map.position = {.latitude = "lat", .longitude = "lon"};
+                map.gap = 3.0;
+              }),
+              testing::StartsWith("no error"));
+}
+
+}  // namespace import_other_logs_test
+}  // namespace trackbed
