@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-constexpr std::size_t kStep = std::size_t{1} << 20U;  // output that is decompressed at once [bytes]
+constexpr std::size_t kStep = std::size_t{1} << 18U;  // output that is decompressed at once [bytes]
 
 std::string DecompressLz4(std::string_view data, std::size_t largest,
                           const std::filesystem::path& file) {
@@ -23,7 +23,7 @@ std::string DecompressLz4(std::string_view data, std::size_t largest,
   const std::unique_ptr<LZ4F_dctx, LZ4F_errorCode_t (*)(LZ4F_dctx*)> context(
       created, LZ4F_freeDecompressionContext);
   std::string out;
-  std::string step(kStep, '\0');
+  std::string step(std::min(kStep, largest + 1), '\0');
   std::size_t left = 1;
   while (left != 0) {
     std::size_t in = data.size();
@@ -52,7 +52,7 @@ std::string DecompressZstd(std::string_view data, std::size_t largest,
   constexpr int kMaxWindowLog = 27;  // windows of at most 128 MiB
   ZSTD_DCtx_setParameter(stream.get(), ZSTD_d_windowLogMax, kMaxWindowLog);
   std::string out;
-  std::string step(kStep, '\0');
+  std::string step(std::min(kStep, largest + 1), '\0');
   ZSTD_inBuffer in{data.data(), data.size(), 0};
   std::size_t left = 1;
   while (left != 0) {
