@@ -5,11 +5,14 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "src/recording/local_polynomial.h"
+#include "trackbed/core/csv_rows.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/text_table.h"
 #include "trackbed/path_files/globe.h"
 
 namespace trackbed {
@@ -58,6 +61,43 @@ void ProjectRows(const std::filesystem::path& log, const LogPosition& map, std::
   }
   rows.position = std::move(projected.points);
   rows.notes.push_back(projected.note);
+}
+
+void CheckHemispheres(const std::filesystem::path& log, const LogPosition& map, char delimiter) {
+  std::vector<std::string> names;
+  std::vector<std::size_t> letters;  // columns whose names are usual for hemispheres
+  ProblemList problems;
+  const auto take_names = [&](std::vector<std::string>& found, int /*line*/) {
+    names = std::move(found);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (NamesHemisphere(names[i])) {
+        letters.push_back(i);
+      }
+    }
+  };
+  const auto is_positive = [&](const std::vector<std::string>& cells, const std::string& column) {
+    const auto at = std::find(names.begin(), names.end(), column) - names.begin();
+    const auto index = static_cast<std::size_t>(at);
+    return index < cells.size() && CellNumber(cells[index]).value_or(0.0) > 0.0;
+  };
+  const auto take_row = [&](std::vector<std::string>& cells, int line) {
+    for (const std::size_t i : letters) {
+      const std::string cell = i < cells.size() ? cells[i] : "";
+      const bool is_south = cell == "S" || cell == "s";
+      const bool is_west = cell == "W" || cell == "w";
+      if ((is_south && is_positive(cells, *map.latitude)) ||
+          (is_west && is_positive(cells, *map.longitude))) {
+        problems.Add({log.string(), line, 0, names[i],
+                      fmt::format("'{}' beside a positive {}; write {} as negative numbers", cell,
+                                  is_south ? "latitude" : "longitude",
+                                  is_south ? "southern latitudes" : "western longitudes")});
+      }
+    }
+  };
+  constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
+  ReadCsvTable(log, {.max_cells = kAny, .max_bytes = kAny, .delimiter = delimiter}, problems,
+               take_names, take_row);
+  problems.ThrowIfAny();
 }
 
 void TakeHeadings(const std::filesystem::path& log, const LogMap& map, LogRows& rows) {

@@ -21,6 +21,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
 #include "trackbed/path_files/globe.h"
+#include "trackbed/path_files/globe_file.h"
 
 // Reads the CSV file of a log, and the other files that the log's map names, row by row. Times are
 // relative to the first row of the log. The reader skips rows outside the imported part and rows
@@ -119,6 +120,9 @@ class LogReader {
 
   LogRows Read() {
     ReadPoses();
+    if (is_globe_ && topic_.empty() && !IsGlobeFile(log_)) {
+      CheckHemispheres(log_, map_.position, DelimiterOf(map_));
+    }
     if (is_globe_) {
       ProjectRows(log_, map_.position, lines_, rows_);
     }

@@ -202,5 +202,24 @@ TEST(ImportLog, RefusesDegreesAsMeters) {
               testing::StartsWith("no error"));
 }
 
+TEST(ImportLog, RefusesHemispheresInColumnsOfTheirOwn) {
+  LogMap map;
+  map.name = "log";
+  map.time.column = "t";
+  map.heading_from_motion = true;
+  map.position = {.latitude = "lat", .longitude = "lon"};
+  map.gap = 3.0;
+  const TempFolder folder;
+  const fs::path log = folder.Write(
+      "log.csv", "t,lat,N/S,lon,E/W\n0,33.9,S,18.4,E\n1,33.9001,S,18.4,E\n2,33.9002,S,18.4,E\n");
+  try {
+    ImportLog(log, map);
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("log.csv:2: N/S: 'S' beside a positive latitude; write "
+                                        "southern latitudes as negative numbers"));
+  }
+}
+
 }  // namespace import_other_logs_test
 }  // namespace trackbed
