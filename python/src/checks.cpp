@@ -17,6 +17,7 @@ void BindChecks(py::module_& module) {
   module.def("stays_within", &run_checks::StaysWithin);
   module.def("keeps_clearance", &run_checks::KeepsClearance);
   module.def("reaches_goal", &run_checks::ReachesGoal);
+  module.def("steers_calmly", &run_checks::SteersCalmly);
   module.def("satisfies", &run_checks::Satisfies);
   module.def("meets_its_expectations", &run_checks::MeetsItsExpectations);
   module.def("describe", [](const RunResult& run) { return run_checks::Describe(run); });

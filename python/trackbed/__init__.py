@@ -21,6 +21,7 @@ from ._checks import (
     reaches_goal,
     satisfies,
     stays_within,
+    steers_calmly,
     tracks_within,
 )
 from ._loops import Loop, LoopState, Observation, VectorLoop
@@ -79,6 +80,7 @@ __all__ = [
     "run",
     "satisfies",
     "stays_within",
+    "steers_calmly",
     "sweep",
     "tracks_within",
 ]

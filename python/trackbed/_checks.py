@@ -45,6 +45,12 @@ def reaches_goal(run: Run, distance: float) -> None:
     _check(run, _trackbed.reaches_goal(number("distance", distance)))
 
 
+def steers_calmly(run: Run) -> None:
+    """Asserts that no plant's steering command oscillates without an end, as in a limit cycle."""
+    __tracebackhide__ = True
+    _check(run, _trackbed.steers_calmly())
+
+
 def satisfies(run: Run, formula: str) -> None:
     """Asserts that every plant's log satisfies a formula of temporal logic over its columns."""
     __tracebackhide__ = True

@@ -144,6 +144,13 @@ std::string OverspeedMessage(const Check& check) {
       value, bound, Where(check.at));
 }
 
+std::string OscillationMessage(const Check& check) {
+  return fmt::format(
+      "the steering command oscillates by {:.3g} rad to each side at {} Hz without decaying{} "
+      "(default check; an expectation on oscillation.amplitude replaces it)",
+      NumberIn(check.value).value_or(0.0), check.detail, Where(check.at));
+}
+
 std::string RequirementMessage(const Check& check) {
   if (!check.detail.empty()) {
     return fmt::format("requirement '{}': {}", check.name, check.detail);
@@ -263,6 +270,8 @@ std::string FailureMessage(const Check& check) {
         return CorridorMessage(check);
       case CheckReason::kOverspeed:
         return OverspeedMessage(check);
+      case CheckReason::kOscillation:
+        return OscillationMessage(check);
       case CheckReason::kSteeringRate:
         return fmt::format(
             "steering rate {:.4g} rad/s exceeds the actuator limit of {} rad/s{}; drive.timestep "

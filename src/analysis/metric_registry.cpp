@@ -297,7 +297,9 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
   PlantMetrics metrics;
   metrics.plant = plant;
   metrics.yaw_rate_ratio = 1.0;
+  metrics.steering_activity = 0.0;
   if (scenario.plan) {
+    metrics.oscillation.emplace();
     metrics.tracking.emplace().overspeed_max = 0.0;
     constexpr double kAnyTime = std::numeric_limits<double>::infinity();
     if (DisturbedUntil(scenario.disturb, scenario.world.wind, kAnyTime)) {

@@ -92,6 +92,34 @@ Reading YawRateRatio(const PlantMetrics& metrics) {
   return metrics.yaw_rate_ratio ? Reading({*metrics.yaw_rate_ratio, {}}) : Reading();
 }
 
+Reading SteeringActivity(const PlantMetrics& metrics) {
+  return metrics.steering_activity ? Reading({*metrics.steering_activity, {}}) : Reading();
+}
+
+MetricPlace PlaceOf(const OscillationMetrics& oscillation) {
+  return oscillation.frequency ? MetricPlace{.span = MetricSpan::kInterval,
+                                             .t = oscillation.to_t,
+                                             .from_t = oscillation.from_t}
+                               : MetricPlace{};
+}
+
+Reading OscillationAmplitude(const PlantMetrics& metrics) {
+  return metrics.oscillation
+             ? Reading({metrics.oscillation->amplitude, PlaceOf(*metrics.oscillation)})
+             : Reading();
+}
+
+Reading OscillationFrequency(const PlantMetrics& metrics) {
+  if (!metrics.oscillation) {
+    return std::nullopt;
+  }
+  MetricReading reading{.value = {}, .at = PlaceOf(*metrics.oscillation)};
+  if (metrics.oscillation->frequency) {
+    reading.value = *metrics.oscillation->frequency;
+  }
+  return reading;
+}
+
 Reading Overspeed(const PlantMetrics& metrics) {
   if (!metrics.tracking || !metrics.tracking->overspeed_max) {
     return std::nullopt;
@@ -163,6 +191,13 @@ std::vector<MetricEntry> BuiltInMetrics() {
       {"steering_rate_rms", "Steering rate, rms", "rad/s", Of(&P::steering_rate_rms)},
       {"steering_saturated_fraction", "Fraction of time at a steering limit", "",
        Of(&P::steering_saturated_fraction)},
+      {"steering_reversals", "Reversals of the steering command", "1/s",
+       Of(&P::steering_reversals)},
+      {"steering_activity", "Steering rate, rms, over the largest steering rate", "",
+       SteeringActivity},
+      Headline({"oscillation.amplitude", "Sustained oscillation of the steering command", "rad",
+                OscillationAmplitude}),
+      {"oscillation.frequency", "Frequency of the oscillation", "Hz", OscillationFrequency},
       {"yaw_rate_ratio", "Yaw rate relative to the kinematic model", "", YawRateRatio},
       Headline({"recorded.yaw_rate.relative_rms", "Yaw rate against the record, relative rms", "",
                 Of(&R::yaw_rate_relative_rms)}),

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "src/analysis/peaks.h"
+#include "src/analysis/steering_metrics.h"
 #include "src/analysis/track_metrics.h"
 #include "src/analysis/waypoint_metrics.h"
 #include "trackbed/analysis/compare.h"
@@ -170,6 +171,11 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   metrics.steering_rate_rms = SteeringRateRms(log, control_period);
   metrics.steering_saturated_fraction =
       SaturatedFraction(log, vehicle, log.rows.front().state.time, metrics.time);
+  metrics.steering_reversals = SteeringReversals(log, vehicle);
+  if (vehicle.steering_rate > 0.0) {
+    metrics.steering_activity = metrics.steering_rate_rms / vehicle.steering_rate;
+  }
+  metrics.oscillation = MeasureOscillation(log, plan, vehicle);
   metrics.yaw_rate_ratio = YawRateRatio(log, vehicle.wheelbase);
   if (log.rows.front().tracking) {
     metrics.tracking = MeasureTracking(log, plan.goal, vehicle.width);

@@ -217,6 +217,7 @@ PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarM
     // vehicle that was recorded.
     metrics.steering_rate_limit = 0.0;
     metrics.steering_limit = 0.0;
+    metrics.steering_activity.reset();
     metrics.steering_saturated_fraction = 0.0;
   }
   if (scenario.maneuver) {

@@ -147,6 +147,21 @@ RunCheck ReachesGoal(double distance) {
                    }));
 }
 
+RunCheck SteersCalmly() {
+  return MakeCheck("steers calmly", ForEveryPlant([](const PlantMetrics& metrics) -> std::string {
+                     if (!metrics.oscillation) {
+                       return "there is no path to steer along";
+                     }
+                     const OscillationMetrics& found = *metrics.oscillation;
+                     return found.frequency
+                                ? fmt::format(
+                                      "steering oscillates by {:.4g} rad to each side at {:.4g} Hz "
+                                      "between t = {:.4g} s and {:.4g} s",
+                                      found.amplitude, *found.frequency, found.from_t, found.to_t)
+                                : "";
+                   }));
+}
+
 RunCheck Satisfies(const std::string& formula) {
   return MakeCheck(
       fmt::format("satisfies {}", formula),

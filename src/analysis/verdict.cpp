@@ -6,11 +6,11 @@
 
 // Computes the verdict on a run. Each plant must arrive without a collision, or collide if the
 // scenario expects a collision. Each plant must not exceed the steering rate limit of the actuator,
-// and must stay within the default corridor of one car width. Each plant must also meet the
-// expectations and requirements on the plant, and the bounds on its difference from other plants.
-// Explicit expectations replace the default expectations on status and cross-track error. Every
-// check is recorded in the verdict, whether or not the check is met. A run without expectations,
-// plan and obstacles gets a verdict only if a check fails.
+// must stay within the default corridor of one car width, and must not oscillate. Each plant must
+// also meet the expectations and requirements on the plant, and the bounds on its difference from
+// other plants. Explicit expectations replace the default expectations on status and cross-track
+// error. Every check is recorded in the verdict, whether or not the check is met. A run without
+// expectations, plan and obstacles gets a verdict only if a check fails.
 namespace trackbed {
 namespace {
 
@@ -157,6 +157,31 @@ void JudgeOverspeed(const PlantMetrics& metrics, Verdict& verdict) {
   AddCheck(check, verdict);
 }
 
+/// Checks that the steering command does not oscillate without an end, unless an expectation
+/// replaces this check. Adds a note to the verdict if the command oscillates.
+void JudgeOscillation(const Expected& expected, const PlantMetrics& metrics, Verdict& verdict) {
+  const OscillationMetrics& oscillation = *metrics.oscillation;
+  if (oscillation.frequency) {
+    const std::string share =
+        metrics.steering_rate_limit > 0.0
+            ? fmt::format(" ({:.0f} % of the limit)",
+                          100.0 * oscillation.rate / metrics.steering_rate_limit)
+            : "";
+    verdict.notes.push_back(fmt::format(
+        "{}: the steering oscillates at {:.3g} Hz between t = {:.4g} s and {:.4g} s; neither the "
+        "path nor measurement noise explains it; it asks for {:.3g} rad/s{} and moves the car by "
+        "about {:.2g} m to each side",
+        metrics.plant, *oscillation.frequency, oscillation.from_t, oscillation.to_t,
+        oscillation.rate, share, oscillation.sway));
+  }
+  if (!expected.HasMetric("oscillation.amplitude")) {
+    Check check = CheckMetric(metrics, "oscillation.amplitude", Relation::kAtMost, 0.0);
+    check.reason = CheckReason::kOscillation;
+    check.detail = oscillation.frequency ? fmt::format("{:.3g}", *oscillation.frequency) : "";
+    AddCheck(check, verdict);
+  }
+}
+
 void NoteLimitedSteering(const PlantMetrics& metrics, Verdict& verdict) {
   constexpr double kNotedFraction = 0.02;
   if (metrics.maneuver && metrics.maneuver->steering_saturated_fraction > kNotedFraction) {
@@ -273,6 +298,9 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
     }
     if (metrics.tracking && !expected.HasMetric("overspeed_max")) {
       JudgeOverspeed(metrics, verdict);
+    }
+    if (metrics.oscillation) {
+      JudgeOscillation(expected, metrics, verdict);
     }
     NoteLimitedSteering(metrics, verdict);
     for (const PlantExpectation* part : expected.parts()) {

@@ -68,6 +68,17 @@ std::string InWords(DriveStatus status) {
   return words;
 }
 
+void PrintSteering(const PlantMetrics& plant) {
+  Print("; steering {:.2g} reversals/s", plant.steering_reversals);
+  if (plant.steering_activity) {
+    Print(", {:.2g} % of the rate", 100.0 * *plant.steering_activity);
+  }
+  if (plant.oscillation && plant.oscillation->frequency) {
+    Print(", oscillates by {:.3g} rad at {:.3g} Hz", plant.oscillation->amplitude,
+          *plant.oscillation->frequency);
+  }
+}
+
 }  // namespace
 
 void PrintSummary(const RunResult& result, const std::filesystem::path& folder) {
@@ -90,6 +101,7 @@ void PrintSummary(const RunResult& result, const std::filesystem::path& folder) 
       const TrackingMetrics& tracking = *plant.tracking;
       Print("; cross-track error max {:.4f} m, rms {:.4f} m; goal distance {:.4f} m",
             tracking.cross_track_max, tracking.cross_track_rms, tracking.goal_distance);
+      PrintSteering(plant);
     }
     Print("\n");
     if (plant.maneuver) {

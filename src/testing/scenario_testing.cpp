@@ -89,6 +89,10 @@ testing::Matcher<const RunResult&> ReachesGoal(double distance) {
   return RunMatcher(run_checks::ReachesGoal(distance));
 }
 
+testing::Matcher<const RunResult&> SteersCalmly() {
+  return RunMatcher(run_checks::SteersCalmly());
+}
+
 testing::Matcher<const RunResult&> Satisfies(const std::string& formula) {
   return RunMatcher(run_checks::Satisfies(formula));
 }

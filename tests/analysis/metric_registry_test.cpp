@@ -26,6 +26,8 @@ PlantMetrics All() {
   metrics.waypoint_miss.emplace();
   metrics.recovery.emplace();
   metrics.yaw_rate_ratio = 1.0;
+  metrics.steering_activity = 0.1;
+  metrics.oscillation.emplace();
   metrics.blocked = "waits";
   metrics.partial = "ends early";
   metrics.cause = "MuJoCo: huge value";

@@ -25,6 +25,7 @@ def test_pass_if_the_run_does(run):
     trackbed.tracks_within(run, 0.5)
     trackbed.stays_within(run, "mujoco", "kinematic", 0.5)
     trackbed.reaches_goal(run, 0.5)
+    trackbed.steers_calmly(run)
     trackbed.satisfies(run, "always abs(cross_track_m) < 0.5")
     trackbed.meets_its_expectations(run)
     comparison = trackbed.compare(run, "kinematic", "mujoco")

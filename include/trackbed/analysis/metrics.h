@@ -45,6 +45,19 @@ struct TrackingMetrics {
   std::optional<double> overspeed_limit;
 };
 
+/// The largest sustained oscillation of the steering command that neither the path nor the
+/// measurement noise explains, such as a limit cycle (docs/verdict.md). Smaller oscillations than
+/// the tolerance, and those that decay, do not count.
+struct OscillationMetrics {
+  double amplitude = 0.0;           ///< Amplitude [rad], >= 0; 0 if there is no oscillation.
+  std::optional<double> frequency;  ///< Frequency [Hz], > 0; nullopt if there is no oscillation.
+  double from_t = 0.0;              ///< Time at which the oscillation begins [s].
+  double to_t = 0.0;                ///< Time up to which the oscillation lasts [s].
+  double rate = 0.0;                ///< Largest steering rate of the oscillation [rad/s].
+  /// Lateral motion of a kinematic car to each side that the oscillation causes [m].
+  double sway = 0.0;
+};
+
 /// Clearance of the car from obstacles during a run.
 struct ClearanceMetrics {
   double min = 0.0;        ///< Smallest distance between the car's footprint and an obstacle [m].
@@ -137,6 +150,14 @@ struct PlantMetrics {
   /// Fraction of the control periods in which the actuator turns at its maximum rate or is at its
   /// maximum angle, whatever the command is.
   double steering_saturated_fraction = 0.0;
+  /// Rate of the reversals of the steering command by more than 1/180 of the largest steering angle
+  /// (SAE J2944) [1/s].
+  double steering_reversals = 0.0;
+  /// `steering_rate_rms` divided by the car's maximum steering rate; nullopt if the maximum rate is
+  /// unknown.
+  std::optional<double> steering_activity;
+  /// Sustained oscillation of the steering command; nullopt if the run has no path.
+  std::optional<OscillationMetrics> oscillation;
   /// Ratio of the measured yaw rate to v tan(delta)/L, fitted by least squares over the run. The
   /// divisor v tan(delta)/L is the kinematic model's yaw rate at the measured speed and steering.
   /// In a steady turn, a car with understeer gradient K has the ratio 1 / (1 + K v^2/L). The yaw

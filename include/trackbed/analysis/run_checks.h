@@ -27,6 +27,7 @@ RunCheck TracksWithin(double limit);  ///< `limit` is in m.
 RunCheck StaysWithin(const std::string& first, const std::string& second, double limit);
 RunCheck KeepsClearance(double distance);  ///< `distance` is in m.
 RunCheck ReachesGoal(double distance);     ///< `distance` is in m.
+RunCheck SteersCalmly();
 RunCheck Satisfies(const std::string& formula);
 RunCheck MeetsItsExpectations();
 

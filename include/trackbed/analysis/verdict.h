@@ -27,6 +27,8 @@ enum class CheckReason {
   /// If the run has a path, the car must not exceed the planned speed by more than its speed
   /// control can correct.
   kOverspeed,
+  /// If the run has a path, the steering command must not oscillate without an end.
+  kOscillation,
   kSteeringRate,  ///< The steering rate must be within the actuator's limit.
   kCollision,     ///< The scenario contains the check in `expect.collision`.
   kComparable,    ///< The station ranges of two compared plants must overlap.
@@ -107,6 +109,8 @@ void AddCheck(Check check, Verdict& verdict);
 ///     replaces this check.
 ///   * If the run has a path, the car must not exceed the planned speed by more than its speed
 ///     control can correct; an expectation on `overspeed_max` replaces this check.
+///   * If the run has a path, the steering command must not oscillate without an end; a bound on
+///     `oscillation.amplitude` replaces this check.
 ///   * The steering rate of the wheels must exceed the actuator's limit by at most 3 %, which
 ///   allows
 ///     for compliance. A higher steering rate means that the timestep is too long for the car.

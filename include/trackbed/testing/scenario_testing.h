@@ -53,6 +53,11 @@ testing::Matcher<const RunResult&> KeepsClearance(double distance);
 /// Matches if every plant arrives at the goal, at most `distance` [m] from the end of the path.
 testing::Matcher<const RunResult&> ReachesGoal(double distance);
 
+/// Matches if the steering command of no plant oscillates without an end, as in a limit cycle, with
+/// more than the tolerated amplitude (docs/verdict.md#calm-steering). If the matcher fails, the
+/// test prints amplitude, frequency and times of the oscillation.
+testing::Matcher<const RunResult&> SteersCalmly();
+
 /// Matches if the log of every plant satisfies a formula of temporal logic over its columns
 /// (trackbed/requirement/formula.h): "always abs(cross_track_m) < 0.5". If the matcher fails, the
 /// test prints the robustness, station and time of the sample that violates the formula most. The

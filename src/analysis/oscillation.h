@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace trackbed {
+
+/// Signals of a closed loop, all sampled at the same times.
+struct LoopSignals {
+  double period = 0.0;          ///< Sampling period [s], > 0.
+  std::vector<double> command;  ///< Steering command [rad].
+  /// Inputs to which the controller may respond in advance, such as the steering angle of the path.
+  std::vector<std::vector<double>> foreseen;
+  /// Inputs to which the controller only responds afterwards, such as the noise of the pose.
+  std::vector<std::vector<double>> unforeseen;
+};
+
+/// Returns the part of the command that no input explains [rad]: the residual of a least-squares
+/// fit of the command by linear filters of the inputs and a constant. The filters are sums of
+/// first-order low-pass filters; those of foreseen inputs also run backward in time. Cost: O(n m^2)
+/// for n samples and m filters.
+std::vector<double> UnexplainedCommand(const LoopSignals& signals);
+
+/// A sustained oscillation of a signal.
+struct Wave {
+  double amplitude = 0.0;  ///< Amplitude of the part that repeats, as of a sine wave [rad].
+  double frequency = 0.0;  ///< Frequency [Hz].
+  std::size_t first = 0;   ///< Index of the first sample of the oscillation.
+  std::size_t last = 0;    ///< Index of the last sample of the oscillation.
+};
+
+/// Finds sustained oscillations in the unexplained part of a command: stretches of at least eight
+/// cycles and 2 s, whose second half repeats the first half with a correlation of at least 0.9 and
+/// at least half of the amplitude. If inputs of the loop are `random`, each cycle must also repeat
+/// the one before, because noise excites poorly damped loops to short trains of waves. At least
+/// half of the wave must be in the command, too, because the fit of the inputs may add waves of its
+/// own. Returns at most one wave for each quarter octave of periods, at the place of its largest
+/// amplitude. `period` [s] > 0 is the sampling period of both signals, which have the same size.
+/// Cost: O(n log n) for n samples.
+std::vector<Wave> FindWaves(const std::vector<double>& unexplained,
+                            const std::vector<double>& command, double period, bool random);
+
+}  // namespace trackbed

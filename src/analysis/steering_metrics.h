@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "trackbed/analysis/metrics.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/vehicle/params.h"
+
+namespace trackbed {
+
+/// Returns the rate of reversals of the steering command [1/s], >= 0 (SAE J2944): how often the
+/// command turns back by more than a gap. The gap is 1/180 of the largest steering angle, which is
+/// 3 degrees of a steering wheel that turns by 540 degrees from the middle to the lock.
+double SteeringReversals(const RunLog& log, const VehicleParams& vehicle);
+
+/// Finds the largest sustained oscillation of the steering command that neither the path nor the
+/// measurement noise explains (src/analysis/oscillation.h). The amplitude is 0 if the command does
+/// not oscillate, or oscillates within the tolerance of ToleratedAmplitude. Returns nullopt for a
+/// run without path. The log after the first contact with an obstacle is ignored.
+std::optional<OscillationMetrics> MeasureOscillation(const RunLog& log, const Plan& plan,
+                                                     const VehicleParams& vehicle);
+
+/// Returns the largest amplitude [rad] of a steering oscillation that is tolerated. The steering of
+/// the tolerated amplitude uses a fifth of the steering rate, or moves the car at `speed` [m/s] by
+/// 5 % of its width to each side, whichever amplitude is smaller; at least half of the backlash,
+/// within which the wheels do not move. `frequency` is in Hz, > 0.
+double ToleratedAmplitude(const VehicleParams& vehicle, double frequency, double speed);
+
+}  // namespace trackbed
