@@ -78,23 +78,18 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   return std::clamp(feed_forward + options.gain * error, -hardest, strongest);
 }
 
-namespace {
-
-bool HasBegun(const Braking& braking, double time) {
+bool BrakingHasBegun(const SpeedControlOptions& options, double time) {
   constexpr double kSameTime = 1e-9;  // [s]
-  return time >= braking.at - kSameTime;
+  return options.braking && time >= options.braking->at - kSameTime;
 }
 
-}  // namespace
-
 bool Coasts(const SpeedControlOptions& options, double time) {
-  return options.braking && options.braking->deceleration == 0.0 &&
-         HasBegun(*options.braking, time);
+  return BrakingHasBegun(options, time) && options.braking->deceleration == 0.0;
 }
 
 std::optional<double> TimedSpeedControl(const SpeedControlOptions& options, double time,
                                         double speed, double period) {
-  if (options.braking && HasBegun(*options.braking, time)) {
+  if (BrakingHasBegun(options, time)) {
     return -options.braking->deceleration;
   }
   if (!options.over_time.empty()) {

@@ -142,6 +142,7 @@ std::optional<DriveStatus> LoopCore::Ending(const VehicleState& state, bool at_r
        .is_last_segment = sequencer_.is_last(),
        .interrupted = config_.hooks.interrupted && config_.hooks.interrupted(),
        .at_rest = at_rest,
+       .coasts = command_.coast,
        .to_move = command_.acceleration * command_.gear > 0.0 && !steers && !at_rest,
        .run_continues = steers || waits || continues_past_obstacle_,
        .contact_time = recorder_.contact_time()});
@@ -166,14 +167,21 @@ ControlInput LoopCore::Input() const {
   return input;
 }
 
+bool LoopCore::CarCoasts() const {
+  return BrakingHasBegun(config_.speed, state_.time) ? Coasts(config_.speed, state_.time)
+                                                     : throttle_released_;
+}
+
 void LoopCore::Control(SteeringController& controller, const ControlInput& input) {
+  throttle_released_ = throttle_released_ || (config_.coasts_from && row_.tracking &&
+                                              row_.tracking->s >= *config_.coasts_from);
   command_.steering = Steer(controller, input);
   command_.acceleration = Accelerate(controller, input);
   TRACKBED_REQUIRE(std::isfinite(command_.steering) && std::isfinite(command_.acceleration),
                    "SimulateClosedLoop: at {} s the controller asks for a steering angle of {} rad "
                    "and an acceleration of {} m/s^2; must be finite",
                    state_.time, command_.steering, command_.acceleration);
-  command_.coast = Coasts(config_.speed, state_.time);
+  command_.coast = CarCoasts();
   values_ = controller.Values();
   row_.command = command_;
   row_.controller = values_;
@@ -206,6 +214,9 @@ double LoopCore::WantedAcceleration(SteeringController& controller, const Contro
   const double speed = command_.gear * input.state.speed;
   std::optional<double> own =
       TimedSpeedControl(config_.speed, input.state.time, speed, input.period);
+  if (throttle_released_ && CarCoasts()) {
+    own = 0.0;
+  }
   if (!own) {
     own = controller.Accelerate(input);
   }

@@ -10,6 +10,7 @@
 #include "trackbed/control/schedule.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/course/lane_change.h"
 #include "trackbed/scenario/initial_state.h"
 
 namespace trackbed {
@@ -44,6 +45,11 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
                     .disturbances = scenario.disturb,
                     .seed = scenario.seed,
                     .configuration_columns = car.configuration_columns()};
+  if (scenario.plan) {
+    if (const auto* course = scenario.plan->global.As<LaneChangePlannerOptions>()) {
+      config.coasts_from = ReleaseStation(*course, car.params());
+    }
+  }
   if (!scenario.mission.headings.empty()) {
     config.goal_heading_tolerance = drive.goal_heading_tolerance;
   }

@@ -89,6 +89,9 @@ class LoopCore {
   /// Returns the final status of the run if the run has ended.
   std::optional<DriveStatus> Ending(const VehicleState& state, bool at_rest);
 
+  /// Returns whether the car coasts in this control period.
+  [[nodiscard]] bool CarCoasts() const;
+
   /// Computes the command for the control period and stores the command in `row_`.
   void Control(SteeringController& controller, const ControlInput& input);
   double Steer(SteeringController& controller, const ControlInput& input);
@@ -126,8 +129,9 @@ class LoopCore {
   Standstill standstill_;
   Progress progress_;
   bool plan_sets_speed_ = false;
-  Command command_;         // The last command.
-  double steering_before_;  // Prescribed steering angle at the start of the period [rad].
+  bool throttle_released_ = false;  // Whether the car has reached LoopConfig::coasts_from.
+  Command command_;                 // The last command.
+  double steering_before_;          // Prescribed steering angle at the start of the period [rad].
   // Whether the loop has adopted, in this control period, a plan that does not stop at an obstacle.
   // After such a change of plan, the last command may still stop the car for the previous plan;
   // this stop must not end the run.

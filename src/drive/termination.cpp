@@ -7,6 +7,7 @@
 
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/world/world.h"
 
 namespace trackbed {
 namespace {
@@ -45,7 +46,12 @@ Termination::Termination(const LoopConfig& config, const Plan& plan)
       duration_(config.duration),
       half_timestep_(0.5 * config.timestep),
       end_time_(std::min(config.time_limit, config.duration.value_or(config.time_limit))),
-      wheel_radius_(config.vehicle.wheel_radius) {}
+      wheel_radius_(config.vehicle.wheel_radius),
+      vehicle_(config.vehicle) {
+  if (!plan.gates.empty()) {
+    last_gate_ = plan.gates.back();
+  }
+}
 
 std::optional<DriveStatus> Termination::Update(const LoopStatus& now) {
   if (now.contact_time) {
@@ -53,6 +59,9 @@ std::optional<DriveStatus> Termination::Update(const LoopStatus& now) {
   }
   if (const std::optional<DriveStatus> fault = Fault(now)) {
     return fault;
+  }
+  if (!now.interrupted && !now.contact_time && HasPassedCourse(now)) {
+    return DriveStatus::kArrived;
   }
   const bool time_over = now.state.time >= end_time_ - half_timestep_;
   const bool stays = has_path_ && now.at_rest && !now.run_continues;
@@ -117,6 +126,17 @@ DriveStatus Termination::StatusAtEnd(const LoopStatus& now) {
     return DriveStatus::kStopped;
   }
   return DriveStatus::kTimeLimit;
+}
+
+bool Termination::HasPassedCourse(const LoopStatus& now) const {
+  if (!now.coasts || !last_gate_) {
+    return false;
+  }
+  const OrientedBox& lane = last_gate_->lane;
+  const auto corners = FootprintAt(vehicle_, now.state.pose).Corners();
+  return std::all_of(corners.begin(), corners.end(), [&](const Vec2& corner) {
+    return ToLocal(lane.center, corner).x() >= 0.5 * lane.length;
+  });
 }
 
 bool Termination::HasArrived(const LoopStatus& now) const {

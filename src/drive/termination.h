@@ -22,6 +22,7 @@ struct LoopStatus {
   bool interrupted = false;     ///< Whether the caller asked to end the run.
   bool at_rest = false;         ///< Whether the car rests and steering at standstill is
                                 ///< complete.
+  bool coasts = false;          ///< Whether the car coasts.
   bool to_move = false;         ///< Whether the last command accelerates the car.
   bool run_continues = false;   ///< Whether the run continues although the car may be at
                                 ///< rest.
@@ -31,6 +32,8 @@ struct LoopStatus {
 /// Ends a run if the simulation diverged or was interrupted, or if the car sinks into the ground,
 /// is airborne, is stuck or rolled over. The run also ends when its duration or its time limit has
 /// passed, and one second after a collision. A run along a path also ends when the car is at rest.
+/// The run of a car that coasts through a course with gates ends when the whole car has passed the
+/// last gate.
 class Termination {
  public:
   /// `plan` is the initial plan of the run.
@@ -51,6 +54,8 @@ class Termination {
   /// the goal.
   DriveStatus StatusAtEnd(const LoopStatus& now);
   [[nodiscard]] bool HasArrived(const LoopStatus& now) const;
+  /// Returns whether the car coasts and has passed the last gate of the course.
+  [[nodiscard]] bool HasPassedCourse(const LoopStatus& now) const;
   /// Returns which tolerance of the goal the pose exceeds; empty if the pose is at the goal.
   [[nodiscard]] std::string GoalError(const Pose2& pose, const Pose2& goal) const;
   /// If a fault of the physics ends the run, sets `cause_` and returns the final status; otherwise
@@ -65,6 +70,8 @@ class Termination {
   double half_timestep_;
   double end_time_;
   double wheel_radius_;  // [m]
+  VehicleParams vehicle_;
+  std::optional<Gate> last_gate_;
   std::string cause_;
   std::optional<double> airborne_since_;  // Time since which the car is airborne [s].
   Standstill standstill_;  // Measures how long the car stands still despite a command to move.

@@ -33,6 +33,9 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
 std::optional<double> TimedSpeedControl(const SpeedControlOptions& options, double time,
                                         double speed, double period);
 
+/// Whether the options contain a braking that has begun at `time` [s] or before.
+bool BrakingHasBegun(const SpeedControlOptions& options, double time);
+
 /// Whether the car coasts at `time` [s], which is the case if the options contain a braking that
 /// has begun and has the deceleration 0.
 bool Coasts(const SpeedControlOptions& options, double time);

@@ -88,6 +88,9 @@ struct LoopConfig {
   /// at the end of the period.
   SteeringInput steering_input = SteeringInput::kActuator;
   SpeedControlOptions speed{};
+  /// Station from which the car coasts [m], unless `speed.braking` has begun; nullopt: none. A run
+  /// of a car that coasts ends as arrived when the whole car has passed the last gate of its plan.
+  std::optional<double> coasts_from{};
 
   /// Disturbances and faults of the run, which the loop applies to the plant and the controller.
   /// The loop ignores the payload of the disturbances, because the plant's model already includes

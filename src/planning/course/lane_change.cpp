@@ -91,6 +91,15 @@ std::vector<Vec2> GateCones(const Gate& gate) {
   return cones;
 }
 
+std::optional<double> ReleaseStation(const LaneChangePlannerOptions& options,
+                                     const VehicleParams& vehicle) {
+  if (!options.release) {
+    return std::nullopt;
+  }
+  const double front = vehicle.length - vehicle.rear_overhang;  // ahead of the rear axle
+  return options.lead_in + *options.release - front;
+}
+
 std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
                                     const std::vector<Gate>& gates, const Pose2& start,
                                     double stop) {
@@ -228,6 +237,10 @@ void Visit(KeyVisitor& keys, LaneChangePlannerOptions& options) {
   keys.Field(
       {"join", "m", "distance after the next gate's start at which it reaches that center line"},
       options.join, Need::kOptional, Range{.min = -5.0, .max = 5.0});
+  keys.Field({"release", "m",
+              "distance of the car's front behind the start of section 1 at which the throttle is "
+              "released; then the car coasts, and the run ends behind the last gate"},
+             options.release, kNonNegative);
 }
 
 PlannerEntry LaneChangePlanner() {

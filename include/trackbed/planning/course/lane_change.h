@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "trackbed/geometry/oriented_box.h"
@@ -44,6 +45,10 @@ struct LaneChangePlannerOptions {
   /// gates longer and less curved, but bring the car nearer to the cones.
   double leave = 0.0;
   double join = 0.0;
+  /// Distance of the car's front behind the beginning of section 1 at which the driver releases the
+  /// throttle [m], >= 0. From there on, the car coasts, and the run ends when the whole car has
+  /// passed the last gate. If nullopt, the car keeps its speed through the course.
+  std::optional<double> release{};
 };
 void Visit(KeyVisitor& keys, LaneChangePlannerOptions& options);
 
@@ -55,6 +60,11 @@ std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, doubl
 /// Returns the positions of the cones of a gate [m]. Five cones are spread over the length of each
 /// edge of the gate, with the inner side of each cone on the edge.
 std::vector<Vec2> GateCones(const Gate& gate);
+
+/// Returns the station of the rear axle at which the driver releases the throttle [m]; nullopt if
+/// the car keeps its speed.
+std::optional<double> ReleaseStation(const LaneChangePlannerOptions& options,
+                                     const VehicleParams& vehicle);
 
 /// Computes the path from `start` along the middle lines of the gates. The transition to a gate
 /// with the lateral offset h is the curve y = h (10 u^3 - 15 u^4 + 6 u^5), with u from 0 to 1 along
