@@ -191,6 +191,15 @@ void NoteLimitedSteering(const PlantMetrics& metrics, Verdict& verdict) {
   }
 }
 
+/// Adds a note to the verdict if a standard for stability control is applied to a car without one.
+void NoteStabilityControl(const PlantMetrics& metrics, Verdict& verdict) {
+  if (metrics.maneuver && metrics.maneuver->method == "sine_with_dwell") {
+    verdict.notes.push_back(fmt::format(
+        "{}: the car has no electronic stability control (ESC), which ISO 19365 and FMVSS 126 test",
+        metrics.plant));
+  }
+}
+
 void JudgeMetric(const MetricExpectation& expect, const PlantMetrics& metrics, Verdict& verdict) {
   bool is_number = true;
   const auto check = [&](Relation relation, const MetricValue& bound) {
@@ -303,6 +312,7 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
       JudgeOscillation(expected, metrics, verdict);
     }
     NoteLimitedSteering(metrics, verdict);
+    NoteStabilityControl(metrics, verdict);
     for (const PlantExpectation* part : expected.parts()) {
       JudgePlant(*part, metrics, verdict);
     }
