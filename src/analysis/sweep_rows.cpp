@@ -85,6 +85,8 @@ class RowMaker {
                                                  std::uint64_t repetition) const {
     const BisectSpec& spec = *study_.bisect;
     Outputs best;  // outputs of the passing run with the largest value of the bisected key
+    std::optional<double> lowest_failing;
+    std::string failure;  // reason of the failing run with the smallest value
     const Bisection bisection =
         Bisect(spec.from, spec.to, spec.tolerance, [&](double value) -> std::optional<bool> {
           Scenario scenario = ReadPoint(study_, point.settings, value);
@@ -95,6 +97,9 @@ class RowMaker {
           }
           if (outcome->passed) {
             best = std::move(outcome->outputs);
+          } else if (!lowest_failing || value < *lowest_failing) {
+            lowest_failing = value;
+            failure = outcome->reason;
           }
           return outcome->passed;
         });
@@ -112,7 +117,8 @@ class RowMaker {
     row.cells.emplace_back(ToString(bisection.status));
     row.cells.push_back(std::to_string(row.runs));
     AddOutputs(best, row);
-    row.cells.emplace_back();
+    row.cells.push_back(
+        failure.empty() ? "" : fmt::format("at {}: {}", ShortestText(*lowest_failing), failure));
     return row;
   }
 

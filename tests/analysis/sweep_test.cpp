@@ -102,6 +102,27 @@ outputs: [metrics.kinematic.distance]
   EXPECT_FALSE(sweep.description["bisections"][2].contains("value"));
 }
 
+TEST(Sweep, SaysWhatFailsAboveTheHighestValueThatPasses) {
+  const TempFolder folder;
+  const RunScenarioOnce run = [](const Scenario& scenario) -> std::optional<RunOutcome> {
+    RunOutcome outcome = *UpToASpeed(scenario);
+    if (!outcome.passed) {
+      outcome.reason = ShortestText(scenario.mission.speed) + " is too fast";
+    }
+    return outcome;
+  };
+  const SweepResult sweep = SweepStudy(folder, R"(vary: {seed: [0, 5, 12]}
+bisect: {key: mission.speed, from: 10, to: 18, tolerance: 0.5}
+)",
+                                       run);
+  // The limits 20, 15 and 8 lie above, between and below the ends.
+  EXPECT_EQ(sweep.table.ToCsv(),
+            "seed,mission.speed,status,runs,reason\n"
+            "0,18,passes_at_to,2,\n"
+            "5,15,found,6,at 15.5: 15.5 is too fast\n"
+            "12,,fails_at_from,1,at 10: 10 is too fast\n");
+}
+
 TEST(Sweep, BisectsEveryRepetitionWithItsOwnSeed) {
   const TempFolder folder;
   const SweepResult sweep =

@@ -115,11 +115,14 @@ TEST(Sweep, FindsTheHighestValueThatPasses) {
   // are evaluated as well, so there are seven runs.
   std::smatch found;
   ASSERT_TRUE(std::regex_match(
-      csv, found, std::regex("control\\.distance,status,runs,reason\n([0-9.]+),found,7,\n")))
+      csv, found,
+      std::regex("control\\.distance,status,runs,reason\n"
+                 "([0-9.]+),found,7,\"?at ([0-9.]+): kinematic: maximum cross-track error .*\n")))
       << csv;
   // The verb `run` agrees: the found value passes, and a value that is higher by one tolerance
   // fails.
   const double highest = std::stod(found[1]);
+  EXPECT_EQ(std::stod(found[2]), highest + 0.25);  // a 32nd of 8 m
   const auto run_with = [&](double distance) {
     return Trackbed(folder, "run -q " + ScenarioFile("winding") + " --plant kinematic --set " +
                                 "control.distance=" + std::to_string(distance))
