@@ -13,6 +13,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/drive/start_overlap.h"
+#include "trackbed/sim/model_notes.h"
 
 namespace trackbed::cli {
 
@@ -76,6 +77,11 @@ int ForEachRun(const std::vector<ScenarioRun>& runs,
 DrivenScenario DriveScenario(const ScenarioRun& run, bool quiet) {
   const auto loaded = run.car ? run.car : std::make_shared<const CarModel>(LoadCar(run.scenario));
   const CarModel& car = *loaded;
+  if (!quiet) {
+    for (const std::string& note : NotesOnModel(car)) {
+      PrintTo(stderr, "note: {}: {}\n", car.file(), note);
+    }
+  }
   std::vector<std::string> names = run_folder::AllNames();
   for (const SceneAsset& asset : car.scene().assets) {
     names.push_back(asset.name);
