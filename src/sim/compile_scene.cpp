@@ -152,6 +152,43 @@ CompileError ParseMujocoError(const std::string& message) {
   return error;
 }
 
+/// A word of MJCF that older versions of MuJoCo do not know.
+struct NewerWord {
+  std::string_view word;
+  int version;  ///< As mjVERSION_HEADER: 222 is 2.2.2, and 3010000 is 3.10.0.
+  const char* text;
+};
+
+constexpr std::array kNewerWords{NewerWord{"autolimits", 222, "2.2.2"},
+                                 NewerWord{"shellinertia", 222, "2.2.2"},
+                                 NewerWord{"implicitfast", 233, "2.3.3"},
+                                 NewerWord{"actuatorfrcrange", 237, "2.3.7"},
+                                 NewerWord{"actuatorfrclimited", 237, "2.3.7"},
+                                 NewerWord{"flexcomp", 300, "3.0.0"},
+                                 NewerWord{"frame", 310, "3.1.0"},
+                                 NewerWord{"inheritrange", 313, "3.1.3"},
+                                 NewerWord{"replicate", 315, "3.1.5"},
+                                 NewerWord{"dampratio", 316, "3.1.6"},
+                                 NewerWord{"timeconst", 316, "3.1.6"}};
+
+/// Returns the version of MuJoCo that a model needs, if the error of the compiler names a word that
+/// the linked version does not know; otherwise empty.
+std::string VersionHint(const std::string& error) {
+  static const std::regex unknown(
+      "(unrecognized (attribute|element)|invalid keyword):? ?[^'<]*['<]([A-Za-z]+)['>]");
+  std::smatch found;
+  if (!std::regex_search(error, found, unknown)) {
+    return "";
+  }
+  for (const NewerWord& newer : kNewerWords) {
+    if (newer.word == found[3].str() && newer.version > mjVERSION_HEADER) {
+      return fmt::format("; '{}' needs MuJoCo {} or newer, this program has {}", newer.word,
+                         newer.text, PhysicsVersion());
+    }
+  }
+  return "";
+}
+
 /// Whether the bodies of two models have the same masses, inertias and centers of mass.
 bool HaveSameMasses(const mjModel& a, const mjModel& b) {
   const auto same = [&](const mjtNum* of_a, const mjtNum* of_b, int numbers) {
@@ -181,9 +218,10 @@ MujocoModel CompileScene(const Scene& scene, const std::string& name, Looks look
   Compiled compiled = compile(is_mass_given ? DiscardLooks(scene.xml) : scene.xml);
   if (compiled.model == nullptr) {
     const CompileError error = ParseMujocoError(compiled.error);
-    throw InputError(Problem{.file = name,
-                             .line = LineInCarFile(scene, error.line),
-                             .message = "does not compile: " + error.text});
+    throw InputError(
+        Problem{.file = name,
+                .line = LineInCarFile(scene, error.line),
+                .message = "does not compile: " + error.text + VersionHint(error.text)});
   }
   if (discard && !is_mass_given) {
     Compiled bare = compile(DiscardLooks(scene.xml));

@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 
+#include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/file.h"
 
@@ -119,6 +120,30 @@ TEST(CompileScene, DropsVisualGeomsWithoutMass) {
       .trusted = true};
   EXPECT_EQ(CompileScene(scene, "car.xml", Looks::kDiscarded)->ngeom, 1);
   EXPECT_EQ(CompileScene(scene, "car.xml", Looks::kKept)->ngeom, 2);
+}
+
+// A model may use words of a newer MuJoCo than the linked one, which is then named.
+TEST(CompileScene, NamesTheVersionOfMujocoThatAWordNeeds) {
+  struct Case {
+    const char* word;
+    int version;
+    const char* option;
+    const char* actuator;
+  };
+  const Case cases[] = {
+      {"implicitfast", 233, "<option integrator='implicitfast'/>", ""},
+      {"dampratio", 316, "", "<actuator><position joint='j' dampratio='1'/></actuator>"},
+      {"unheardof", 1 << 30, "<option unheardof='1'/>", ""}};
+  for (const Case& one : cases) {
+    const Scene scene{.xml = fmt::format("<mujoco>{}<worldbody><body><joint name='j'/><geom "
+                                         "size='1'/></body></worldbody>{}</mujoco>",
+                                         one.option, one.actuator),
+                      .trusted = true};
+    const std::string error = ErrorText([&] { CompileScene(scene, "car.xml", Looks::kKept); });
+    EXPECT_EQ(error.empty(), mjVERSION_HEADER >= one.version) << one.word << error;
+    const bool named = error.find("needs MuJoCo") != std::string::npos;
+    EXPECT_EQ(named, mjVERSION_HEADER < one.version && one.version < (1 << 30)) << error;
+  }
 }
 
 }  // namespace
