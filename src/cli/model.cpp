@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,9 +18,11 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
+#include "trackbed/sim/adapt.h"
 #include "trackbed/sim/car_grip.h"
 #include "trackbed/sim/car_model.h"
 #include "trackbed/sim/linkage.h"
+#include "trackbed/sim/model_notes.h"
 
 namespace trackbed::cli {
 namespace {
@@ -93,6 +97,9 @@ void PrintModel(const CarModel& car, const std::string& file) {
   Row("max_acceleration", p.max_acceleration, "m/s^2");
   if (p.top_speed > 0.0) {
     Row("top_speed", p.top_speed, "m/s");
+  }
+  for (const std::string& note : NotesOnModel(car)) {
+    Print("note: {}\n", note);
   }
 }
 
@@ -172,18 +179,131 @@ void ShowGgv(const CarModel& car, const std::string& out) {
   }
 }
 
+void PrintAdapted(const AdaptedModel& adapted, const std::string& file) {
+  Print("{}: {}\n", file,
+        adapted.kind == VehicleKind::kSteered ? "a car with steered front wheels"
+                                              : "a robot with differential drive");
+  for (const AdaptGuess& guess : adapted.guesses) {
+    Print("  {:<16} {} ({})\n", guess.what, guess.value, guess.evidence);
+  }
+  for (const std::string& note : adapted.notes) {
+    Print("note: {}\n", note);
+  }
+}
+
+void Adapt(const std::string& file, const AdaptOptions& options, const std::string& out) {
+  const AdaptedModel adapted = AdaptModel(file, options);
+  PrintAdapted(adapted, file);
+  if (!out.empty()) {
+    RemoveAbandonedTemporaries(std::filesystem::path(out).parent_path());
+    WriteFileAtomically(out, adapted.xml);
+    Print("wrote {}\n", out);
+  }
+}
+
+void RequireAbove0(const char* option, const std::optional<double>& value) {
+  if (value && !(*value > 0.0)) {
+    throw InputError(
+        Problem{.file = option, .message = fmt::format("must be above 0, found {:g}", *value)});
+  }
+}
+
+}  // namespace
+
+namespace {
+
+struct ModelOptions {
+  std::string name;
+  std::string save;
+  bool linkage = false;
+  bool ggv = false;
+  std::string out;
+  std::vector<std::string> asset_folders;
+  bool adapt = false;
+  AdaptOptions answers;
+};
+
+void AddAdaptOptions(const Command& command, ModelOptions& options) {
+  command.AddFlag("--adapt", options.adapt,
+                  "Propose a car file for a model that was written for another program, MJCF or "
+                  "URDF; print what it was guessed from");
+  command
+      .AddOption("--body", options.answers.body,
+                 "With --adapt: the vehicle, if the file has several")
+      .TypeName("NAME");
+  command
+      .AddOption("--wheel-radius", options.answers.wheel_radius,
+                 "With --adapt: the radius of all wheels [m]")
+      .TypeName("R");
+  command
+      .AddOption("--steering-limit", options.answers.steering_limit,
+                 "With --adapt: the largest bicycle angle [rad]")
+      .TypeName("ANGLE");
+  command
+      .AddOption("--steering-rate", options.answers.steering_rate,
+                 "With --adapt: the largest rate of the bicycle angle [rad/s]")
+      .TypeName("RATE");
+  command
+      .AddOption("--drive-torque", options.answers.drive_torque,
+                 "With --adapt: the largest torque on all driven wheels together [N m]")
+      .TypeName("TORQUE");
+  command.AddFlag("--front-steering", options.answers.steers_front_only,
+                  "With --adapt: lock the rear wheels of a vehicle that steers all wheels");
+}
+
+void CheckOptions(const ModelOptions& options) {
+  const AdaptOptions& answers = options.answers;
+  RequireAbove0("--wheel-radius", answers.wheel_radius);
+  RequireAbove0("--steering-limit", answers.steering_limit);
+  RequireAbove0("--steering-rate", answers.steering_rate);
+  RequireAbove0("--drive-torque", answers.drive_torque);
+  const bool answered = !answers.body.empty() || answers.wheel_radius || answers.steering_limit ||
+                        answers.steering_rate || answers.drive_torque || answers.steers_front_only;
+  if (answered && !options.adapt) {
+    throw InputError(Problem{.message =
+                                 "--body, --wheel-radius, --steering-limit, --steering-rate, "
+                                 "--drive-torque and --front-steering need --adapt"});
+  }
+  if (options.adapt && (options.ggv || options.linkage || !options.save.empty())) {
+    throw InputError(Problem{.file = "--adapt", .message = "excludes --ggv, --linkage and --save"});
+  }
+  if (!options.out.empty() && !options.ggv && !options.adapt) {
+    throw InputError(Problem{.file = "--out", .message = "needs --ggv or --adapt"});
+  }
+}
+
+int ShowModel(const ModelOptions& options) {
+  CheckOptions(options);
+  const auto file = FindModel(options.name, "");
+  if (options.adapt) {
+    AdaptOptions answers = options.answers;
+    answers.asset_folders = Paths(options.asset_folders);
+    Adapt(file.string(), answers, options.out);
+    return kOk;
+  }
+  const CarModel car(ComposeScene(file, {.asset_folders = Paths(options.asset_folders)}),
+                     file.string());
+  if (options.linkage && car.params().kind != VehicleKind::kSteered) {
+    throw InputError(
+        Problem{.file = "--linkage", .message = options.name + " has no steered front wheels"});
+  }
+  if (options.ggv) {
+    ShowGgv(car, options.out);
+  } else if (options.linkage) {
+    PrintLinkage(car);
+  } else if (options.save.empty()) {
+    PrintModel(car, file.string());
+  } else {
+    RemoveAbandonedTemporaries(std::filesystem::path(options.save).parent_path());
+    WriteScene(car.scene(), options.save);
+  }
+  return kOk;
+}
+
 }  // namespace
 
 void AddModel(const Command& command) {
-  struct Options {
-    std::string name;
-    std::string save;
-    bool linkage = false;
-    bool ggv = false;
-    std::string out;
-    std::vector<std::string> asset_folders;
-  };
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ModelOptions>();
   command.AddPositional("name", options->name, "A model by name, or the path of an MJCF file")
       .Required()
       .TypeName("MODEL");
@@ -196,34 +316,17 @@ void AddModel(const Command& command) {
       "Print joint couplings fitted to the steering linkage, to paste into the model file");
   command.AddFlag("--ggv", options->ggv,
                   "Print the g-g-v diagram: accelerations that tyres, brakes and drive give");
-  command.AddOption("-o,--out", options->out, "Also write the diagram of --ggv as CSV")
+  command
+      .AddOption("-o,--out", options->out,
+                 "Also write the diagram of --ggv as CSV, or the car file of --adapt")
       .TypeName("FILE");
+  AddAdaptOptions(command, *options);
   AddAllowAssets(command, options->asset_folders);
   command.AddExample("Parameters of a shipped model", "trackbed model bmw320i");
   command.AddExample("Its g-g-v diagram, also as CSV", "trackbed model bmw320i --ggv -o ggv.csv");
-  command.OnRun([options] {
-    const auto file = FindModel(options->name, "");
-    const CarModel car(ComposeScene(file, {.asset_folders = Paths(options->asset_folders)}),
-                       file.string());
-    if (options->linkage && car.params().kind != VehicleKind::kSteered) {
-      throw InputError(
-          Problem{.file = "--linkage", .message = options->name + " has no steered front wheels"});
-    }
-    if (!options->out.empty() && !options->ggv) {
-      throw InputError(Problem{.file = "--out", .message = "needs --ggv"});
-    }
-    if (options->ggv) {
-      ShowGgv(car, options->out);
-    } else if (options->linkage) {
-      PrintLinkage(car);
-    } else if (options->save.empty()) {
-      PrintModel(car, file.string());
-    } else {
-      RemoveAbandonedTemporaries(std::filesystem::path(options->save).parent_path());
-      WriteScene(car.scene(), options->save);
-    }
-    return kOk;
-  });
+  command.AddExample("A car file for a robot's URDF",
+                     "trackbed model robot.urdf --adapt -o car.xml");
+  command.OnRun([options] { return ShowModel(*options); });
 }
 
 }  // namespace trackbed::cli

@@ -29,6 +29,7 @@ class CarReader final : private PartsReader {
 
   VehicleDescription Read() {
     FindNames();
+    ExplainForeignModel();
     ThrowIfAnything();
     FindAddresses();
     ReadChassis(free_);
@@ -64,6 +65,33 @@ class CarReader final : private PartsReader {
     parts_.brake_torque_front = Number("brake_torque_front");
     parts_.brake_torque_rear = Number("brake_torque_rear");
     params_.steering_ratio = Number("steering_ratio");
+  }
+
+  /// Adds to the names that are missing how the base moves instead of by a free joint, and, for a
+  /// model with none of the names of wheels, how to get a car file.
+  void ExplainForeignModel() {
+    const int body = chassis_.chassis;
+    if (free_ < 0 && body >= 0 && m_.body_jntnum[body] > 0) {
+      std::string joints;
+      for (int joint = m_.body_jntadr[body]; joint < m_.body_jntadr[body] + m_.body_jntnum[body];
+           ++joint) {
+        joints += (joints.empty() ? "" : ", ") + QuotedName(mjOBJ_JOINT, joint);
+      }
+      if (m_.jnt_type[m_.body_jntadr[body]] != mjJNT_FREE) {
+        AddError("chassis",
+                 fmt::format("moves by {} instead of a free joint; with a planar base, the tyres "
+                             "would carry no load",
+                             joints));
+      }
+    }
+    const auto none = [](const auto& ids) {
+      return std::all_of(ids.begin(), ids.end(), [](int id) { return id < 0; });
+    };
+    if (none(spin_) && none(parts_.tyre)) {
+      AddError("", fmt::format("a model that was written for another program? `trackbed model {} "
+                               "--adapt -o car.xml` proposes a car file",
+                               file_));
+    }
   }
 
   void FindAddresses() {

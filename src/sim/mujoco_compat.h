@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <string>
@@ -71,6 +72,18 @@ int ActivationAddress(const Model& model, int actuator) {
     const int stateless = model.nu - model.na;
     return actuator < stateless ? -1 : actuator - stateless;
   }
+}
+
+/// Returns the largest torque that all actuators together may exert on a joint; infinite without a
+/// limit. MuJoCo has this limit since version 2.3.7.
+template <std::same_as<mjModel> Model>
+mjtNum JointForceLimit([[maybe_unused]] const Model& model, [[maybe_unused]] int joint) {
+  if constexpr (requires { model.jnt_actfrclimited; }) {
+    if (model.jnt_actfrclimited[joint] != 0) {
+      return model.jnt_actfrcrange[2 * joint + 1];
+    }
+  }
+  return std::numeric_limits<mjtNum>::infinity();
 }
 
 /// Returns the moment arm of an actuator about a degree of freedom, as computed by mj_transmission.

@@ -362,6 +362,12 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
   bool shipped = true;
   Load(car_file, document, shipped);
   XMLElement& root = *document.RootElement();
+  if (std::string_view(root.Name()) == "robot") {
+    Fail(car_file, root.GetLineNum(),
+         fmt::format("root element is <robot>, of URDF; must be <mujoco>. `trackbed model {} "
+                     "--adapt -o car.xml` makes a car file of it",
+                     car_file.string()));
+  }
   if (std::string_view(root.Name()) != "mujoco") {
     Fail(car_file, root.GetLineNum(),
          fmt::format("root element is <{}>; must be <mujoco>", root.Name()));

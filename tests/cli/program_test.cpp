@@ -403,7 +403,7 @@ TEST(Program, ShowsTheGgvDiagramOfAModel) {
   EXPECT_EQ(table.at(0, 1), 0.0);
   EXPECT_NEAR(table.at(0, 2), -8.26, 0.005);  // max_deceleration, to the digits of docs/models.md
   EXPECT_GT(table.at(24, 1), 8.0);            // at the largest lateral acceleration
-  EXPECT_EQ(Trackbed(folder, "model prius -o ggv.csv").output, "--out: needs --ggv\n");
+  EXPECT_EQ(Trackbed(folder, "model prius -o ggv.csv").output, "--out: needs --ggv or --adapt\n");
 }
 
 /// Runs the program and sends it a signal as soon as the shell condition `there` holds, after a

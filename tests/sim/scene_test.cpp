@@ -134,7 +134,8 @@ TEST(ComposeScene, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_EQ(ErrorMessage(folder.Write("a.xml", "<mujoco>\n<body>\n</mujoco>")),
             at + "/a.xml:2: not XML: element not closed, or closed by another name");
   EXPECT_EQ(ErrorMessage(folder.Write("b.xml", "\n<robot/>")),
-            at + "/b.xml:2: root element is <robot>; must be <mujoco>");
+            at + "/b.xml:2: root element is <robot>, of URDF; must be <mujoco>. `trackbed model " +
+                at + "/b.xml --adapt -o car.xml` makes a car file of it");
   EXPECT_EQ(ErrorMessage(folder.Write("c.xml", "<mujoco>\n<include/></mujoco>")),
             at + "/c.xml:2: <include> without a file");
   EXPECT_EQ(ErrorMessage(folder.Write("d.xml", "<mujoco>\n<include file='d.xml'/></mujoco>")),

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "src/sim/adapt_geometry.h"
+#include "src/sim/adapt_read.h"
+#include "trackbed/sim/adapt.h"
+
+namespace trackbed::adapt {
+
+/// A wheel of the model as found. Indices are those of the compiled model; -1: there is none.
+struct FoundWheel {
+  int body = -1;   ///< Body that turns with the wheel.
+  int spin = -1;   ///< Hinge joint of the wheel.
+  int steer = -1;  ///< Hinge joint with a vertical axis, between the wheel and the vehicle.
+  int slide = -1;  ///< Vertical slide joint with a spring, between the wheel and the vehicle.
+  RoundGeom round;
+  Vector axis = Vector::UnitY();  ///< Axis of the wheel, in world coordinates.
+  std::string name;               ///< Name of the joint or the body, in quotation marks.
+};
+
+/// A vehicle of the model as found. The vehicle frame V is that of docs/models.md: its origin is on
+/// the ground under the rear axle or the driven axle, x points forward.
+struct FoundVehicle {
+  VehicleKind kind = VehicleKind::kSteered;
+  int root = -1;  ///< Body below the world that contains the vehicle.
+  int base = -1;  ///< Deepest body that contains all wheels.
+  /// A car: fl, fr, rl, rr. With differential drive: left, right.
+  std::vector<FoundWheel> wheels;
+  Matrix turn = Matrix::Identity();  ///< Columns: the axes of V in world coordinates.
+  Vector origin = Vector::Zero();    ///< Origin of V in world coordinates [m].
+  double radius = 0.0;               ///< Wheel radius [m].
+  double width = 0.0;                ///< Width of a tyre [m].
+  double wheelbase = 0.0;            ///< [m]
+  std::array<double, 2> track{};     ///< Front and rear track [m].
+
+  [[nodiscard]] Vector ToVehicle(const Vector& in_world) const {
+    return turn.transpose() * (in_world - origin);
+  }
+};
+
+/// Collects what AdaptModel reports: guesses, notes and questions.
+struct Findings {
+  std::vector<AdaptGuess> guesses;
+  std::vector<std::string> notes;
+
+  void Guess(std::string what, std::string value, std::string evidence) {
+    guesses.push_back({std::move(what), std::move(value), std::move(evidence)});
+  }
+};
+
+/// Returns the quoted name of a body, joint, geom or actuator; its number if it has no name.
+std::string NameOf(const mjModel& model, int type, int id);
+
+/// Finds the wheels, the axles and the frame of the vehicle. Throws InputError, with a question and
+/// the option that answers it, if the model has no vehicle that can be driven.
+FoundVehicle FindVehicle(const FoundModel& found, const AdaptOptions& options, Findings& findings);
+
+/// Notes what a run would have been wrong with: bases that cannot move freely, tyres that touch the
+/// vehicle at rest, and equality constraints between joints of the steering.
+void NoteFaults(const FoundModel& found, const FoundVehicle& vehicle, Findings& findings);
+
+}  // namespace trackbed::adapt

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/sim/adapt_limits.h"
+
+namespace trackbed::adapt {
+
+/// Masses of the parts of the proposed vehicle. Together they have the mass, center of gravity and
+/// inertia of the model.
+struct PartMasses {
+  MassSum total;
+  MassSum chassis;
+  MassSum rack;                   ///< Part of cars only.
+  std::vector<MassSum> knuckles;  ///< One for each wheel; mass 0: the wheel is on the chassis.
+  std::vector<MassSum> wheels;
+};
+
+/// Splits the mass of the model among the parts. Wheels and knuckles become symmetric about their
+/// axes; the chassis makes up the difference.
+PartMasses SplitMasses(const FoundModel& found, const FoundVehicle& vehicle, bool has_springs,
+                       Findings& findings);
+
+/// The box around the vehicle, in the vehicle frame V. It is symmetric about y = 0.
+struct Footprint {
+  double rear = 0.0;   ///< Smallest x [m].
+  double front = 0.0;  ///< Largest x [m].
+  double half_width = 0.0;
+  double height = 0.0;
+};
+
+Footprint FindFootprint(const FoundModel& found, const FoundVehicle& vehicle);
+
+/// Returns the position of a wheel's center in the proposed file, in V.
+Vector HubOf(const FoundVehicle& vehicle, std::size_t wheel);
+
+/// MJCF text of the geoms that only show the vehicle.
+struct CopiedLooks {
+  std::string meshes;               ///< For <asset>.
+  std::vector<std::string> wheels;  ///< One for each wheel.
+  std::string chassis;
+};
+
+/// Copies the visible geoms. Meshes become boxes if `as_boxes`, or if they have many faces.
+CopiedLooks CopyLooks(const FoundModel& found, const FoundVehicle& vehicle, bool as_boxes);
+
+}  // namespace trackbed::adapt
