@@ -324,8 +324,8 @@ void AddModel(const Command& command) {
   AddAllowAssets(command, options->asset_folders);
   command.AddExample("Parameters of a shipped model", "trackbed model bmw320i");
   command.AddExample("Its g-g-v diagram, also as CSV", "trackbed model bmw320i --ggv -o ggv.csv");
-  command.AddExample("A car file for a robot's URDF",
-                     "trackbed model robot.urdf --adapt -o car.xml");
+  command.AddExample("A car file proposed from the geometry of a model",
+                     "trackbed model dart --adapt -o car.xml");
   command.OnRun([options] { return ShowModel(*options); });
 }
 
