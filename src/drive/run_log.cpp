@@ -78,8 +78,9 @@ Table ToTable(const RunLog& log) {
     }
     if (wheels) {
       for (const WheelState& wheel : *state.wheels) {
-        cells.insert(cells.end(), {wheel.normal_force, wheel.longitudinal_force,
-                                   wheel.lateral_force, wheel.slip_angle, wheel.slip_ratio});
+        cells.insert(cells.end(),
+                     {wheel.normal_force, wheel.longitudinal_force, wheel.lateral_force,
+                      wheel.slip_angle, wheel.slip_ratio, wheel.friction_use});
       }
     }
     if (gaps) {

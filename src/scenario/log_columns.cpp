@@ -36,8 +36,9 @@ std::vector<std::string> LogColumns(const LogContents& contents) {
   }
   if (contents.wheels) {
     for (const char* wheel : kWheels) {
-      for (const char* pattern : {"normal_force_{}_N", "longitudinal_force_{}_N",
-                                  "lateral_force_{}_N", "slip_angle_{}_rad", "slip_ratio_{}"}) {
+      for (const char* pattern :
+           {"normal_force_{}_N", "longitudinal_force_{}_N", "lateral_force_{}_N",
+            "slip_angle_{}_rad", "slip_ratio_{}", "friction_use_{}"}) {
         columns.push_back(fmt::format(fmt::runtime(pattern), wheel));
       }
     }

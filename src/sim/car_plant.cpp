@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "src/sim/contact_friction.h"
 #include "src/sim/magic_formula_tyres.h"
 #include "src/sim/mujoco_compat.h"
 #include "src/sim/mujoco_plant.h"
@@ -319,6 +320,10 @@ std::array<WheelState, 4> CarPlant::ContactWheels() const {
                  .lateral_force = contact.left.dot(forces[w]),
                  .slip_angle = std::atan2(contact.slip_speed_y, reference),
                  .slip_ratio = contact.slip_speed_x / reference};
+    // UpdateRoadFriction multiplies the friction of the tyre's geom by the road's factor.
+    const double most = ContactFriction(model(), car().parts().tyre[w]) * wheels[w].normal_force;
+    wheels[w].friction_use =
+        most > 0.0 ? std::hypot(wheels[w].longitudinal_force, wheels[w].lateral_force) / most : 0.0;
   }
   return wheels;
 }

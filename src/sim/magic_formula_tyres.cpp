@@ -217,6 +217,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
                            .shift = std::clamp(contact.rolling_speed / kWalkingPace, -1.0, 1.0)});
     state.longitudinal_force = force.longitudinal;
     state.lateral_force = side * force.lateral;
+    contact_[w] = {.road = road[w], .camber = side * camber};
 
     const double rolling = tyre.rolling_resistance * load * radius *
                            std::clamp(contact.spin * radius / kRollingSpeed, -1.0, 1.0);
@@ -237,6 +238,9 @@ std::array<WheelState, 4> MagicFormulaTyres::Observe() const {
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     wheels[w].slip_ratio = slips_[w].x;
     wheels[w].slip_angle = std::atan(slips_[w].y);
+    wheels[w].friction_use = FrictionUse(
+        car_.parts().tyres->axle[AxleIndex(w)], wheels[w].normal_force, contact_[w].road,
+        contact_[w].camber, {wheels[w].longitudinal_force, wheels[w].lateral_force});
   }
   return wheels;
 }

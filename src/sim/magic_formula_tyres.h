@@ -69,12 +69,18 @@ class MagicFormulaTyres {
     double y = 0.0;
   };
 
+  struct Contact {
+    double road = 1.0;    // Friction factor of the road.
+    double camber = 0.0;  // Camber of the wheel [rad].
+  };
+
   const CarModel& car_;
   double timestep_;
   double gravity_;
   std::array<double, 4> load_at_rest_{};  // F_z0 [N]
   std::array<TyreShape, 4> shape_;
   std::array<Slip, 4> slips_{};
+  std::array<Contact, 4> contact_{};
   std::array<WheelState, 4> states_{};  // states of all wheels, without slip values
 };
 

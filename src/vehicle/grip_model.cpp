@@ -42,9 +42,12 @@ std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double 
   if (side * below.longitudinal >= wanted) {
     return below.lateral;
   }
+  // Slip ratios on a road with the friction factor 1. On another road, the peak of the force is at
+  // a slip ratio that is proportional to the road's factor.
   constexpr std::array<double, 11> kRatios{0.01, 0.02, 0.03, 0.045, 0.06, 0.08,
                                            0.10, 0.13, 0.17, 0.23,  0.30};
-  for (const double high : kRatios) {
+  for (const double on_dry_road : kRatios) {
+    const double high = road * on_dry_road;
     const TyreForce above = at(high);
     if (side * above.longitudinal >= wanted) {
       // Interpolate, because the longitudinal force is almost linear between adjacent slip ratios
@@ -106,12 +109,14 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
     }
     return sum;
   };
-  constexpr double kMaxSlip = 0.5;  // Largest slip angle of the search [rad].
+  // Largest slip angle of the search [rad]. The angle of the peak is proportional to the road's
+  // factor.
+  const double max_slip = 0.5 * demand.road;
   // Number of correct bits of the slip angle; a few bits suffice, because the force is flat around
   // the peak.
   constexpr int kBits = 8;
   const auto [peak, negative] = boost::math::tools::brent_find_minima(
-      [&](double at) { return -lateral_at(at); }, 0.0, kMaxSlip, kBits);
+      [&](double at) { return -lateral_at(at); }, 0.0, max_slip, kBits);
   AxleGripState state{.most = std::max(-negative, lateral_at(0.0)), .angle = peak};
   constexpr int kHalvings = 8;
   double low = 0.0;

@@ -28,6 +28,19 @@ double Weight(double b, double c, double e, double shift, double slip) {
   return shift == 0.0 ? kept : kept / std::cos(Shape(c, e, b * shift));
 }
 
+/// Returns the factor by which slips on a road with the friction factor `road` are multiplied to
+/// get similar slips on a road with the factor 1. The factor is 1/road, but no slip is enlarged
+/// beyond that of a locked wheel, kappa = -1, or of a wheel that moves sideways, alpha = pi/2. Both
+/// slips have the same factor, because their ratio is the direction in which the tyre slides.
+double SimilarSlip(const TyreSlip& slip, double road) {
+  if (road >= 1.0) {
+    return 1.0 / road;
+  }
+  constexpr double kSideways = std::numbers::pi / 2.0;
+  const double share = std::max(std::abs(slip.ratio), std::abs(slip.angle) / kSideways);
+  return share > road ? std::max(1.0, 1.0 / share) : 1.0 / road;
+}
+
 /// Returns the cosine of atan(x).
 double CosAtan(double x) {
   return 1.0 / std::sqrt(1.0 + x * x);
@@ -129,7 +142,8 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
       road * Friction(t.p_dx1, t.p_dx2, load_change) * (1.0 - t.p_dx3 * gamma * gamma);
   const double d_x = mu_x * load;
   const double b_x = SlipStiffness(t, load) / (t.p_cx1 * d_x);
-  const double kappa_x = slip.ratio + slip.shift * t.p_hx1;
+  const double shift_x = slip.shift * t.p_hx1;
+  const double kappa_x = slip.ratio + shift_x;
   const double s_vx = slip.shift * road * load * t.p_vx1;
   const double f_x0 = d_x * std::sin(Shape(t.p_cx1, t.p_ex1, b_x * kappa_x)) + s_vx;
 
@@ -137,7 +151,8 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
       road * Friction(t.p_dy1, t.p_dy2, load_change) * (1.0 - t.p_dy3 * gamma * gamma);
   const double d_y = mu_y * load;
   const double b_y = -CorneringStiffness(t, load) / (t.p_cy1 * d_y);
-  const double alpha_y = slip.angle + side * (t.p_hy1 + t.p_hy3 * lean);
+  const double shift_y = side * (t.p_hy1 + t.p_hy3 * lean);
+  const double alpha_y = slip.angle + shift_y;
   const double s_vy = side * road * load * (t.p_vy1 + t.p_vy3 * lean);
   const double f_y0 = d_y * std::sin(Shape(t.p_cy1, t.p_ey1, b_y * alpha_y)) + s_vy;
 
@@ -145,13 +160,32 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
     const double norm = std::hypot(f_x0 / d_x, f_y0 / d_y);
     return {f_x0 / std::max(1.0, norm), f_y0 / std::max(1.0, norm)};
   }
-  const double b_xa = t.r_bx1 * CosAtan(t.r_bx2 * slip.ratio);
-  const double b_yk = t.r_by1 * CosAtan(t.r_by2 * (slip.angle - t.r_by3));
-  const double d_vyk = mu_y * load * (t.r_vy1 + t.r_vy3 * gamma) * CosAtan(t.r_vy4 * slip.angle);
-  const double s_vyk =
-      d_vyk == 0.0 ? 0.0 : d_vyk * std::sin(t.r_vy5 * std::atan(t.r_vy6 * slip.ratio));
-  return {Weight(b_xa, t.r_cx1, t.r_ex1, t.r_hx1, slip.angle) * f_x0,
-          Weight(b_yk, t.r_cy1, t.r_ey1, t.r_hy1, slip.ratio) * f_y0 + s_vyk};
+  // A tyre slides at smaller slips on a slippery road. The pure forces take this into account by
+  // B = K/(C D), the weighting factors of combined slip by similar slips. The shifts belong to the
+  // slips, so the sums kappa + S_hx and alpha + S_hy are multiplied.
+  const double similar = SimilarSlip(slip, road);
+  const double kappa = similar * slip.ratio + (similar - 1.0) * shift_x;
+  const double alpha = similar * slip.angle + (similar - 1.0) * shift_y;
+  const double b_xa = t.r_bx1 * CosAtan(t.r_bx2 * kappa);
+  const double b_yk = t.r_by1 * CosAtan(t.r_by2 * (alpha - t.r_by3));
+  const double d_vyk = mu_y * load * (t.r_vy1 + t.r_vy3 * gamma) * CosAtan(t.r_vy4 * alpha);
+  const double s_vyk = d_vyk == 0.0 ? 0.0 : d_vyk * std::sin(t.r_vy5 * std::atan(t.r_vy6 * kappa));
+  return {Weight(b_xa, t.r_cx1, t.r_ex1, t.r_hx1, alpha) * f_x0,
+          Weight(b_yk, t.r_cy1, t.r_ey1, t.r_hy1, kappa) * f_y0 + s_vyk};
+}
+
+double FrictionUse(const MagicFormula& t, double load, double road, double camber,
+                   const TyreForce& force) {
+  if (!(load > 0.0)) {
+    return 0.0;
+  }
+  const double gamma = std::clamp(camber, -kMaxCamber, kMaxCamber);
+  const double load_change = LoadChange(t, load);
+  const double mu_x =
+      road * Friction(t.p_dx1, t.p_dx2, load_change) * (1.0 - t.p_dx3 * gamma * gamma);
+  const double mu_y =
+      road * Friction(t.p_dy1, t.p_dy2, load_change) * (1.0 - t.p_dy3 * gamma * gamma);
+  return std::hypot(force.longitudinal / (mu_x * load), force.lateral / (mu_y * load));
 }
 
 }  // namespace trackbed

@@ -273,7 +273,8 @@ TEST(WriteRunFolder, WritesTheColumnsOfTheContract) {
     const std::string wheel = w;
     for (const std::string& name :
          {"normal_force_" + wheel + "_N", "longitudinal_force_" + wheel + "_N",
-          "lateral_force_" + wheel + "_N", "slip_angle_" + wheel + "_rad", "slip_ratio_" + wheel}) {
+          "lateral_force_" + wheel + "_N", "slip_angle_" + wheel + "_rad", "slip_ratio_" + wheel,
+          "friction_use_" + wheel}) {
       with_wheels.push_back(name);
     }
   }

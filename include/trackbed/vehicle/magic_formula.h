@@ -18,6 +18,13 @@
 ///                                                   K_y = p_ky1 F_z0 sin(2 atan(F_z/(p_ky2 F_z0)))
 /// The forces in combined slip are F_x = G_x(alpha) F_x0 and F_y = G_y(kappa) F_y0 + S_vyk. Each
 /// factor G is a cosine function of the slip in the other direction, with the coefficients r_*.
+///
+/// A friction factor `road` of the road multiplies mu_x, mu_y, S_vx and S_vy. For the factors G and
+/// S_vyk, the slips kappa + S_hx and alpha + S_hy are divided by `road`, or by as much as makes
+/// kappa or alpha the slip of full sliding, |kappa| = 1 or |alpha| = pi/2. Up to full sliding,
+///   F(road, kappa, alpha) = road F(1, (kappa + S_hx)/road - S_hx, (alpha + S_hy)/road - S_hy),
+/// as in the similarity method (Pacejka 2012, section 4.2). A tyre therefore uses the same fraction
+/// of the friction ellipse on every road.
 namespace trackbed {
 
 /// The coefficients of the Magic Formula, under their standard names. A coefficient that a car's
@@ -99,12 +106,20 @@ struct TyreForce {
 /// Guarantees: the tyre force is 0 if the tyre has no load (F_z <= 0). The lateral force F_y is an
 /// odd function of (alpha, gamma), except for the r_* shifts, which represent the asymmetry of a
 /// tyre. With r_* coefficients, the combined force may exceed the friction ellipse, for example by
-/// 12 % for CommonRoad's BMW. This excess is a property of the Magic Formula. For a tyre without
-/// r_* coefficients, a force outside the friction ellipse is scaled back onto the ellipse. The
-/// shifts depend on the sign of gamma; this dependence is smoothed over half a mrad, because a jump
-/// would be unphysical. The aligning moment and turn slip are not modeled. Cost: about 0.2 us.
+/// 12 % for an upright tyre of CommonRoad's BMW, at every friction factor. This excess is a
+/// property of the coefficients. For a tyre without r_* coefficients, a force outside the friction
+/// ellipse is scaled back onto the ellipse. The shifts depend on the sign of gamma; this dependence
+/// is smoothed over half a mrad, because a jump would be unphysical. The aligning moment and turn
+/// slip are not modeled. Cost: about 0.2 us.
 TyreForce EvaluateTyreForce(const MagicFormula& tyre, double load, double road,
                             const TyreSlip& slip);
+
+/// Returns the fraction of the friction ellipse that `force` uses, hypot(F_x/D_x, F_y/D_y) with
+/// D = mu F_z on a road with the friction factor `road` > 0 and at the camber `camber` [rad]. The
+/// fraction is 0 for a tyre without load (F_z <= 0). A sliding tyre uses about 1. The fraction of a
+/// tyre with r_* coefficients may exceed 1 (EvaluateTyreForce).
+double FrictionUse(const MagicFormula& tyre, double load, double road, double camber,
+                   const TyreForce& force);
 
 /// The largest longitudinal and lateral force of a tyre, divided by the load, on a road with the
 /// friction factor 1.

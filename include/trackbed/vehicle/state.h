@@ -20,6 +20,10 @@ struct WheelState {
   double slip_angle = 0.0;
   /// Slip ratio of the tyre, equal to (Omega R - v_x)/|v_x|; positive when driving.
   double slip_ratio = 0.0;
+  /// Fraction of the friction ellipse that the force along the road uses, >= 0; 0 without load.
+  /// Equal to hypot(F_x/(mu_x F_z), F_y/(mu_y F_z)) with the friction coefficients of the tyre on
+  /// the road under it.
+  double friction_use = 0.0;
 };
 
 /// The state of a car, reported by every plant. The axes of the car are x forward, y left and z up.
