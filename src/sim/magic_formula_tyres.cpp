@@ -59,10 +59,15 @@ double Damping(double omega, double timestep) {
   return (step < 1.0 ? 2.0 - step : 1.0 / step) / omega;
 }
 
+/// Returns the relaxation length of the slip ratio [m].
+double LongitudinalRelaxation(const MagicFormula& tyre) {
+  return tyre.relaxation_length_x > 0.0 ? tyre.relaxation_length_x : tyre.relaxation_length;
+}
+
 /// Returns the natural angular frequency of a wheel's rotation against its tyre's stiffness at a
 /// given load, R sqrt(C_kappa/(sigma I)) [rad/s].
 double SpinFrequency(const MagicFormula& tyre, double load, double radius, double inertia) {
-  return radius * std::sqrt(SlipStiffness(tyre, load) / (tyre.relaxation_length * inertia));
+  return radius * std::sqrt(SlipStiffness(tyre, load) / (LongitudinalRelaxation(tyre) * inertia));
 }
 
 /// Returns the slip at which the whole contact patch slides, equal to 3 mu F_z/C in the brush
@@ -183,19 +188,22 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
       continue;
     }
 
-    const double sigma = tyre.relaxation_length;
+    const double sigma_x = LongitudinalRelaxation(tyre);
+    const double sigma_y = tyre.relaxation_length;
     const double c_kappa = SlipStiffness(tyre, load);
     const double c_alpha = CorneringStiffness(tyre, load);
     const double spin_omega = SpinFrequency(tyre, load, radius, car_.parts().spin_inertia[w]);
-    const double side_omega = std::sqrt(c_alpha * gravity_ / (sigma * load));
-    // tau_x is limited to the time constant of the slip, sigma/speed.
+    const double side_omega = std::sqrt(c_alpha * gravity_ / (sigma_y * load));
+    // tau_x is limited to the time constant of the slip, sigma_x/speed.
     const double damping = Damping(spin_omega, timestep_);
-    const double tau_x = speed * damping > sigma ? sigma / speed : damping;
+    const double tau_x = speed * damping > sigma_x ? sigma_x / speed : damping;
     const double tau_y =
         speed < kWalkingPace ? Damping(side_omega, timestep_) * (1.0 - speed / kWalkingPace) : 0.0;
-    const Relaxation relaxation(speed, sigma, timestep_);
-    const double kappa = relaxation.Step(slip.x, contact.slip_speed_x, tau_x);
-    const double tangent = relaxation.Step(slip.y, contact.slip_speed_y, tau_y);
+    const Relaxation along(speed, sigma_x, timestep_);
+    const double kappa = along.Step(slip.x, contact.slip_speed_x, tau_x);
+    // Most tyres have one relaxation length, for which the exponential function is evaluated once.
+    const Relaxation across = sigma_x == sigma_y ? along : Relaxation(speed, sigma_y, timestep_);
+    const double tangent = across.Step(slip.y, contact.slip_speed_y, tau_y);
     // Limits the slip to the largest deflection that friction can hold; otherwise a larger
     // deflection would remain when the tyre stops sliding.
     const double most_x = SlidingSlip(road[w] * tyre.p_dx1, load, c_kappa) + speed / kWalkingPace;

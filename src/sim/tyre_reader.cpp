@@ -59,9 +59,16 @@ void CheckTyre(const Numerics& numerics, const MagicFormula& tyre, const char* a
        tyre.p_ky1);
   need(tyre.p_ey1 <= 1.0, "p_ey1", "at most 1", tyre.p_ey1);
   need(tyre.p_ky2 >= 0.0, "p_ky2", "at least 0", tyre.p_ky2);
+  need(tyre.p_ky4 > 0.0, "p_ky4", "above 0", tyre.p_ky4);
+  need(tyre.version == 0.0 || tyre.version == 5.2 || tyre.version == 6.1, "magic_formula_version",
+       "0, 5.2 or 6.1", tyre.version);
+  need(tyre.camber_max > 0.0, "camber_max", "above 0", tyre.camber_max);
   need(tyre.relaxation_length > 0.0, "relaxation_length", "above 0", tyre.relaxation_length);
+  need(tyre.relaxation_length_x >= 0.0, "relaxation_length_x", "at least 0",
+       tyre.relaxation_length_x);
   need(tyre.rolling_resistance >= 0.0, "rolling_resistance", "at least 0", tyre.rolling_resistance);
-  const bool needs_load = tyre.p_ky2 != 0.0 || tyre.p_dx2 != 0.0 || tyre.p_dy2 != 0.0;
+  const bool needs_load = tyre.p_ky2 != 0.0 || tyre.p_dx2 != 0.0 || tyre.p_dy2 != 0.0 ||
+                          tyre.p_kx2 != 0.0 || tyre.p_kx3 != 0.0 || tyre.p_ky7 != 0.0;
   need(tyre.f_z0 >= 0.0 && (tyre.f_z0 > 0.0 || !needs_load), "F_z0",
        "above 0: p_ky2, p_dx2 and p_dy2 need the nominal load", tyre.f_z0);
 }

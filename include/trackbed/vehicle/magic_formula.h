@@ -3,17 +3,17 @@
 #include <vector>
 
 /// The Magic Formula tyre model, which computes the forces in the contact patch from the slip
-/// (Pacejka 2012). The formula is the subset of PAC2002 that CommonRoad's multi-body model uses
-/// (Althoff et al. 2017), with load sensitivity added.
+/// (Pacejka 2012, section 4.3.2). The model has the forces of PAC2002, MF5.2 and MF6.1 in steady
+/// slip, and the subset of PAC2002 that CommonRoad's multi-body model uses (Althoff et al. 2017).
 ///
 /// The axes of the wheel are x in the direction of the wheel, y to the wheel's left, and z up, with
 /// the origin on the ground. The symbols are:
-///   F_z: load [N].
+///   F_z: load [N]; dfz: load change (F_z - F_z0)/F_z0.
 ///   kappa: slip ratio (Omega R - v_x)/|v_x|, positive when driving.
 ///   alpha: slip angle atan(v_y/|v_x|) of the contact point [rad], positive if v_y is to the left.
 ///   gamma: camber [rad], positive if the top of the wheel leans to the left.
 /// The forces in pure slip are, with D = mu F_z, B = K/(C D), f(u) = C atan(u - E (u - atan u)):
-///   F_x0 = D_x sin f(B_x (kappa + S_hx)) + S_vx     K_x = p_kx1 F_z
+///   F_x0 = D_x sin f(B_x (kappa + S_hx)) + S_vx     K_x = F_z (p_kx1 + p_kx2 dfz) exp(p_kx3 dfz)
 ///   F_y0 = D_y sin f(B_y (alpha + S_hy)) + S_vy     K_y = p_ky1 F_z, or with load sensitivity
 ///                                                   K_y = p_ky1 F_z0 sin(2 atan(F_z/(p_ky2 F_z0)))
 /// The forces in combined slip are F_x = G_x(alpha) F_x0 and F_y = G_y(kappa) F_y0 + S_vyk. Each
@@ -30,47 +30,85 @@ namespace trackbed {
 /// The coefficients of the Magic Formula, under their standard names. A coefficient that a car's
 /// file does not specify is 0 and has no effect.
 struct MagicFormula {
+  /// The equations to which the coefficients belong: 0 for CommonRoad's, 5.2 for PAC2002 and MF5.2,
+  /// 6.1 for MF6.1. With 0, p_hy1 and p_vy1 have the sign of the camber. With 5.2 and 6.1, p_hy1
+  /// and p_vy1 are constant, and the coefficients assume that gamma is positive if the top of the
+  /// wheel leans to the right, as in ISO 8855; EvaluateTyreForce reverses the sign of gamma.
+  /// With 6.1, tan(alpha) and sin(gamma) replace alpha and gamma in F_y and G.
+  double version = 0.0;
   double p_cx1 = 0.0;  ///< Shape factor C of the formula, > 0.
   double p_dx1 = 0.0;  ///< Longitudinal friction coefficient mu_x at nominal load, > 0.
   double p_dx2 = 0.0;  ///< Change of the friction coefficient mu_x with the load.
   double p_dx3 = 0.0;  ///< Change of the friction coefficient mu_x with the camber.
   double p_ex1 = 0.0;  ///< Curvature factor E of the formula, <= 1.
+  double p_ex2 = 0.0;  ///< Change of E with the load; E is at most 1.
+  double p_ex3 = 0.0;  ///< Change of E with the square of the load change.
+  double p_ex4 = 0.0;  ///< Change of E with the sign of the slip ratio.
   double p_kx1 = 0.0;  ///< Longitudinal slip stiffness divided by the load, > 0.
+  double p_kx2 = 0.0;  ///< Change of the slip stiffness with the load.
+  double p_kx3 = 0.0;  ///< Exponential change of the slip stiffness with the load.
   double p_hx1 = 0.0;  ///< Horizontal shift.
+  double p_hx2 = 0.0;
   double p_vx1 = 0.0;  ///< Vertical shift of F_x divided by the load.
+  double p_vx2 = 0.0;
   double r_bx1 = 0.0;  ///< Coefficient of combined slip: influence of the slip angle alpha on F_x.
   double r_bx2 = 0.0;
+  double r_bx3 = 0.0;
   double r_cx1 = 0.0;
   double r_ex1 = 0.0;
+  double r_ex2 = 0.0;
   double r_hx1 = 0.0;
   double p_cy1 = 0.0;  ///< Shape factor C of the formula, > 0.
   double p_dy1 = 0.0;  ///< Lateral friction coefficient mu_y at nominal load, > 0.
   double p_dy2 = 0.0;  ///< Change of the friction coefficient mu_y with the load.
   double p_dy3 = 0.0;  ///< Change of the friction coefficient mu_y with the camber.
   double p_ey1 = 0.0;  ///< Curvature factor E of the formula, <= 1.
+  double p_ey2 = 0.0;  ///< Change of E with the load; E is at most 1.
+  double p_ey3 = 0.0;  ///< Change of E with the sign of the slip angle.
+  double p_ey4 = 0.0;  ///< Change of E with the camber and the sign of the slip angle.
+  double p_ey5 = 0.0;  ///< Change of E with the square of the camber.
   double p_ky1 = 0.0;  ///< Cornering stiffness divided by the load, < 0.
   /// Load at which the cornering stiffness is largest, divided by F_z0. If p_ky2 is 0, the
   /// cornering stiffness is proportional to the load.
   double p_ky2 = 0.0;
-  double p_hy1 = 0.0;  ///< Horizontal shift of F_y, with the sign of the camber.
-  double p_hy3 = 0.0;
-  double p_vy1 = 0.0;  ///< Vertical shift of F_y divided by the load, with the sign of the camber.
-  double p_vy3 = 0.0;
+  double p_ky3 = 0.0;  ///< Change of the cornering stiffness with |gamma|.
+  double p_ky4 = 2.0;  ///< Factor that replaces the 2 in sin(2 atan(...)) of K_y, > 0.
+  double p_ky5 = 0.0;  ///< Change of p_ky2 with the square of the camber.
+  double p_ky6 = 0.0;  ///< Camber stiffness divided by the load, in version 6.1.
+  double p_ky7 = 0.0;  ///< Change of the camber stiffness with the load.
+  double p_hy1 = 0.0;  ///< Horizontal shift of F_y (see `version`).
+  double p_hy2 = 0.0;
+  double p_hy3 = 0.0;  ///< Horizontal shift of F_y in proportion to the camber; not in version 6.1.
+  double p_vy1 = 0.0;  ///< Vertical shift of F_y divided by the load (see `version`).
+  double p_vy2 = 0.0;
+  double p_vy3 = 0.0;  ///< Vertical shift of F_y in proportion to the camber.
+  double p_vy4 = 0.0;
   double r_by1 = 0.0;  ///< Coefficient of combined slip: influence of the slip ratio kappa on F_y.
   double r_by2 = 0.0;
   double r_by3 = 0.0;
+  double r_by4 = 0.0;
   double r_cy1 = 0.0;
   double r_ey1 = 0.0;
+  double r_ey2 = 0.0;
   double r_hy1 = 0.0;
+  double r_hy2 = 0.0;
   double r_vy1 = 0.0;  ///< Coefficient of combined slip: side force caused by the slip ratio kappa.
+  double r_vy2 = 0.0;
   double r_vy3 = 0.0;
   double r_vy4 = 0.0;
   double r_vy5 = 0.0;
   double r_vy6 = 0.0;
-  double f_z0 = 0.0;  ///< Nominal tyre load F_z0 [N]; required if p_dx2, p_dy2 or p_ky2 is used.
+  /// Nominal tyre load F_z0 [N]; required if a coefficient of the load change or p_ky2 is used.
+  double f_z0 = 0.0;
+  /// Largest camber in the formula [rad], > 0; larger cambers are clamped. Tyre measurements extend
+  /// up to about 6 degrees. Without the clamp, the squared camber in the formula would increase the
+  /// grip of a car more and more while the car rolls over.
+  double camber_max = 0.1;
   /// Relaxation length sigma of the tyre [m], > 0: after a sudden change of slip, the rolling
   /// distance over which the tyre's slip reaches 63 % of the change.
   double relaxation_length = 0.3;
+  /// Relaxation length of the slip ratio [m], >= 0; 0: the same as relaxation_length.
+  double relaxation_length_x = 0.0;
   /// Rolling resistance moment of the wheel, divided by its load and radius.
   double rolling_resistance = 0.0;
 };
@@ -88,7 +126,7 @@ const std::vector<MagicFormulaField>& MagicFormulaFields();
 struct TyreSlip {
   double ratio = 0.0;   ///< Slip ratio kappa.
   double angle = 0.0;   ///< Slip angle alpha [rad].
-  double camber = 0.0;  ///< Camber gamma of the wheel [rad]; the formula clamps gamma to +-0.1 rad.
+  double camber = 0.0;  ///< Camber gamma of the wheel [rad], clamped to +-camber_max.
   /// Factor on the horizontal and vertical shifts, from -1 to 1. The factor is needed because the
   /// shifts change sign with the rolling direction and vanish at standstill.
   double shift = 1.0;
