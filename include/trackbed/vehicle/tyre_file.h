@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "trackbed/vehicle/magic_formula.h"
+
+/// Reads tyre property files (*.tir), in which tyre makers and test benches publish the
+/// coefficients of the Magic Formula.
+namespace trackbed {
+
+/// Largest size of a tyre property file [bytes]; files of tyre makers have about 20 kB.
+inline constexpr std::size_t kMaxTyreFileBytes = std::size_t{4} << 20U;
+/// Largest number of entries of a tyre property file; files of tyre makers have about 300.
+inline constexpr std::size_t kMaxTyreFileEntries = 10000;
+
+/// The tyre that a property file describes, in SI units. The coefficients are those of a tyre on
+/// the left side of the car; a tyre on the right side is its mirror image.
+struct TyreFile {
+  MagicFormula tyre;  ///< Coefficients with the scale factors and the pressure of the file applied.
+  std::optional<double> vertical_stiffness;  ///< [N/m], > 0.
+  std::optional<double> vertical_damping;    ///< [N s/m], >= 0.
+  /// Statements for people about how the file was read, including the ignored entries.
+  std::vector<std::string> notes;
+};
+
+/// Reads a tyre property file of PAC2002, MF5.0 to MF5.2 or MF6.0 to MF6.2.
+///
+/// The forces F_x and F_y of the file in steady slip, pure or combined and with camber, equal
+/// EvaluateTyreForce for loads at which the friction coefficients and the slip stiffness per load
+/// are at least a tenth of those at the nominal load. The file's relaxation lengths apply at the
+/// nominal load; a file of MF6.1 gives them as stiffnesses of the carcass. Ignored are aligning and
+/// overturning moments, turn slip, the loaded radius, and the changes of relaxation and rolling
+/// resistance with load and speed. The notes list each ignored section and each ignored entry,
+/// except entries without effect (an ordinary number 0, a scale factor 1).
+///
+/// A file has lines `[SECTION]` and `KEY = value`. A value is a number or a text in quotes; an
+/// empty value counts as missing. Comments begin with `$` or `!`. Case does not matter. Lines that
+/// begin with `{` and rows of numbers are tables, which are ignored. Lengths, forces, times and
+/// angles are converted from the units of the file.
+///
+/// Errors: throws InputError, with line and key, if the text is malformed, if the file is not of a
+/// supported version, if a needed coefficient is missing or outside its range, if a unit is
+/// unknown, or if the file exceeds kMaxTyreFileBytes or kMaxTyreFileEntries. Throws RunError if the
+/// file cannot be read.
+TyreFile ReadTyreFile(const std::filesystem::path& file);
+
+/// As ReadTyreFile, for the text of a file. `name` names the file in messages.
+TyreFile ParseTyreFile(std::string_view text, const std::string& name);
+
+/// Returns the numbers of the <custom> section of a car's file that describe these tyres of the
+/// front and rear axle (SceneOptions::tyre_numbers). A number that both axles share has its plain
+/// name; other numbers have the suffixes _front and _rear. The vertical stiffness and damping are
+/// the means of both axles.
+std::vector<std::pair<std::string, double>> TyreNumbers(const TyreFile& front,
+                                                        const TyreFile& rear);
+
+}  // namespace trackbed

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trackbed/core/table.h"
+
+namespace trackbed {
+
+/// A line `KEY = value` of a tyre property file.
+struct TyreFileEntry {
+  std::string section;  ///< Name of the section in capitals; empty before the first section.
+  std::string key;      ///< In capitals.
+  std::string text;     ///< The value without quotes.
+  int line = 0;         ///< Line number from 1.
+  std::optional<double> number;  ///< The value, if it is a number.
+};
+
+/// Splits a tyre property file into its entries, in the order of the file. Entries without a value
+/// are left out. Adds a problem for each malformed line.
+std::vector<TyreFileEntry> SplitTyreFile(std::string_view text, const std::string& name,
+                                         ProblemList& problems);
+
+/// Returns `text` with ASCII letters in capitals.
+std::string InCapitals(std::string_view text);
+
+}  // namespace trackbed

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/vehicle/tyre_file_entries.h"
+#include "trackbed/core/error.h"
+#include "trackbed/vehicle/tyre_file.h"
+
+namespace trackbed {
+
+struct TyreUnit;
+
+/// Reads the entries of a tyre property file into a tyre.
+class TyreFileReader {
+ public:
+  /// Splits the text of a file. `name` names the file in messages, and must outlive the reader.
+  /// Throws InputError if a line is malformed.
+  TyreFileReader(std::string_view text, const std::string& name);
+
+  /// Returns the tyre. Throws InputError as ReadTyreFile. Call Read once.
+  TyreFile Read();
+
+ private:
+  using Field = double MagicFormula::*;
+
+  void Fail(const TyreFileEntry* entry, const std::string& key, std::string message);
+  void Note(std::string note) { result_.notes.push_back(std::move(note)); }
+
+  /// Returns the entry of a key; null if the file has none. Adds a problem if the file has the key
+  /// twice with different values.
+  const TyreFileEntry* Find(const std::string& key);
+  std::optional<double> Number(const std::string& key);
+  /// Returns a scale factor under one of its names; 1 if the file has none. Adds a problem if the
+  /// scale factor is below 0.
+  double Factor(std::initializer_list<const char*> names);
+  void Multiply(double factor, std::initializer_list<Field> fields);
+
+  void CheckType();
+  double FindVersion();
+  double VersionOfFormat(const TyreFileEntry& entry);
+  double VersionOfFit(const TyreFileEntry& entry);
+  double Unit(const char* key, const std::vector<TyreUnit>& units);
+  void ReadUnits();
+  void ReadCoefficients();
+  void ReadLoadAndCamber();
+  void NormalizeSigns();
+  void CheckCoefficients();
+  void ApplyScaleFactors();
+  void ApplyPressure();
+  void ReadRelaxation();
+  void ReadVertical();
+  void ReadRollingResistance();
+  void ApplySide();
+  void CheckFinite();
+  void NoteIgnored();
+
+  [[nodiscard]] bool is_6() const { return result_.tyre.version >= 6.0; }
+
+  const std::string& name_;
+  ProblemList problems_;
+  std::vector<TyreFileEntry> entries_;
+  std::map<std::string, std::vector<const TyreFileEntry*>> by_key_;
+  std::set<const TyreFileEntry*> used_;
+  TyreFile result_;
+  double length_ = 1.0;  // Unit of length [m].
+  double force_ = 1.0;   // Unit of force [N].
+  double angle_ = 1.0;   // Unit of angles [rad].
+  double time_ = 1.0;    // Unit of time [s].
+  double load_scale_ = 1.0;
+};
+
+}  // namespace trackbed
