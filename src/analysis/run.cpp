@@ -260,6 +260,9 @@ RunResult SimulateRun(RunResult planned, const CarModel& car, const RunHooks& ho
   if (const auto& rate = scenario.vehicle.steering_rate) {
     result.verdict.notes.push_back(fmt::format("steering rate set to {:.4g} rad/s", *rate));
   }
+  for (std::string& note : TyreFileNotes(scenario)) {
+    result.verdict.notes.push_back(std::move(note));
+  }
   NoteSlidingContacts(result, car);
   NoteFollowing(result);
   if (scenario.record) {
@@ -379,16 +382,14 @@ namespace {
 /// none for a car shipped with Trackbed.
 std::optional<Scene> OwnVehicle(const RunResult& result) {
   const Scenario& scenario = result.scenario;
-  if (!IsModelPath(scenario.vehicle.model)) {
+  if (!HasOwnVehicle(scenario.vehicle)) {
     return std::nullopt;
   }
   const bool is_bare =
       !scenario.disturb.payload && !HasObstacles(scenario.world) && IsFlat(scenario.world.ground);
   return is_bare ? result.scene
                  : ComposeScene(FindModel(scenario.vehicle.model, scenario.folder),
-                                {.timestep = scenario.drive.timestep,
-                                 .steering_rate = scenario.vehicle.steering_rate,
-                                 .asset_folders = scenario.asset_folders});
+                                MakeSceneOptions(scenario));
 }
 
 }  // namespace

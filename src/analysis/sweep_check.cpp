@@ -21,8 +21,10 @@ using CarKey = std::tuple<std::string, double, double>;
 /// Returns a key that is equal for scenarios whose compiled car models, without obstacles, are
 /// equal.
 CarKey MakeCarKey(const Scenario& scenario) {
-  return {FindModel(scenario.vehicle.model, scenario.folder).string(), scenario.drive.timestep,
-          scenario.vehicle.steering_rate.value_or(0.0)};
+  const VehicleSpec& vehicle = scenario.vehicle;
+  return {fmt::format("{}\n{}\n{}", FindModel(vehicle.model, scenario.folder).string(),
+                      vehicle.tyre_file.value_or(""), vehicle.tyre_file_rear.value_or("")),
+          scenario.drive.timestep, vehicle.steering_rate.value_or(0.0)};
 }
 
 /// Returns a copy of the scenario without obstacles, map, ground and payload.
@@ -103,7 +105,8 @@ void CheckOutputs(const Study& study, const std::set<std::string>& possible) {
 
 /// Returns the SHA-256 of a car's model and of the model's asset files.
 std::string HashOfModel(const Scenario& scenario) {
-  const Scene scene = ComposeScene(FindModel(scenario.vehicle.model, scenario.folder), {});
+  const Scene scene = ComposeScene(FindModel(scenario.vehicle.model, scenario.folder),
+                                   {.tyre_numbers = MakeSceneOptions(scenario).tyre_numbers});
   Sha256Sum hash;
   hash.Add(scene.xml);
   for (const auto& asset : scene.assets) {

@@ -8,7 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/scenario/input_files.h"
 #include "trackbed/sim/payload.h"
 
 namespace trackbed {
@@ -16,14 +18,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SceneOptions OptionsOf(const Scenario& scenario) {
-  return {.timestep = scenario.drive.timestep,
-          .steering_rate = scenario.vehicle.steering_rate,
-          .asset_folders = scenario.asset_folders};
-}
-
-CarModel LoadBareCar(const Scenario& scenario, const fs::path& file) {
-  return {ComposeScene(file, OptionsOf(scenario)), file.string()};
+CarModel LoadBareCar(const SceneOptions& options, const fs::path& file) {
+  CarModel car(ComposeScene(file, options), file.string());
+  if (!options.tyre_numbers.empty() && car.params().kind != VehicleKind::kSteered) {
+    throw InputError(
+        Problem{.key = "vehicle.tyre_file",
+                .message = fmt::format("{} has no steered front wheels, and so no tyre law; remove "
+                                       "vehicle.tyre_file",
+                                       file.string())});
+  }
+  return car;
 }
 
 /// Returns the car's scene with the scenario's payload on the car; none if the scenario has no
@@ -55,7 +59,7 @@ std::string KeyOf(const Scene& scene, const fs::path& file) {
 
 CarModel LoadCar(const Scenario& scenario) {
   const fs::path file = FindModel(scenario.vehicle.model, scenario.folder);
-  CarModel car = LoadBareCar(scenario, file);
+  CarModel car = LoadBareCar(MakeSceneOptions(scenario), file);
   if (std::optional<Scene> laden = LadenScene(scenario, car)) {
     car = {std::move(*laden), file.string()};
   }
@@ -72,10 +76,13 @@ CarCache::Car CarCache::Load(const Scenario& scenario) {
   const auto compiled = [&](Scene scene) {
     return Find(KeyOf(scene, file), [&] { return CarModel(std::move(scene), file.string()); });
   };
-  const SceneOptions options = OptionsOf(scenario);
-  Car car = Find(
-      fmt::format("{} {} {}", options.timestep, options.steering_rate.value_or(0.0), file.string()),
-      [&] { return LoadBareCar(scenario, file); });
+  const SceneOptions options = MakeSceneOptions(scenario);
+  std::string key =
+      fmt::format("{} {} {}", options.timestep, options.steering_rate.value_or(0.0), file.string());
+  for (const auto& [name, value] : options.tyre_numbers) {
+    key += fmt::format("\n{} {}", name, value);
+  }
+  Car car = Find(key, [&] { return LoadBareCar(options, file); });
   if (std::optional<Scene> laden = LadenScene(scenario, *car)) {
     car = compiled(std::move(*laden));
   }

@@ -58,6 +58,17 @@ void CheckController(Diagnostics& c) {
   }
 }
 
+void CheckTyreFiles(Diagnostics& c) {
+  const VehicleSpec& vehicle = c.scenario.vehicle;
+  if (vehicle.tyre_file && vehicle.tyre == TyreLaw::kContact && c.could_read("vehicle.tyre")) {
+    c.AddError("vehicle.tyre_file",
+               "has no effect on MuJoCo's contacts; remove it, or vehicle.tyre: contact");
+  }
+  if (vehicle.tyre_file_rear && !vehicle.tyre_file) {
+    c.AddError("vehicle.tyre_file_rear", "needs vehicle.tyre_file, the file of the front tyres");
+  }
+}
+
 void CheckSteps(Diagnostics& c) {
   const DriveSpec& drive = c.scenario.drive;
   const double steps = drive.control_period / drive.timestep;
@@ -283,6 +294,7 @@ std::vector<std::pair<std::string, std::string>> CrossProblems(
   CheckMissionAndPlan(c);
   CheckSpeedOverTime(c);
   CheckController(c);
+  CheckTyreFiles(c);
   CheckSteps(c);
   CheckRows(c);
   CheckPicture(c);

@@ -11,6 +11,7 @@
 #include "src/scenario/yaml_reader.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/scenario/input_files.h"
 #include "trackbed/sim/plant.h"
 
 namespace trackbed {
@@ -82,9 +83,10 @@ std::vector<Scenario> ReadRecords(const std::vector<std::string>& files, const s
     std::error_code ignored;
     if (!fs::equivalent(model, its_model, ignored) ||
         scenario.drive.timestep != reference.drive.timestep ||
-        own.steering_rate != vehicle.steering_rate) {
+        own.steering_rate != vehicle.steering_rate ||
+        MakeSceneOptions(scenario).tyre_numbers != MakeSceneOptions(reference).tyre_numbers) {
       add_error(
-          fmt::format("{} has another vehicle, steering rate or timestep than the first "
+          fmt::format("{} has another vehicle, tyre file, steering rate or timestep than the first "
                       "scenario; one model is fitted to all",
                       files[i]));
     }

@@ -5,6 +5,8 @@
 
 #include "src/scenario/input_files.h"
 #include "trackbed/control/controllers.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/recording/record_csv.h"
@@ -12,6 +14,7 @@
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
+#include "trackbed/vehicle/tyre_file.h"
 
 // Defines the input files in a run folder: their names, their contents, and the keys of the
 // resolved scenario that refer to them. The input files of a controller or planner are defined by
@@ -74,6 +77,37 @@ std::vector<std::string> InputFileNames() {
   return names;
 }
 
+namespace {
+
+/// The tyres of the front and rear axle that a scenario names.
+struct AxleTyres {
+  TyreFile front;
+  TyreFile rear;
+};
+
+TyreFile ReadTyre(const Scenario& scenario, const std::string& file, const char* key) {
+  try {
+    return ReadTyreFile(scenario.folder / file);
+  } catch (const RunError& error) {
+    throw InputError(Problem{.key = key, .message = error.what()});
+  }
+}
+
+std::optional<AxleTyres> ReadTyres(const Scenario& scenario) {
+  const VehicleSpec& vehicle = scenario.vehicle;
+  if (!vehicle.tyre_file) {
+    return std::nullopt;
+  }
+  AxleTyres tyres;
+  tyres.front = ReadTyre(scenario, *vehicle.tyre_file, "vehicle.tyre_file");
+  tyres.rear = vehicle.tyre_file_rear
+                   ? ReadTyre(scenario, *vehicle.tyre_file_rear, "vehicle.tyre_file_rear")
+                   : tyres.front;
+  return tyres;
+}
+
+}  // namespace
+
 Scenario WithResolvedFiles(const Scenario& scenario) {
   Scenario resolved = scenario;
   if (auto& record = resolved.record) {
@@ -89,8 +123,10 @@ Scenario WithResolvedFiles(const Scenario& scenario) {
     track->file = kTrackCsv;
     track->width.reset();  // TrackCsv writes the widths
   }
-  if (IsModelPath(resolved.vehicle.model)) {
+  if (HasOwnVehicle(scenario.vehicle)) {
     resolved.vehicle.model = kVehicleXml;
+    resolved.vehicle.tyre_file.reset();
+    resolved.vehicle.tyre_file_rear.reset();
   }
   if (auto& map = resolved.world.map) {
     *map = {.file = kMapYaml, .unknown = map->unknown, .height = map->height};
@@ -109,6 +145,35 @@ Scenario WithResolvedFiles(const Scenario& scenario) {
     }
   }
   return resolved;
+}
+
+bool HasOwnVehicle(const VehicleSpec& vehicle) {
+  return IsModelPath(vehicle.model) || vehicle.tyre_file;
+}
+
+SceneOptions MakeSceneOptions(const Scenario& scenario) {
+  SceneOptions options{.timestep = scenario.drive.timestep,
+                       .steering_rate = scenario.vehicle.steering_rate,
+                       .asset_folders = scenario.asset_folders};
+  if (const std::optional<AxleTyres> tyres = ReadTyres(scenario)) {
+    options.tyre_numbers = TyreNumbers(tyres->front, tyres->rear);
+  }
+  return options;
+}
+
+std::vector<std::string> TyreFileNotes(const Scenario& scenario) {
+  std::vector<std::string> notes;
+  if (const std::optional<AxleTyres> tyres = ReadTyres(scenario)) {
+    for (const std::string& note : tyres->front.notes) {
+      notes.push_back("vehicle.tyre_file: " + note);
+    }
+    if (scenario.vehicle.tyre_file_rear) {
+      for (const std::string& note : tyres->rear.notes) {
+        notes.push_back("vehicle.tyre_file_rear: " + note);
+      }
+    }
+  }
+  return notes;
 }
 
 }  // namespace trackbed

@@ -29,6 +29,13 @@ inline void Visit(KeyVisitor& a, VehicleSpec& vehicle) {
            "tyre model of the plant mujoco; auto: Magic Formula if the model has tyre "
            "coefficients, else MuJoCo contacts"},
           vehicle.tyre, Need::kOptional, laws);
+  a.Field({"tyre_file", "",
+           "tyre property file (.tir), relative to this file; replaces the tyre coefficients of "
+           "the model"},
+          vehicle.tyre_file);
+  a.Field({"tyre_file_rear", "",
+           "tyre property file of the rear tyres, relative to this file; default: tyre_file"},
+          vehicle.tyre_file_rear);
   a.Field({"steering_rate", "rad/s", "steering rate of the road wheels, overrides the model's"},
           vehicle.steering_rate, Range{.max = 10.0, .above = 0.0});
 }

@@ -383,6 +383,9 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
   if (options.steering_rate) {
     SetSteeringRate(root, *options.steering_rate);
   }
+  if (!options.tyre_numbers.empty()) {
+    SetTyreNumbers(root, options.tyre_numbers);
+  }
   // Sets the compiler option `autolimits`, which is on by default since MuJoCo 3.0. MuJoCo uses the
   // last <compiler> element that sets an attribute, so the car's file can still override this
   // value.

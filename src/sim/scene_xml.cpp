@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "trackbed/core/error.h"
+#include "trackbed/vehicle/magic_formula.h"
 
 namespace trackbed {
 
@@ -107,6 +110,35 @@ std::string DiscardLooks(const std::string& xml) {
   // attribute.
   document.RootElement()->InsertNewChildElement("compiler")->SetAttribute("discardvisual", true);
   return Print(document);
+}
+
+void SetTyreNumbers(XMLElement& root, const std::vector<std::pair<std::string, double>>& numbers) {
+  std::set<std::string> replaced;
+  for (const auto& [name, value] : numbers) {
+    replaced.insert(name);
+  }
+  for (const MagicFormulaField& field : MagicFormulaFields()) {
+    for (const char* suffix : {"", "_front", "_rear"}) {
+      replaced.insert(std::string(field.name) + suffix);
+    }
+  }
+  for (XMLElement* part = root.FirstChildElement("custom"); part != nullptr;
+       part = part->NextSiblingElement("custom")) {
+    for (XMLElement* element = part->FirstChildElement("numeric"); element != nullptr;) {
+      XMLElement* next = element->NextSiblingElement("numeric");
+      const char* name = element->Attribute("name");
+      if (name != nullptr && replaced.count(name) > 0) {
+        part->DeleteChild(element);
+      }
+      element = next;
+    }
+  }
+  XMLElement* custom = root.InsertNewChildElement("custom");
+  for (const auto& [name, value] : numbers) {
+    XMLElement* numeric = custom->InsertNewChildElement("numeric");
+    numeric->SetAttribute("name", name.c_str());
+    numeric->SetAttribute("data", Numbers({value}).c_str());
+  }
 }
 
 }  // namespace trackbed

@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 /// Helper functions that process XML when a scene is composed.
 namespace trackbed {
@@ -34,5 +36,10 @@ std::string DiscardLooks(const std::string& xml);
 /// If GivesAllMasses returns true, no mass depends on a geom. GivesAllMasses also returns false if
 /// the model contains elements from which MuJoCo makes bodies itself, such as <composite>.
 bool GivesAllMasses(const std::string& xml);
+
+/// Replaces the tyre coefficients in the model by `numbers`, which are names and values under
+/// <custom>. A number with another name is replaced if `numbers` has its name.
+void SetTyreNumbers(tinyxml2::XMLElement& root,
+                    const std::vector<std::pair<std::string, double>>& numbers);
 
 }  // namespace trackbed

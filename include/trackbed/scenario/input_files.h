@@ -5,6 +5,7 @@
 
 #include "trackbed/options/method_rules.h"
 #include "trackbed/scenario/scenario.h"
+#include "trackbed/sim/scene.h"
 
 namespace trackbed {
 
@@ -15,5 +16,17 @@ std::vector<InputFile> InputFiles(const Scenario& scenario);
 
 /// Returns all file names that InputFiles may return, for all registered controllers and planners.
 std::vector<std::string> InputFileNames();
+
+/// Whether a run folder contains the vehicle's model (kVehicleXml), because the scenario names a
+/// model file or tyre files of its own.
+bool HasOwnVehicle(const VehicleSpec& vehicle);
+
+/// Returns the options with which ComposeScene makes the scenario's car. Reads the tyre files of
+/// the scenario (ReadTyreFile). Errors: throws InputError if a tyre file is missing or cannot be
+/// used.
+SceneOptions MakeSceneOptions(const Scenario& scenario);
+
+/// Returns the notes about how the scenario's tyre files were read; empty without tyre files.
+std::vector<std::string> TyreFileNotes(const Scenario& scenario);
 
 }  // namespace trackbed

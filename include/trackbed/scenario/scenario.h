@@ -37,6 +37,11 @@ struct VehicleSpec {
   /// Name of a model in models/, or path of a model file relative to the scenario file.
   std::string model = "prius";
   TyreLaw tyre = TyreLaw::kAuto;  ///< Tyre model of the plant `mujoco`.
+  /// Tyre property file (*.tir) of the tyres of both axles, relative to the scenario file; replaces
+  /// the tyre coefficients in the car model.
+  std::optional<std::string> tyre_file{};
+  /// Tyre property file of the rear tyres; default: tyre_file.
+  std::optional<std::string> tyre_file_rear{};
   /// Maximum steering rate of the road wheels [rad/s]; overrides the limit in the car model.
   std::optional<double> steering_rate;
 };

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "trackbed/vehicle/params.h"
@@ -16,6 +17,9 @@ struct SceneOptions {
   /// Limit of the steering rate at the road wheels [rad/s], which replaces the limit in the car's
   /// file.
   std::optional<double> steering_rate;
+  /// Numbers that describe the tyres, under their names in the <custom> section of a car's file
+  /// (ReadTyreFiles). If not empty, the numbers replace all tyre coefficients in the car's file.
+  std::vector<std::pair<std::string, double>> tyre_numbers{};
   /// Additional folders; the car's file may include files from these folders or use them as assets.
   std::vector<std::filesystem::path> asset_folders{};
 };
