@@ -74,6 +74,7 @@ void CheckStart(const Plan& plan, const PlanRequest& request, std::vector<Excess
 
 void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   const VehicleParams& vehicle = request.vehicle;
+  const VehicleParams car = feasible_speeds::SteeredCar(plan, request);
   WorstExcess steering("steering angle", "rad", Remedy::kNone);
   WorstExcess lateral("lateral acceleration", "m/s^2", Remedy::kLowerSpeed);
   WorstExcess speed("speed", "m/s", Remedy::kLowerSpeed);
@@ -83,13 +84,14 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
   const Path& path = plan.reference.path;
   const RoadHold road(request);
   const bool is_at_limit = IsAtLimit(plan, request);
-  ForEachPiece(path, vehicle, feasible_speeds::kCheckSpacing, [&](const PathPiece& piece) {
+  ForEachPiece(path, feasible_speeds::kCheckSpacing, [&](const PathPiece& piece) {
     const double s = piece.stations.from;
     const double v_from = plan.reference.speed.SpeedAt(s);
     const double v_to = plan.reference.speed.SpeedAt(piece.stations.to);
     const double v = std::max(v_from, v_to);
     if (!plan.sampled) {
-      rate.Take(v * piece.slope, vehicle.steering_rate, s);
+      rate.Take(SteeringRateOn(car, piece.bends(), feasible_speeds::SpeedOn(plan, piece, road)),
+                vehicle.steering_rate, s);
     }
     steering.Take(SteeringForCurvature(vehicle, piece.curvature), vehicle.steering_limit, s);
     lateral.Take(v * v * piece.curvature, feasible_speeds::LateralOver(road, path, piece.stations),
@@ -184,34 +186,6 @@ Plan Refuse(const std::vector<Excess>& excesses, const Plan& plan) {
   return refused;
 }
 
-double MinSpeedOf(const std::vector<SpeedCap>& caps, double speed) {
-  for (const SpeedCap& cap : caps) {
-    speed = std::min(speed, cap.speed);
-  }
-  return speed;
-}
-
-/// Returns `limits`, lowered to the smallest acceleration and deceleration of the sections.
-SpeedLimits SmallestOf(SpeedLimits limits, const std::vector<AccelerationCap>& sections) {
-  for (const AccelerationCap& section : sections) {
-    limits.acceleration = std::min(limits.acceleration, section.acceleration);
-    limits.deceleration = std::min(limits.deceleration, section.deceleration);
-  }
-  return limits;
-}
-
-/// Computes the speeds of a plan like SetSpeeds, with the acceleration limits of `sections`.
-void SetSpeedsOn(Plan& plan, double start_speed, const SpeedLimits& limits,
-                 const std::vector<AccelerationCap>& sections) {
-  const Path& path = plan.reference.path;
-  const double stop =
-      plan.schedule_speed.knots().empty() ? path.length() : plan.schedule_speed.knots().back().s;
-  plan.reference.speed = StopAtCusps(path, start_speed, limits, plan.caps, plan.stops, sections);
-  plan.schedule_speed = std::abs(stop - path.length()) < 1e-9
-                            ? plan.reference.speed
-                            : StopAtEnd(stop, start_speed, limits, plan.caps, sections);
-}
-
 /// Describes the changes made to a plan, for example "speed reduced to 2.1 m/s where needed".
 std::string DescribeSpeedChanges(const SpeedLimits& before, const SpeedLimits& after,
                                  double slowest) {
@@ -258,14 +232,15 @@ Plan DriveAtLimit(Plan plan, const PlanRequest& request, Refusal refusal) {
     }
   }
   std::vector<SpeedCap> caps = feasible_speeds::CapsFor(plan, request);
-  if (MinSpeedOf(caps, request.speed.speed) < kMinPlanSpeed) {
+  if (feasible_speeds::MinSpeedOf(caps, request.speed.speed) < kMinPlanSpeed) {
     for (Excess& excess : FindExcesses(plan, request)) {
       excesses.push_back(std::move(excess));
     }
     return Refuse(excesses, plan);
   }
   caps.insert(caps.end(), plan.caps.begin(), plan.caps.end());
-  if (const std::optional<LimitExcess> fast = SetSpeedsAtLimit(plan, request, caps)) {
+  if (const std::optional<LimitExcess> fast =
+          feasible_speeds::SteerableSpeedsAtLimit(plan, request, caps)) {
     excesses.push_back(StartExcessAtLimit(plan, request, caps, *fast, refusal));
   }
   const auto& knots = plan.reference.speed.knots();
@@ -302,7 +277,7 @@ SlowerPlan SlowDown(const Plan& plan, const PlanRequest& request,
   const std::vector<SpeedCap> caps = feasible_speeds::CapsFor(plan, request);
   SlowerPlan slower{.plan = plan,
                     .limits = request.speed,
-                    .slowest = MinSpeedOf(caps, request.speed.speed),
+                    .slowest = feasible_speeds::MinSpeedOf(caps, request.speed.speed),
                     .reasons = first,
                     .left = first};
   if (slower.slowest < kMinPlanSpeed) {
@@ -327,12 +302,12 @@ SlowerPlan SlowDown(const Plan& plan, const PlanRequest& request,
       shares = feasible_speeds::kBendShares;
       const std::vector<SpeedCap> bends = feasible_speeds::CapsInBends(slower.plan, request);
       own.insert(own.end(), bends.begin(), bends.end());
-      slower.slowest = MinSpeedOf(bends, slower.slowest);
+      slower.slowest = feasible_speeds::MinSpeedOf(bends, slower.slowest);
     }
     const std::vector<AccelerationCap> sections =
         feasible_speeds::SectionsOfLessGrip(plan.reference.path, request, shares);
-    SetSpeedsOn(slower.plan, request.start_speed, request.speed, sections);
-    slower.limits = SmallestOf(request.speed, sections);
+    feasible_speeds::SetSpeedsOn(slower.plan, request.start_speed, request.speed, sections);
+    slower.limits = feasible_speeds::SmallestOf(request.speed, sections);
     slower.left = FindExcesses(slower.plan, request);
   }
   if (slower.left.empty() && slower.slowest < kMinPlanSpeed) {
@@ -405,7 +380,7 @@ std::string ToString(const Excess& excess) {
 }
 
 void SetSpeeds(Plan& plan, double start_speed, const SpeedLimits& limits) {
-  SetSpeedsOn(plan, start_speed, limits, {});
+  feasible_speeds::SetSpeedsOn(plan, start_speed, limits, {});
 }
 
 std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request) {

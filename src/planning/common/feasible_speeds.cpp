@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "trackbed/planning/common/speed_at_limit.h"
+
 namespace trackbed::feasible_speeds {
 namespace {
 
@@ -42,15 +44,57 @@ bool EndsAtStop(const std::vector<Stations>& legs, double s) {
   });
 }
 
+VehicleParams SteeredCar(const Plan& plan, const PlanRequest& request) {
+  VehicleParams car = request.vehicle;
+  if (!request.limits && !plan.diagnostics.speed_profile) {
+    car.cornering_stiffness_front = 0.0;
+    car.cornering_stiffness_rear = 0.0;
+  }
+  return car;
+}
+
+double UsableSteeringRate(const PlanRequest& request) {
+  const double share = request.limits ? request.limits->options.share : 1.0;
+  return share * request.vehicle.steering_rate;
+}
+
+PieceSpeed SpeedOn(const Plan& plan, const PathPiece& piece, const RoadHold& road) {
+  const auto [from, to] = piece.stations;
+  const SpeedProfile& speed = plan.reference.speed;
+  const double v_from = speed.SpeedAt(from);
+  const double v_to = speed.SpeedAt(to);
+  return {.speed = std::max(v_from, v_to),
+          .acceleration = to > from ? 0.5 * (v_to * v_to - v_from * v_from) / (to - from) : 0.0,
+          .direction = piece.direction,
+          .road = road.FrictionAt(plan.reference.path, from)};
+}
+
+std::vector<SpeedCap> CapsForSteering(const Plan& plan, const PlanRequest& request) {
+  std::vector<SpeedCap> caps;
+  if (plan.sampled) {
+    return caps;
+  }
+  constexpr double kTolerance = 1e-3;  // relative tolerance of the speed
+  const double rate = UsableSteeringRate(request);
+  const VehicleParams car = SteeredCar(plan, request);
+  const RoadHold road(request);
+  ForEachPiece(plan.reference.path, kCheckSpacing, [&](const PathPiece& piece) {
+    const PieceSpeed at = SpeedOn(plan, piece, road);
+    const double speed = SpeedForSteeringRate(car, piece.bends(), rate, at);
+    if (speed < at.speed * (1.0 - kTolerance)) {
+      caps.push_back({piece.stations.from, piece.stations.to, speed});
+    }
+  });
+  return caps;
+}
+
 std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
   const VehicleParams& vehicle = request.vehicle;
   const Path& path = plan.reference.path;
   std::vector<SpeedCap> caps;
   const double wanted = request.speed.speed;
-  // If the plan drives at the limit, use only a share of the steering rate, because the controllers
-  // need the rest.
-  const double rate =
-      vehicle.steering_rate * (request.limits ? request.limits->options.share : 1.0);
+  const double rate = UsableSteeringRate(request);
+  const VehicleParams car = SteeredCar(plan, request);
   if (vehicle.top_speed > 0.0 && vehicle.top_speed < wanted) {
     caps.push_back({0.0, path.length(), vehicle.top_speed});
   }
@@ -62,14 +106,18 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
     }
   };
   const RoadHold road(request);
-  ForEachPiece(path, vehicle, kCheckSpacing, [&](const PathPiece& piece) {
-    double speed = rate / piece.slope;
+  ForEachPiece(path, kCheckSpacing, [&](const PathPiece& piece) {
+    const PieceSpeed at{.speed = wanted,
+                        .direction = piece.direction,
+                        .road = road.FrictionAt(path, piece.stations.from)};
+    double speed = SpeedForSteeringRate(car, piece.bends(), rate, at);
     if (vehicle.friction_lateral > 0.0 && !request.limits) {
       const double lateral = LateralOver(road, path, piece.stations);
       speed = std::min(speed, std::sqrt(lateral / piece.curvature));
     }
     add(piece.stations, speed);  // on a straight, the speed is infinite and no cap is added
   });
+  // Open-loop runs turn the wheels by the schedule, whatever the tyres do.
   const std::vector<Stations> legs = SplitIntoLegs(path, plan.stops);
   ForEachRamp(plan.schedule, [&](double from, double to, double slope) {
     const double speed = rate / slope;
@@ -78,6 +126,47 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
     }
   });
   return caps;
+}
+
+double MinSpeedOf(const std::vector<SpeedCap>& caps, double speed) {
+  for (const SpeedCap& cap : caps) {
+    speed = std::min(speed, cap.speed);
+  }
+  return speed;
+}
+
+SpeedLimits SmallestOf(SpeedLimits limits, const std::vector<AccelerationCap>& sections) {
+  for (const AccelerationCap& section : sections) {
+    limits.acceleration = std::min(limits.acceleration, section.acceleration);
+    limits.deceleration = std::min(limits.deceleration, section.deceleration);
+  }
+  return limits;
+}
+
+void SetSpeedsOn(Plan& plan, double start_speed, const SpeedLimits& limits,
+                 const std::vector<AccelerationCap>& sections) {
+  const Path& path = plan.reference.path;
+  const double stop =
+      plan.schedule_speed.knots().empty() ? path.length() : plan.schedule_speed.knots().back().s;
+  plan.reference.speed = StopAtCusps(path, start_speed, limits, plan.caps, plan.stops, sections);
+  plan.schedule_speed = std::abs(stop - path.length()) < 1e-9
+                            ? plan.reference.speed
+                            : StopAtEnd(stop, start_speed, limits, plan.caps, sections);
+}
+
+std::optional<LimitExcess> SteerableSpeedsAtLimit(Plan& plan, const PlanRequest& request,
+                                                  std::vector<SpeedCap>& caps) {
+  constexpr int kMaxAttempts = 8;
+  std::optional<LimitExcess> fast = SetSpeedsAtLimit(plan, request, caps);
+  for (int i = 0; i < kMaxAttempts; ++i) {
+    const std::vector<SpeedCap> more = CapsForSteering(plan, request);
+    if (more.empty()) {
+      break;
+    }
+    caps.insert(caps.end(), more.begin(), more.end());
+    fast = SetSpeedsAtLimit(plan, request, caps);
+  }
+  return fast;
 }
 
 std::vector<AccelerationCap> GripAlong(const Path& path, const PlanRequest& request) {
@@ -90,7 +179,7 @@ std::vector<AccelerationCap> GripAlong(const Path& path, const PlanRequest& requ
     return {{0.0, path.length(), from.acceleration, from.deceleration}};
   }
   std::vector<AccelerationCap> pieces;
-  ForEachPiece(path, request.vehicle, kCheckSpacing, [&](const PathPiece& piece) {
+  ForEachPiece(path, kCheckSpacing, [&](const PathPiece& piece) {
     const AccelerationCap to = at(piece.stations.to);
     pieces.push_back({piece.stations.from, to.to, std::min(from.acceleration, to.acceleration),
                       std::min(from.deceleration, to.deceleration)});
@@ -135,7 +224,7 @@ std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request) 
   };
   const std::vector<AccelerationCap> grip = GripAlong(path, request);
   std::size_t next = 0;
-  ForEachPiece(path, request.vehicle, kCheckSpacing, [&](const PathPiece& piece) {
+  ForEachPiece(path, kCheckSpacing, [&](const PathPiece& piece) {
     const AccelerationCap& along_path = grip[road.uniform() ? 0 : next++];
     if (piece.curvature == 0.0) {
       finish_bend();

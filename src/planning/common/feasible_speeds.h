@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "trackbed/path/acceleration_caps.h"
@@ -48,10 +49,43 @@ RoadHold::Combined CombinedOver(const RoadHold& road, const Path& path, const Pa
 /// turn at standstill.
 bool EndsAtStop(const std::vector<Stations>& legs, double s);
 
+/// Returns the car whose steering the plan requires. A plan at the limit is steered for the slip of
+/// the tyres, any other plan for a car that does not slip.
+VehicleParams SteeredCar(const Plan& plan, const PlanRequest& request);
+
+/// Returns the steering rate that a plan may use [rad/s]. If the plan drives at the limit, this is
+/// a share of the car's steering rate, because the controllers need the rest.
+double UsableSteeringRate(const PlanRequest& request);
+
+/// Returns the motion of the plan on a piece of its path: the larger speed of both ends, and the
+/// mean acceleration.
+PieceSpeed SpeedOn(const Plan& plan, const PathPiece& piece, const RoadHold& road);
+
 /// Returns the speed caps that enforce the limits of steering rate, top speed and lateral
-/// acceleration. The lateral acceleration gets no cap if the g-g-v diagram determines the plan's
-/// speeds.
+/// acceleration, for a car that drives each piece of the path at constant speed. The lateral
+/// acceleration gets no cap if the g-g-v diagram determines the plan's speeds.
 std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request);
+
+/// Returns speed caps for the pieces of the path on which the car must steer faster than
+/// UsableSteeringRate at the plan's speeds and accelerations. Each cap is the speed at which the
+/// steering rate suffices for the plan's acceleration. Lower speeds change the accelerations, so
+/// the caller repeats the computation.
+std::vector<SpeedCap> CapsForSteering(const Plan& plan, const PlanRequest& request);
+
+/// Returns the smallest speed of the caps, at most `speed` [m/s].
+double MinSpeedOf(const std::vector<SpeedCap>& caps, double speed);
+
+/// Returns `limits`, lowered to the smallest acceleration and deceleration of the sections.
+SpeedLimits SmallestOf(SpeedLimits limits, const std::vector<AccelerationCap>& sections);
+
+/// Computes the speeds of a plan like SetSpeeds, with the acceleration limits of `sections`.
+void SetSpeedsOn(Plan& plan, double start_speed, const SpeedLimits& limits,
+                 const std::vector<AccelerationCap>& sections);
+
+/// Sets speeds at the limit of the g-g-v diagram at which the car can steer fast enough while it
+/// brakes and accelerates. Adds the required speed caps to `caps`.
+std::optional<LimitExcess> SteerableSpeedsAtLimit(Plan& plan, const PlanRequest& request,
+                                                  std::vector<SpeedCap>& caps);
 
 /// The shares of the road's grip that a plan may use along the path, > 0; infinite if the plan does
 /// not exceed the road's grip.

@@ -53,6 +53,14 @@ RoadHold::Tilt RoadHold::TiltAt(const PathPoint& at) const {
           .left = across / std::hypot(1.0, across)};
 }
 
+double RoadHold::FrictionAt(const Path& path, double s) const {
+  if (uniform()) {
+    return request_.friction;
+  }
+  const PathPoint at = path.At(s);
+  return Factor(at.pose) * TiltAt(at).load;
+}
+
 double RoadHold::Lateral(const Path& path, double s, double curvature) const {
   if (uniform()) {
     return MaxLateralAcceleration(request_.vehicle, request_.friction);

@@ -73,10 +73,10 @@ PathCheck Reversed(const FittedPath& fitted, PathCheck check) {
 }
 
 /// Returns the steering and the acceleration that the car needs on a path piece, and the limit that
-/// restricts the speed most on this piece.
-std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, const PathPoint& begin,
-                                              const VehicleParams& vehicle, double speed,
-                                              const PathCheck& limits) {
+/// restricts the speed most on this piece. `slope` is the result of SteepestSlope.
+std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, double slope,
+                                              const PathPoint& begin, const VehicleParams& vehicle,
+                                              double speed, const PathCheck& limits) {
   const auto by_acceleration = [&](double limit) {
     return piece.curvature > 0.0 ? std::sqrt(OrInfinite(limit) / piece.curvature) : kInfinity;
   };
@@ -85,10 +85,10 @@ std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, const Path
                     .curvature = begin.curvature,
                     .curvature_rate = begin.sharpness,
                     .steering = SteeringForCurvature(vehicle, piece.curvature),
-                    .steering_rate = speed * piece.slope,
+                    .steering_rate = speed * slope,
                     .lateral_acceleration = speed * speed * piece.curvature};
   demand.speed_by_steering_rate =
-      piece.slope > 0.0 ? OrInfinite(vehicle.steering_rate) / piece.slope : kInfinity;
+      slope > 0.0 ? OrInfinite(vehicle.steering_rate) / slope : kInfinity;
   demand.speed_by_friction = by_acceleration(limits.friction_limit);
   demand.speed_by_rollover = by_acceleration(limits.rollover_limit);
   const std::array<std::pair<double, PathFaultKind>, 5> speeds{
@@ -110,13 +110,16 @@ std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, const Path
 double SteepestSlope(const Path& path, const PathPiece& piece, const VehicleParams& vehicle) {
   constexpr double kTurn = 0.02;  // [rad]
   constexpr double kMaxParts = 100.0;
-  const double turn = piece.slope * (piece.stations.to - piece.stations.from);
+  double steepest = 0.0;
+  for (const Bend& bend : piece.bends()) {
+    steepest = std::max(steepest, SteeringSlope(vehicle, bend));
+  }
+  const double turn = steepest * (piece.stations.to - piece.stations.from);
   const double parts = std::min(kMaxParts, std::ceil(turn / kTurn));
-  double steepest = piece.slope;
   for (double part = 1.0; part < parts; part += 1.0) {
     const PathPoint point =
         path.At(std::lerp(piece.stations.from, piece.stations.to, part / parts));
-    steepest = std::max(steepest, SteeringSlope(vehicle, point.curvature, point.sharpness));
+    steepest = std::max(steepest, SteeringSlope(vehicle, {point.curvature, point.sharpness}));
   }
   return steepest;
 }
@@ -161,7 +164,7 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
     }
   };
   const double spacing = std::max(kSpacing, path.length() / kMaxPieces);
-  ForEachPiece(path, vehicle, spacing, [&](const PathPiece& piece) {
+  ForEachPiece(path, spacing, [&](const PathPiece& piece) {
     // Where an arc replaces a heading jump, report the jump instead of the arc's curvature, which
     // depends on the spacing of the points in the file and not on the intended path.
     while (jump != jumps.end() && jump->rounded.to <= piece.stations.from + 1e-9) {
@@ -178,10 +181,9 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
       ++jump;
       return;
     }
-    PathPiece own = piece;
-    own.slope = SteepestSlope(path, piece, vehicle);
     const auto [demand, limit] =
-        DemandOf(own, path.At(piece.stations.from), vehicle, options.speed, check);
+        DemandOf(piece, SteepestSlope(path, piece, vehicle), path.At(piece.stations.from), vehicle,
+                 options.speed, check);
     check.demands.push_back(demand);
     limit_speed(demand.speed, demand.s, limit);
     angle.Take(piece.stations, demand.steering, path, check.faults);

@@ -80,6 +80,35 @@ TEST(SpeedAtLimit, KeepsTheSteeringRate) {
   }
 }
 
+TEST(SpeedAtLimit, KeepsTheSteeringRateOnTyres) {
+  // A car with linear tyres steers by tan(delta) = kappa (L + K v^2). The rate of this angle over
+  // time includes the change of speed. Differences over 0.05 m have an error below 1 %.
+  PlanRequest request = Request();
+  request.vehicle.mass = 1000.0;
+  request.vehicle.yaw_inertia = 1500.0;
+  request.vehicle.cornering_stiffness_front = 50e3;
+  request.vehicle.cornering_stiffness_rear = 90e3;
+  request.limits->options.share = 0.9;
+  const double gradient = 1000.0 / 2.5 * (1.0 / 50e3 - 1.5 / 90e3);
+  for (const double rate : {0.015, 0.03, 0.05}) {
+    request.vehicle.steering_rate = rate;
+    const Plan plan = MakeFeasible(PlanAlong(Bend(), request), request);
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const SpeedProfile& speed = plan.reference.speed;
+    const auto steering = [&](double s) {
+      const double v = speed.SpeedAt(s);
+      return std::atan(plan.reference.path.At(s).curvature * (2.5 + gradient * v * v));
+    };
+    double fastest = 0.0;
+    for (double s = 55.0; s < 185.0; s += 0.05) {
+      const double time = speed.TimeAt(s + 0.05) - speed.TimeAt(s);
+      fastest = std::max(fastest, std::abs(steering(s + 0.05) - steering(s)) / time);
+    }
+    EXPECT_LT(fastest, 1.01 * 0.9 * rate);
+    EXPECT_GT(fastest, 0.9 * 0.9 * rate) << "needlessly slow";
+  }
+}
+
 TEST(SpeedAtLimit, StopsAtCuspsAndStops) {
   const PlanRequest request = Request();
   Plan plan = PlanAlong({{.length = 20.0}, {.length = 10.0, .direction = -1}}, request);

@@ -1,45 +1,78 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 #include "trackbed/path/path.h"
 #include "trackbed/vehicle/params.h"
 
 /// Computes the steering that a path demands from a car, for each short piece of the path.
+///
+/// The steering angle delta(kappa, v) is that of the car on its tyres in a steady turn with the
+/// path's curvature kappa and the speed v (SteeringInBend). Along the path, delta changes with the
+/// curvature and with the speed.
 namespace trackbed {
 
-/// A short piece of a path, and its largest steering demands.
+/// Curvature of a path at a station.
+struct Bend {
+  double curvature = 0.0;  ///< Curvature kappa [1/m].
+  double sharpness = 0.0;  ///< Derivative of kappa by the station [1/m^2].
+};
+
+/// A short piece of a path, and its curvature.
 struct PathPiece {
   Stations stations;
   double curvature = 0.0;  ///< Largest curvature |kappa| on the piece [1/m].
-  /// Largest slope |d delta/ds| of the steering angle on the piece, apart from steps of curvature
-  /// [rad/m].
-  double slope = 0.0;
+  int direction = 1;       ///< Direction of travel, 1 or -1.
+  /// Curvature at both ends of the piece and, if it has an extremum within the piece, also there.
+  std::array<Bend, 3> samples{};
+  std::size_t count = 0;  ///< Number of samples, 2 or 3.
+
+  [[nodiscard]] std::span<const Bend> bends() const { return {samples.data(), count}; }
 };
 
-/// Returns the derivative of the steering angle by the station, |d delta/ds| = L |kappa'|/(1 + (L
-/// kappa)^2) [rad/m].
-double SteeringSlope(const VehicleParams& vehicle, double curvature, double sharpness);
+/// Speed of a car on a piece of a path.
+struct PieceSpeed {
+  double speed = 0.0;         ///< Magnitude of the speed v [m/s], >= 0.
+  double acceleration = 0.0;  ///< Rate of change of v [m/s^2].
+  int direction = 1;          ///< Direction of travel, 1 or -1.
+  double road = 1.0;          ///< Factor of the road on the tyres' friction [1], > 0.
+};
+
+/// Returns the derivative of a kinematic car's steering angle by the station, |d delta/ds| = L
+/// |kappa'|/(1 + (L kappa)^2) [rad/m].
+double SteeringSlope(const VehicleParams& vehicle, const Bend& bend);
+
+/// Returns the largest magnitude of the steering rate |d delta/dt| that the car needs in one of the
+/// bends [rad/s], on its tyres or as a kinematic car without slip.
+double SteeringRateOn(const VehicleParams& vehicle, std::span<const Bend> bends,
+                      const PieceSpeed& speed);
+
+/// Returns a speed of at most `at.speed` with which the car needs at most the steering rate `rate`
+/// [rad/s] in all of the bends; infinite if `at.speed` needs no more. For a car that understeers,
+/// the result is the largest such speed, to nine digits, because the steering rate increases with
+/// the speed. The acceleration and the road are those of `at`. A rate of 0 means no limit.
+double SpeedForSteeringRate(const VehicleParams& vehicle, std::span<const Bend> bends, double rate,
+                            const PieceSpeed& at);
 
 /// Divides each segment of the path into equal pieces of at most `spacing` [m], and calls `call`
 /// for each piece. A segment shorter than `spacing` forms a single piece.
 template <typename Call>
-void ForEachPiece(const Path& path, const VehicleParams& vehicle, double spacing,
-                  const Call& call) {
+void ForEachPiece(const Path& path, double spacing, const Call& call) {
   double start = 0.0;
   for (const Segment& segment : path.segments()) {
     const auto count = static_cast<long>(std::ceil(segment.length / spacing));
     for (long i = 0; i < count; ++i) {
       const double from = segment.length * static_cast<double>(i) / static_cast<double>(count);
       const double to = segment.length * static_cast<double>(i + 1) / static_cast<double>(count);
-      PathPiece piece{{start + from, start + to}};
+      PathPiece piece{.stations = {start + from, start + to}, .direction = segment.direction};
       const auto take = [&](double d) {
         const double curvature = segment.CurvatureAt(d);
         piece.curvature = std::max(piece.curvature, std::abs(curvature));
-        piece.slope = std::max(
-            piece.slope,
-            SteeringSlope(vehicle, curvature, segment.sharpness + d * segment.sharpness_rate));
+        piece.samples[piece.count++] = {curvature, segment.sharpness + d * segment.sharpness_rate};
       };
       take(from);
       take(to);

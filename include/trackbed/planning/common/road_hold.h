@@ -65,6 +65,10 @@ class RoadHold {
   /// that the car can hold, the car slides. Returns {0, 0} on flat ground.
   [[nodiscard]] Pull Slope(const Path& path, double s) const;
 
+  /// Returns the factor on the tyres' friction force at a station: the friction factor of the road
+  /// times cos(theta).
+  [[nodiscard]] double FrictionAt(const Path& path, double s) const;
+
   [[nodiscard]] bool flat() const { return flat_; }
   /// Whether friction and slope of the road are the same everywhere.
   [[nodiscard]] bool uniform() const { return flat_ && request_.friction_patches.empty(); }
