@@ -1,31 +1,88 @@
 #include "src/planning/racing/lap_model.h"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 
 #include "trackbed/core/error.h"
+#include "trackbed/vehicle/steady_turn.h"
 
 namespace trackbed {
+namespace {
+
+/// Returns the largest speed of a lap, by its options or the car's top speed [m/s].
+double FastestOn(const LapLimits& limits) {
+  const double top = limits.diagram.forces().top_speed;
+  const double wanted = limits.options.speed;
+  return wanted > 0.0 && top > 0.0 ? std::min(wanted, top) : std::max(wanted, top);
+}
+
+}  // namespace
 
 LapModel::LapModel(const Track& track, const LapLimits& limits, std::size_t count)
-    : limits_(limits), step_(track.length() / static_cast<double>(count)) {
+    : limits_(limits),
+      fastest_(FastestOn(limits)),
+      step_(track.length() / static_cast<double>(count)) {
   centers_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     centers_.push_back(track.At(StationAt(i)));
   }
 }
 
-double LapModel::SteeringReach(const Lap& lap, std::size_t i) const {
-  if (limits_.steering_rate <= 0.0 || limits_.wheelbase <= 0.0) {
-    return std::numeric_limits<double>::infinity();
+double LapModel::UsableRate() const {
+  return limits_.options.share * limits_.vehicle.steering_rate;
+}
+
+double LapModel::SteeringAt(double curvature, double speed) const {
+  return SteeringInBend(limits_.vehicle,
+                        {.curvature = curvature, .speed = speed, .road = limits_.road});
+}
+
+LapModel::Turn LapModel::TurnAt(const Lap& lap, std::size_t i, double speed) const {
+  const double rate = UsableRate();
+  if (rate <= 0.0) {
+    return {};
   }
-  // If the curvature changes by d kappa, the steering angle delta = atan(L kappa) changes by L |d
-  // kappa|/(1 + (L kappa)^2).
-  const double tangent =
-      limits_.wheelbase * std::min(std::abs(lap.curvature[i]), std::abs(lap.curvature[After(i)]));
-  return limits_.options.share * limits_.steering_rate * lap.lengths[i] *
-         (1.0 + tangent * tangent) / limits_.wheelbase;
+  const double from = lap.curvature[i];
+  const double to = lap.curvature[After(i)];
+  const auto slopes = [&](double curvature) {
+    return SteeringSlopesInBend(limits_.vehicle,
+                                {.curvature = curvature, .speed = speed, .road = limits_.road});
+  };
+  const SteeringSlopes at_from = slopes(from);
+  const SteeringSlopes at_to = slopes(to);
+  const double turned = SteeringAt(to, speed) - SteeringAt(from, speed);
+  const double factor = speed / (lap.lengths[i] * rate);
+  return {.ratio = factor * turned,
+          .by_from = -factor * at_from.by_curvature,
+          .by_to = factor * at_to.by_curvature,
+          .by_speed = factor * (turned / speed + at_to.by_speed - at_from.by_speed)};
+}
+
+double LapModel::SpeedOfTurn(const Lap& lap, std::size_t i) const {
+  const double from = lap.curvature[i];
+  const double to = lap.curvature[After(i)];
+  // Beyond the lateral grip, the brush model does not slip more, and the car cannot drive anyway.
+  const double sharpest = std::max(std::abs(from), std::abs(to));
+  const double lateral =
+      limits_.options.share * limits_.diagram.MaxLateral({.speed = 0.0, .road = limits_.road});
+  const double most =
+      sharpest * fastest_ * fastest_ > lateral ? std::sqrt(lateral / sharpest) : fastest_;
+  const auto beyond = [&](double speed) {
+    const double turned = SteeringAt(to, speed) - SteeringAt(from, speed);
+    return speed * std::abs(turned) / lap.lengths[i] - UsableRate();
+  };
+  const double high = beyond(most);
+  if (UsableRate() <= 0.0 || high <= 0.0) {
+    return fastest_;
+  }
+  constexpr int kBits = 40;
+  std::uintmax_t iterations = 100;
+  return boost::math::tools::toms748_solve(beyond, 0.0, most, -UsableRate(), high,
+                                           boost::math::tools::eps_tolerance<double>(kBits),
+                                           iterations)
+      .first;
 }
 
 Lap LapModel::Drive(const TrackLine& line) const {
@@ -48,16 +105,13 @@ Lap LapModel::Drive(const TrackLine& line) const {
     stations[i].s = length;
     stations[i].curvature = lap.curvature[i];
     stations[i].road = limits_.road;
+    stations[i].cap = fastest_;
     length += lap.lengths.back();
   }
   for (std::size_t i = 0; i < count(); ++i) {
-    const std::size_t next = After(i);
-    const double turned = std::abs(lap.curvature[next] - lap.curvature[i]);
-    const double reach = SteeringReach(lap, i);
-    if (std::isfinite(reach) && turned > 0.0) {
-      for (LimitStation* at : {&stations[i], &stations[next]}) {
-        at->cap = at->cap > 0.0 ? std::min(at->cap, reach / turned) : reach / turned;
-      }
+    const double cap = SpeedOfTurn(lap, i);
+    for (LimitStation* at : {&stations[i], &stations[After(i)]}) {
+      at->cap = std::min(at->cap, cap);
     }
   }
   const LimitSpeeds found = LimitSpeedsAround(stations, length, limits_.diagram, limits_.options);

@@ -30,6 +30,7 @@ class LapModel {
   LapModel(const Track& track, const LapLimits& limits, std::size_t count);
 
   [[nodiscard]] const LapLimits& limits() const { return limits_; }
+  [[nodiscard]] double fastest() const { return fastest_; }  ///< largest speed of a lap [m/s]
   [[nodiscard]] std::size_t count() const { return centers_.size(); }
   [[nodiscard]] double step() const { return step_; }  ///< distance between adjacent stations [m]
   [[nodiscard]] double StationAt(std::size_t i) const { return step_ * static_cast<double>(i); }
@@ -40,13 +41,30 @@ class LapModel {
   /// curvature of the track's center line.
   [[nodiscard]] Lap Drive(const TrackLine& line) const;
 
-  /// Returns the largest change of curvature between the stations i and i + 1 that the steering
-  /// rate permits, multiplied by the speed [1/s]. Returns infinity if the steering rate is not
-  /// limited.
-  [[nodiscard]] double SteeringReach(const Lap& lap, std::size_t i) const;
+  /// Steering between the stations i and i + 1 at the same speed at both stations.
+  struct Turn {
+    /// Mean steering rate, as a fraction of the rate that the lap may use, with the sign of the
+    /// change of the steering angle.
+    double ratio = 0.0;
+    double by_from = 0.0;   ///< Derivative of `ratio` by the curvature at the station i [m].
+    double by_to = 0.0;     ///< Derivative of `ratio` by the curvature at the station i + 1 [m].
+    double by_speed = 0.0;  ///< Derivative of `ratio` by the speed [s/m].
+  };
+  /// Computes the steering between the stations i and i + 1 of a lap at the given speed [m/s], on
+  /// the tyres of the car. Returns zeros if the steering rate is not limited.
+  [[nodiscard]] Turn TurnAt(const Lap& lap, std::size_t i, double speed) const;
 
  private:
+  /// Returns the steering rate that a lap may use [rad/s]; 0: no limit.
+  [[nodiscard]] double UsableRate() const;
+  /// Returns the steering angle of the car at a station of the lap, at the given speed [rad].
+  [[nodiscard]] double SteeringAt(double curvature, double speed) const;
+  /// Returns the largest speed at which TurnAt has at most the magnitude 1; fastest() if all speeds
+  /// within the lateral grip have.
+  [[nodiscard]] double SpeedOfTurn(const Lap& lap, std::size_t i) const;
+
   LapLimits limits_;
+  double fastest_;
   double step_;
   std::vector<PathPoint> centers_;
 };

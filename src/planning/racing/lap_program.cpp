@@ -160,11 +160,6 @@ void LapProgram::AddTime(const Lap& lap) {
 }
 
 void LapProgram::AddBounds(const TrackLine& line, const Lap& lap, const LapTrust& trust) {
-  const LapLimits& limits = model_.limits();
-  double fastest = limits.options.speed;
-  if (const double top = limits.diagram.forces().top_speed; top > 0.0) {
-    fastest = fastest > 0.0 ? std::min(fastest, top) : top;
-  }
   for (std::size_t i = 0; i < model_.count(); ++i) {
     const double d = line.At(model_.StationAt(i)).d;
     const double lower = std::clamp(bounds_[i].lower - d, -trust.offset, 0.0);
@@ -172,7 +167,7 @@ void LapProgram::AddBounds(const TrackLine& line, const Lap& lap, const LapTrust
     AddRow(OffsetForm(i, {1.0, 0.0, 0.0}), lower, upper);
     Form speed;
     speed.Add(SpeedVariable(i), 1.0);
-    const double spare = Squared(fastest / lap.speeds[i]) - 1.0;
+    const double spare = Squared(model_.fastest() / lap.speeds[i]) - 1.0;
     AddRow(speed, -trust.squared, std::clamp(spare, 0.0, trust.squared));
   }
 }
@@ -192,32 +187,27 @@ void LapProgram::AddCurvatures(const Lap& lap, double share) {
   }
 }
 
-/// Adds rows that limit the curvature change `turned` in an interval: v |turned|/reach <= 1 at both
-/// ends of the interval. To limit steering in the direction opposite to that of the lap, a row at
-/// one end of the interval is sufficient.
+/// Adds rows that limit the steering between adjacent stations, at the speeds of both ends of the
+/// interval. To limit steering in the direction opposite to that of the lap, a row at one end of
+/// the interval is sufficient.
 void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
-  const std::size_t next = model_.After(i);
-  const double reach = model_.SteeringReach(lap, i);
-  if (!std::isfinite(reach)) {
+  if (model_.limits().vehicle.steering_rate <= 0.0) {
     return;
   }
-  const double turned = lap.curvature[next] - lap.curvature[i];
-  const double side = turned < 0.0 ? -1.0 : 1.0;
-  // The value of `reach` is proportional to the interval's length and to 1 + (L kappa)^2 at the end
-  // with the smaller curvature.
-  const std::size_t flat = std::abs(lap.curvature[i]) < std::abs(lap.curvature[next]) ? i : next;
-  const double wheelbase = model_.limits().wheelbase;
-  const double tangent = wheelbase * lap.curvature[flat];
+  const std::size_t next = model_.After(i);
   const double by_length = 0.5 * model_.step() / lap.lengths[i];
   for (const std::size_t end : {i, next}) {
-    const double ratio = lap.speeds[end] * std::abs(turned) / reach;
+    const double speed = lap.speeds[end];
+    const LapModel::Turn turn = model_.TurnAt(lap, i, speed);
+    const double side = turn.ratio < 0.0 ? -1.0 : 1.0;
+    const double ratio = std::abs(turn.ratio);
     Form form;
-    form.Add(curvature_[next], side * lap.speeds[end] / reach);
-    form.Add(curvature_[i], -side * lap.speeds[end] / reach);
-    form.Add(SpeedVariable(end), 0.5 * ratio);
+    form.Add(curvature_[next], side * turn.by_to);
+    form.Add(curvature_[i], side * turn.by_from);
+    // The speed changes by half of the relative change of its square.
+    form.Add(SpeedVariable(end), 0.5 * speed * side * turn.by_speed);
     form.Add(stretch_[i], -ratio * by_length);
     form.Add(stretch_[next], -ratio * by_length);
-    form.Add(curvature_[flat], -ratio * 2.0 * wheelbase * tangent / (1.0 + tangent * tangent));
     if (end == i || ratio > 0.5) {
       AddRow(form, end == i ? -1.0 - ratio : -kUnbounded, std::max(0.0, 1.0 - ratio));
     }

@@ -234,8 +234,7 @@ LapLimits LimitsOfLap(const PlanRequest& request) {
                       .jerk = request.limits->options.jerk.value_or(0.0),
                       .speed = speed},
           .road = request.friction,
-          .wheelbase = vehicle.wheelbase,
-          .steering_rate = vehicle.steering_rate,
+          .vehicle = vehicle,
           .curvature_max = std::isfinite(sharpest) ? std::max(0.0, sharpest) : 0.0};
 }
 

@@ -31,9 +31,9 @@ struct LapLimits {
   GgvDiagram diagram;
   LimitOptions options{};
   double road = 1.0;  ///< Friction of the road, as a factor on the tyres' friction [1], > 0.
-  /// Wheelbase L of the car, for computing steering angles atan(L kappa) [m].
-  double wheelbase = 0.0;
-  double steering_rate = 0.0;  ///< Largest steering rate of the car [rad/s]; 0: no limit.
+  /// The car, for computing steering angles in steady turns (SteeringInBend). With a steering rate
+  /// of 0, the steering rate is not limited.
+  VehicleParams vehicle{};
   /// Largest permitted curvature kappa_max of the line [1/m]; 0: no limit.
   double curvature_max = 0.0;
 };
