@@ -38,8 +38,8 @@ class Preview final : public SteeringController {
     // In reverse gear, steering to the right turns the direction of motion to the left.
     const double bend =
         direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
-    return std::clamp(SteeringOn(input, bend, direction), -input.vehicle.steering_limit,
-                      input.vehicle.steering_limit);
+    const double limit = SteeringAtGrip(input.vehicle, input.state.speed);
+    return std::clamp(SteeringOn(input, bend, direction), -limit, limit);
   }
 
  private:

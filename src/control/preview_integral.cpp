@@ -74,7 +74,8 @@ class PreviewIntegral final : public SteeringController {
     }
     // In reverse gear, steering to the right turns the direction of motion to the left.
     const double wanted = direction * std::atan(moved / square);
-    return Delayed(std::clamp(wanted, -vehicle.steering_limit, vehicle.steering_limit), input);
+    const double limit = SteeringAtGrip(vehicle, input.state.speed);
+    return Delayed(std::clamp(wanted, -limit, limit), input);
   }
 
  private:

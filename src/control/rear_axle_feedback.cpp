@@ -46,7 +46,8 @@ class RearAxleFeedback final : public SteeringController {
     const double parallel = curvature * std::cos(psi) / std::max(1.0 - curvature * e, kNearCenter);
     const double feedback = direction * 2.0 * psi / d + e * Sinc(psi) / (d * d);
     const double steering = SteadyTurnOn(vehicle, parallel - feedback, speed).steering;
-    return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
+    const double limit = SteeringAtGrip(vehicle, input.state.speed);
+    return std::clamp(steering, -limit, limit);
   }
 
  private:

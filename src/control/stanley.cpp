@@ -34,7 +34,8 @@ class Stanley final : public SteeringController {
     // its limit.
     const double approach = std::atan2(gain * offset, softening + speed);
     const double steering = turn.steering - direction * heading - approach;
-    return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
+    const double limit = SteeringAtGrip(vehicle, input.state.speed);
+    return std::clamp(steering, -limit, limit);
   }
 
  private:

@@ -32,16 +32,26 @@ double LateralGrip(const VehicleParams& vehicle) {
   return grip;
 }
 
-}  // namespace
-
-double TurnRoundLimit(const VehicleParams& vehicle, double speed) {
+/// Returns the steering angle [rad] of the steady turn in which the car uses the fraction `share`
+/// of its lateral grip, but at most the steering limit.
+double SteeringAtShare(const VehicleParams& vehicle, double speed, double share) {
   const double tightest = CurvatureForSteering(vehicle, vehicle.steering_limit);
-  const double allowed = kGripShare * LateralGrip(vehicle);
+  const double allowed = share * LateralGrip(vehicle);
   if (vehicle.kind != VehicleKind::kSteered || !(speed * speed * tightest > allowed)) {
     return vehicle.steering_limit;
   }
   const double steering = SteadyTurnOn(vehicle, allowed / (speed * speed), speed).steering;
   return std::clamp(std::abs(steering), 0.0, vehicle.steering_limit);
+}
+
+}  // namespace
+
+double SteeringAtGrip(const VehicleParams& vehicle, double speed) {
+  return SteeringAtShare(vehicle, speed, 1.0);
+}
+
+double TurnRoundLimit(const VehicleParams& vehicle, double speed) {
+  return SteeringAtShare(vehicle, speed, kGripShare);
 }
 
 std::optional<double> TurnRound::Steer(const ControlInput& input, double u) {

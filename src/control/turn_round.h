@@ -6,6 +6,12 @@
 
 namespace trackbed {
 
+/// Returns the largest steering angle [rad] that a geometric control law commands at `speed`: the
+/// steering limit, or the angle of the steady turn that uses the whole lateral grip of
+/// TurnRoundLimit. Beyond this angle, the tyres slide without more lateral force, and a tall car
+/// rolls over when it steers back.
+double SteeringAtGrip(const VehicleParams& vehicle, double speed);
+
 /// Returns the largest steering angle [rad] with which a car may turn round at `speed` [m/s]: the
 /// steering limit, or the angle of the steady turn in which the car uses half of its lateral grip.
 /// The lateral grip is the smaller one of mu_y g and g b/(2 h), at which the inner wheels lift;

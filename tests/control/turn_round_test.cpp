@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "src/control/tracking.h"
 #include "tests/control/loop.h"
 #include "tests/tolerance.h"
 #include "trackbed/control/pure_pursuit.h"
@@ -152,6 +153,49 @@ TEST(TurnRound, KeepsHalfOfTheGrip) {
   car.braking.axles = {{.weight = 0.5, .force = 0.5, .transfer = height / car.wheelbase}};
   EXPECT_NEAR(TurnRoundLimit(car, -10.0), std::atan(car.wheelbase * 0.3 * kGravity / 100.0),
               Tolerance(1e-12));
+}
+
+TEST(SteeringAtGrip, IsTheAngleOfTheCircleAtTheLimit) {
+  // Without slip, a car with the friction 0.8 reaches 0.8 g at 10 m/s on the curvature 0.8 g/v^2.
+  // At 1 m/s, even full lock needs less than this.
+  VehicleParams car = ReferenceCar();
+  EXPECT_EQ(SteeringAtGrip(car, 40.0), car.steering_limit);  // unknown grip
+  car.friction_lateral = 0.8;
+  const double limit = std::atan(car.wheelbase * 0.8 * kGravity / 100.0);
+  EXPECT_NEAR(SteeringAtGrip(car, 10.0), limit, Tolerance(1e-12));
+  EXPECT_NEAR(SteeringAtGrip(car, -10.0), limit, Tolerance(1e-12));
+  EXPECT_EQ(SteeringAtGrip(car, 1.0), car.steering_limit);
+  // A car with tyres needs the angle of its steady turn, which contains the understeer.
+  VehicleParams tyres = ReferenceCarWithTyres();
+  tyres.friction_lateral = 0.8;
+  EXPECT_NEAR(SteeringAtGrip(tyres, 10.0),
+              SteadyTurnOn(tyres, 0.8 * kGravity / 100.0, 10.0).steering, Tolerance(1e-12));
+}
+
+TEST_P(TurnsRound, SteersNoFartherThanItsTyresGrip) {
+  // Beside a straight, at 20 m/s, the geometric laws would command up to full lock.
+  const std::string name = GetParam().name;
+  if (name == "lqr" || name == "mpc" || name == "optimal_steering") {
+    GTEST_SKIP() << "not a geometric law";
+  }
+  VehicleParams car = ReferenceCarWithTyres();
+  car.friction_lateral = 0.8;
+  const Reference reference{Straight(), SpeedProfile({{0.0, 20.0}})};
+  for (const double offset : {-8.0, -2.0, 0.5, 4.0}) {
+    for (const double heading : {-1.2, -0.5, 0.3, 1.4}) {
+      VehicleState state;
+      state.pose = {50.0, offset, heading};
+      state.speed = 20.0;
+      const double steering = MakeSteeringController(GetParam().defaults)
+                                  ->Steer({.vehicle = car,
+                                           .reference = reference,
+                                           .schedule = {},
+                                           .state = state,
+                                           .station = 50.0,
+                                           .period = 0.02});
+      EXPECT_LE(std::abs(steering), SteeringAtGrip(car, 20.0)) << offset << " " << heading;
+    }
+  }
 }
 
 }  // namespace turn_round_test
