@@ -118,10 +118,16 @@ void NotePrescribedSteering(const PlantMetrics& metrics, Verdict& verdict) {
   note("rate", metrics.steering_rate_max, metrics.steering_rate_limit, "rad/s");
 }
 
+/// Whether wheels left the road. In the air, they turn in the play of their linkage, faster than
+/// the actuator turns them.
+bool WheelsLeftTheRoad(const PlantMetrics& metrics) {
+  return metrics.status == DriveStatus::kRolledOver || metrics.status == DriveStatus::kAirborne;
+}
+
 void JudgeSteeringRate(const PlantMetrics& metrics, Verdict& verdict) {
   if (metrics.steering_is_prescribed) {
     NotePrescribedSteering(metrics, verdict);
-  } else if (metrics.steering_rate_limit > 0.0) {
+  } else if (metrics.steering_rate_limit > 0.0 && !WheelsLeftTheRoad(metrics)) {
     Check check = CheckMetric(metrics, "steering_rate_max", Relation::kAtMost,
                               (1.0 + kWheelCompliance) * metrics.steering_rate_limit);
     check.reason = CheckReason::kSteeringRate;

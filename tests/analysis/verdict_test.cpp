@@ -157,6 +157,16 @@ TEST(Verdict, FailsWheelsThatTurnFasterThanTheirActuator) {
           "rad/s"));
 }
 
+TEST(Verdict, DoesNotBlameTheTimestepForWheelsInTheAir) {
+  PlantMetrics metrics{.plant = "mujoco", .steering_rate_max = 0.422, .steering_rate_limit = 0.4};
+  for (const DriveStatus status : {DriveStatus::kRolledOver, DriveStatus::kAirborne}) {
+    metrics.status = status;
+    EXPECT_THAT(
+        Judge({}, {metrics}, {}).failures,
+        ElementsAre(HasSubstr(std::string("did not complete the run: ") + ToString(status))));
+  }
+}
+
 std::vector<std::string> CheckTexts(const Verdict& verdict) {
   std::vector<std::string> told;
   const nlohmann::ordered_json json = ToJson(verdict);
