@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "src/control/actuator_model.h"
 #include "trackbed/control/lqr.h"
 #include "trackbed/control/mpc.h"
 #include "trackbed/control/optimal_steering.h"
@@ -105,7 +106,12 @@ const ControllerEntry& ControllerFor(const ControllerOptions& options) {
 std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options) {
   ControllerOptions own = options;
   RequireInRange("MakeSteeringController", [&](KeyVisitor& keys) { Visit(keys, own); });
-  return std::make_unique<ValidatingController>(ControllerFor(options).make(options));
+  const ControllerEntry& entry = ControllerFor(options);
+  std::unique_ptr<SteeringController> controller = entry.make(options);
+  if (entry.needs_plan && entry.station == StationSource::kProjection) {
+    controller = WithActuatorModel(std::move(controller), ActuatorKnowledge::kModel);
+  }
+  return std::make_unique<ValidatingController>(std::move(controller));
 }
 
 }  // namespace trackbed

@@ -45,7 +45,9 @@ class OptimalSteeringController final : public SteeringController {
         .steering = input.state.steering_actuator,
         .max_steering = limit,
         .start = last_.value_or(input.state.steering_actuator)};
-    const double ahead = primary.station + std::abs(input.state.speed) * input.period;
+    const double ahead =
+        primary.station + std::abs(input.state.speed) *
+                              (input.period + input.vehicle.steering_response.time_constant);
     const double feed_forward = std::clamp(
         SteeringForCurvature(input.vehicle, input.reference.path.BendAt(ahead).curvature), -limit,
         limit);

@@ -43,7 +43,8 @@ class RearAxleFeedback final : public SteeringController {
     const double psi =
         tracking.heading_error - SteadyTurnOn(vehicle, curvature, speed).heading_error;
     const double d = options_.distance ? *options_.distance : DefaultDistance(input, e);
-    const double parallel = curvature * std::cos(psi) / std::max(1.0 - curvature * e, kNearCenter);
+    const double parallel =
+        CurvatureAfterLag(input) * std::cos(psi) / std::max(1.0 - curvature * e, kNearCenter);
     const double feedback = direction * 2.0 * psi / d + e * Sinc(psi) / (d * d);
     const double steering = SteadyTurnOn(vehicle, parallel - feedback, speed).steering;
     const double limit = SteeringAtGrip(vehicle, input.state.speed);

@@ -22,6 +22,7 @@ class Stanley final : public SteeringController {
     const int direction = tracking.foot.direction;
     const double speed = std::abs(input.state.speed);
     const SteadyTurn turn = SteadyTurnOn(vehicle, tracking.foot.curvature, direction * speed);
+    const SteadyTurn ahead = SteadyTurnOn(vehicle, CurvatureAfterLag(input), direction * speed);
     const double heading = tracking.heading_error - turn.heading_error;
     double offset = tracking.cross_track;
     if (direction > 0) {
@@ -33,7 +34,7 @@ class Stanley final : public SteeringController {
     // Use atan2, because without softening the divisor is 0 at rest; the steering angle is then at
     // its limit.
     const double approach = std::atan2(gain * offset, softening + speed);
-    const double steering = turn.steering - direction * heading - approach;
+    const double steering = ahead.steering - direction * heading - approach;
     const double limit = SteeringAtGrip(vehicle, input.state.speed);
     return std::clamp(steering, -limit, limit);
   }

@@ -15,6 +15,14 @@ Tracking ProjectOntoPath(const ControlInput& input) {
   return tracking;
 }
 
+double CurvatureAfterLag(const ControlInput& input) {
+  const double way = std::abs(input.state.speed) * input.vehicle.steering_response.time_constant;
+  const Path& path = input.reference.path;
+  const PathBend here = path.BendAt(input.station);
+  const PathBend ahead = path.BendAt(input.station + way);
+  return ahead.direction == here.direction ? ahead.curvature : here.curvature;
+}
+
 CarScale ComputeCarScale(const VehicleParams& vehicle) {
   constexpr double kWheelbase = 2.7;             // [m]
   constexpr double kSteeringRate = 2.65 / 17.6;  // [rad/s]

@@ -17,6 +17,11 @@ struct Tracking {
 
 Tracking ProjectOntoPath(const ControlInput& input);
 
+/// Returns the curvature of the path [1/m] at the place that the car reaches after the lag of its
+/// steering actuator (SteeringResponse::time_constant), but not beyond a cusp. A control law
+/// without preview that steers by this curvature turns the lagging wheels in time.
+double CurvatureAfterLag(const ControlInput& input);
+
 /// Scales of a car relative to the Prius, for which the default gains and weights were chosen. If
 /// lengths and times are measured in these scales, cars of any wheelbase and steering rate behave
 /// alike.

@@ -43,6 +43,9 @@ LoopCore::LoopCore(Plant& plant, const SteeringController& controller, const Fea
       progress_(config.hooks.progress),
       steering_before_(start_.steering_actuator / config.disturbances.steering.factor),
       values_(controller.Values()) {
+  if (config.steering_input == SteeringInput::kPrescribed) {
+    controlled_.steering_response = {};  // prescribed angles bypass the actuator
+  }
   if (config.replanning) {
     monitor_.emplace(
         ReplanningMonitor::Options{.replanning = *config.replanning,

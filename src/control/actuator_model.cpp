@@ -1,0 +1,299 @@
+#include "src/control/actuator_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "src/control/tracking.h"
+#include "trackbed/vehicle/kinematic_car.h"
+#include "trackbed/vehicle/single_track_car.h"
+#include "trackbed/vehicle/steering_actuator.h"
+#include "trackbed/vehicle/steering_response.h"
+
+// Compensates the delay of the steering actuator for every control law:
+//   1. Predict the car's state at the end of the dead time from the commands on their way.
+//   2. Call the control law with the predicted state.
+//   3. Convert the wanted wheel angle to a command: dead zone, backlash, lead, inverse curve.
+namespace trackbed {
+namespace {
+
+/// Half-width of the dead zone around the steady turn, as a fraction of half the backlash.
+constexpr double kDeadZone = 0.5;
+
+/// Reversal of the wanted angle below which the actuator stays at rest, as a fraction of half the
+/// backlash.
+constexpr double kReversal = 0.125;
+
+/// Ratio of the actuator's lag to the lag of actuator and lead, and the factor by which the lead
+/// amplifies the noise of the wanted angle.
+constexpr double kLead = 3.0;
+
+/// Largest amplification of a step through the play. If possible, the actuator passes the play
+/// within a control period: a small step beyond the play would otherwise take many times the lag.
+constexpr double kCrossingLead = 6.0;
+
+/// Timesteps of the modeled actuator in a control period. With steps of the control period, the lag
+/// of the model would differ from that of the actuator, and the feedback of the difference would
+/// move the command through the play and back.
+constexpr int kSubsteps = 10;
+
+constexpr double kSameTime = 1e-9;  // [s]
+
+/// Speed below which the kinematic car predicts the motion [m/s].
+constexpr double kMinDynamicSpeed = 1.0;
+
+/// Returns the command for which the calibration curve has the value `angle` [rad], by bisection.
+double CommandFor(const MonotoneCurve& curve, const std::vector<Vec2>& points, double angle) {
+  double low = points.front().x();
+  double high = points.back().x();
+  constexpr int kHalvings = 50;  // to rounding
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (curve.At(middle) < angle ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// The response without its calibration curve: the wrapper passes angles after the curve.
+SteeringResponse WithoutCurve(SteeringResponse response) {
+  response.curve.clear();
+  return response;
+}
+
+/// The steering actuator as the controller knows it.
+class ActuatorModel {
+ public:
+  ActuatorModel(const VehicleParams& vehicle, double period, double angle)
+      : limits_{vehicle.steering_limit, vehicle.steering_rate},
+        response_(vehicle.steering_response),
+        filter_(WithoutCurve(response_), period / kSubsteps, angle),
+        step_(period / kSubsteps),
+        half_(0.5 * response_.backlash),
+        highest_(limits_.angle + half_),
+        lowest_(-highest_),
+        wanted_(angle),
+        target_(angle),
+        resting_(angle),
+        lagged_(angle),
+        angle_(angle) {
+    if (!response_.curve.empty()) {
+      curve_.emplace(response_.curve);
+      lowest_ = response_.curve.front().y();
+      highest_ = response_.curve.back().y();
+    }
+    if (response_.time_constant > 0.0) {
+      const double decay = period / response_.time_constant;
+      moved_ = -std::expm1(-decay);
+      lead_ = std::expm1(-kLead * decay) / std::expm1(-decay);
+      crossing_lead_ = std::clamp(1.0 / moved_, lead_, kCrossingLead);
+    }
+  }
+
+  /// Returns the angle of the actuator at the beginning of the present control period [rad].
+  [[nodiscard]] double angle() const { return angle_; }
+  /// Returns the last wanted angle [rad].
+  [[nodiscard]] double wanted() const { return wanted_; }
+  [[nodiscard]] const SteeringFilter& filter() const { return filter_; }
+  /// Returns the last angle before backlash, after the curve [rad].
+  [[nodiscard]] double target() const { return target_; }
+
+  /// Advances by a control period in which the actuator is to come to rest at `wanted` [rad], and
+  /// returns the command. `steady` is the angle of the steady turn on the path [rad].
+  double Command(double wanted, double steady) {
+    wanted_ = std::clamp(wanted, -limits_.angle, limits_.angle);
+    const double rest = OutsideDeadZone(wanted_, steady);
+    const double turn = rest - resting_;
+    if (turn != 0.0 && (turn * play_ >= 0.0 || std::abs(turn) >= kReversal * half_)) {
+      crosses_ = crosses_ || turn * play_ < 0.0;
+      play_ = std::copysign(half_, turn);
+      resting_ = rest;
+    }
+    const double left = resting_ + play_ - lagged_;
+    crosses_ = crosses_ && std::abs(left) > kReversal * half_;
+    target_ = std::clamp(lagged_ + (crosses_ ? crossing_lead_ : lead_) * left, lowest_, highest_);
+    lagged_ += moved_ * (target_ - lagged_);
+    for (int i = 0; i < kSubsteps; ++i) {
+      angle_ = MoveSteering(limits_, angle_, filter_.Pass(target_)).At(step_);
+    }
+    return curve_ ? CommandFor(*curve_, response_.curve, target_) : target_;
+  }
+
+ private:
+  /// Returns `wanted`, moved toward `steady` by the half-width of the dead zone.
+  [[nodiscard]] double OutsideDeadZone(double wanted, double steady) const {
+    if (half_ == 0.0) {
+      return wanted;
+    }
+    const double zone = kDeadZone * half_;
+    return wanted - std::clamp(wanted - steady, -zone, zone);
+  }
+
+  SteeringLimits limits_;
+  SteeringResponse response_;
+  std::optional<MonotoneCurve> curve_;
+  SteeringFilter filter_;
+  double step_;     // Timestep of the filter [s].
+  double half_;     // Half of the backlash.
+  double highest_;  // Limits of the angle before lag and backlash.
+  double lowest_;
+  double moved_ = 1.0;          // Fraction of a step that the lag passes within a control period.
+  double crossing_lead_ = 1.0;  // Amplification of a step through the play.
+  bool crosses_ = false;        // Whether the actuator is within the play after a reversal.
+  double lead_ = 1.0;           // Amplification of a step before the lag.
+  double wanted_;               // Last wanted angle.
+  double target_;               // Angle before backlash, after the curve.
+  double resting_;              // Angle at which the actuator comes to rest after the last command.
+  double play_ = 0.0;           // Half of the backlash on the side to which the actuator turns.
+  double lagged_;               // Angle before backlash, after dead time and lag.
+  double angle_;
+};
+
+/// Whether the rear axle moves sideways, as no axle of a kinematic car does.
+bool Slips(const ControlInput& input) {
+  constexpr double kRounding = 1e-9;
+  const double turning = input.vehicle.cg_to_rear * input.state.yaw_rate;
+  return std::abs(input.state.lateral_speed - turning) > kRounding * (1.0 + std::abs(turning));
+}
+
+/// Drives the kinematic car or the linear single-track car from a measured state.
+class PredictedCar {
+ public:
+  PredictedCar(const VehicleParams& vehicle, const VehicleState& state, bool slips)
+      : gear_(state.speed < 0.0 ? -1 : 1) {
+    const KinematicState start{.pose = state.pose,
+                               .speed = state.speed,
+                               .steering = state.steering,
+                               .distance = state.distance};
+    if (slips && HasTyres(vehicle) && std::abs(state.speed) >= kMinDynamicSpeed) {
+      single_track_.emplace(vehicle, SingleTrackState{.pose = state.pose,
+                                                      .speed = state.speed,
+                                                      .lateral_speed = state.lateral_speed,
+                                                      .yaw_rate = state.yaw_rate,
+                                                      .steering = state.steering,
+                                                      .distance = state.distance});
+    } else {
+      kinematic_.emplace(vehicle, ReferencePoint::kRearAxle, start);
+    }
+  }
+
+  void Step(double steering, double duration) {
+    const trackbed::Command command{.steering = steering, .gear = gear_};
+    single_track_ ? single_track_->Step(command, duration) : kinematic_->Step(command, duration);
+  }
+
+  [[nodiscard]] VehicleState FullState() const {
+    return single_track_ ? single_track_->FullState() : kinematic_->FullState();
+  }
+
+ private:
+  int gear_;
+  std::optional<KinematicCar> kinematic_;
+  std::optional<SingleTrackCar> single_track_;
+};
+
+class ActuatorCompensation final : public SteeringController {
+ public:
+  ActuatorCompensation(std::unique_ptr<SteeringController> inner, ActuatorKnowledge knowledge)
+      : inner_(std::move(inner)), knowledge_(knowledge) {}
+
+  double Steer(const ControlInput& input) override {
+    if (input.vehicle.steering_response.ideal() && knowledge_ == ActuatorKnowledge::kModel) {
+      return inner_->Steer(input);
+    }
+    VehicleParams vehicle = input.vehicle;
+    vehicle.steering_response = {};
+    if (knowledge_ == ActuatorKnowledge::kIgnore) {
+      vehicle.steering_lag = 0.0;
+      return inner_->Steer(Ahead(input, vehicle, input.state));
+    }
+    vehicle.steering_response.time_constant = input.vehicle.steering_response.time_constant / kLead;
+    slips_ = slips_ || Slips(input);
+    if (!model_) {
+      model_.emplace(input.vehicle, input.period, input.state.steering_actuator);
+    }
+    const ControlInput ahead = Ahead(input, vehicle, Predict(input));
+    const PathBend bend = ahead.reference.path.BendAt(ahead.station);
+    const double steady =
+        SteadyTurnOn(vehicle, bend.curvature, bend.direction * std::abs(ahead.state.speed))
+            .steering;
+    return model_->Command(inner_->Steer(ahead), steady);
+  }
+
+  std::optional<double> Accelerate(const ControlInput& input) override {
+    return inner_->Accelerate(input);
+  }
+  [[nodiscard]] std::vector<std::string> Columns() const override { return inner_->Columns(); }
+  [[nodiscard]] std::vector<double> Values() const override { return inner_->Values(); }
+  [[nodiscard]] std::unique_ptr<SteeringController> Clone() const override {
+    std::unique_ptr<SteeringController> inner = inner_->Clone();
+    if (!inner) {
+      return nullptr;
+    }
+    auto copy = std::make_unique<ActuatorCompensation>(std::move(inner), knowledge_);
+    copy->model_ = model_;
+    copy->slips_ = slips_;
+    return copy;
+  }
+
+ private:
+  /// Returns the inputs of the controller for the predicted `state` of the car.
+  static ControlInput Ahead(const ControlInput& input, const VehicleParams& vehicle,
+                            const VehicleState& state) {
+    const double moved = state.distance - input.state.distance;
+    const double speed = std::abs(input.state.speed);
+    return {.vehicle = vehicle,
+            .reference = input.reference,
+            .schedule = input.schedule,
+            .state = state,
+            .station = StationOf(input, state, moved),
+            .period = input.period,
+            .plan_time = input.plan_time + (speed > 0.0 ? moved / speed : 0.0),
+            .speed_gain = input.speed_gain};
+  }
+
+  /// Returns the station of the predicted state, which is at most the moved distance and a quarter
+  /// of the wheelbase away from the car's station.
+  static double StationOf(const ControlInput& input, const VehicleState& state, double moved) {
+    if (moved == 0.0) {
+      return input.station;
+    }
+    const double margin = moved + 0.25 * input.vehicle.wheelbase;
+    return input.reference.path
+        .Project(state.pose, {input.station - margin, input.station + margin})
+        .s;
+  }
+
+  /// Returns the car's state at the end of the dead time.
+  [[nodiscard]] VehicleState Predict(const ControlInput& input) const {
+    const double error = input.state.steering_actuator - model_->angle();
+    PredictedCar car(input.vehicle, input.state, slips_);
+    SteeringFilter filter = model_->filter();
+    const double step = input.period / kSubsteps;
+    for (double left = input.vehicle.steering_response.dead_time; left > kSameTime; left -= step) {
+      car.Step(filter.Pass(model_->target()) + error, std::min(left, step));
+    }
+    VehicleState ahead = car.FullState();
+    ahead.time = input.state.time;
+    ahead.steering_actuator = model_->wanted() + error;
+    ahead.wheels = input.state.wheels;
+    ahead.roll = input.state.roll;
+    ahead.pitch = input.state.pitch;
+    return ahead;
+  }
+
+  std::unique_ptr<SteeringController> inner_;
+  ActuatorKnowledge knowledge_;
+  std::optional<ActuatorModel> model_;
+  bool slips_ = false;  // Whether the rear axle has ever moved sideways.
+};
+
+}  // namespace
+
+std::unique_ptr<SteeringController> WithActuatorModel(std::unique_ptr<SteeringController> inner,
+                                                      ActuatorKnowledge knowledge) {
+  return std::make_unique<ActuatorCompensation>(std::move(inner), knowledge);
+}
+
+}  // namespace trackbed

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+
+#include "trackbed/control/steering_controller.h"
+
+namespace trackbed {
+
+/// Selects what a controller assumes about the car's steering actuator.
+enum class ActuatorKnowledge {
+  kModel,   ///< The actuator of the vehicle's parameters.
+  kIgnore,  ///< An actuator without dead time, lag, backlash and curve, to study the mismatch.
+};
+
+/// Wraps the path-following controller `inner` in a model of the car's steering actuator. The
+/// control law then accounts for the dead time, the lag, the backlash and the calibration curve of
+/// SteeringResponse, and for the actuator's limits of angle and rate.
+///
+/// With kModel, the wrapper predicts the car's state at the time t + T_d at which the coming
+/// command takes effect, and calls `inner` with the predicted state (a Smith predictor, Smith
+/// 1957). T_d is the dead time. The prediction has these steps:
+///   1. A SteeringFilter keeps the commands that are on their way to the actuator.
+///   2. The predicted car starts at the measured state. It is the linear single-track car. It is
+///      the kinematic car if the tyre coefficients are unknown, if the car is slower than 1 m/s, or
+///      as long as no measured state had a lateral speed of the rear axle.
+///   3. The car drives for T_d at constant speed. Its wheels follow the output of the filter plus
+///      the difference between the measured and the modeled actuator angle at t. Through this
+///      difference, the feedback corrects errors of the model, for example of the steering ratio.
+/// The predicted state has the wheel angle at t + T_d, and the last wanted angle as the angle of
+/// the actuator. The station is that of the path point nearest to the predicted pose. The times
+/// `state.time` and `period` stay unchanged.
+///
+/// The angle that `inner` returns is converted to a command in these steps:
+///   1. A dead zone of a quarter of the backlash to both sides of the steady turn on the path.
+///      Without it, the command would cross the play for ever, because errors decay but never
+///      vanish. Reversals below a sixteenth of the backlash are not commanded, because noise would
+///      cross the play, too.
+///   2. Half of the backlash is added on the side to which the actuator turns.
+///   3. A lead that divides the lag by 3. It amplifies noise by the same factor. Within the play,
+///      the amplification is up to 6.
+///   4. The inverse of the calibration curve.
+/// The vehicle that `inner` receives has a third of the lag as SteeringResponse::time_constant, and
+/// no dead time, backlash or curve.
+///
+/// With kIgnore, `inner` receives the measured state, and a vehicle with an ideal response and
+/// without steering lag. With an ideal response and kModel, the wrapper passes states and angles
+/// unchanged, bit for bit. Cost per control period: ten steps of the car model for each control
+/// period within T_d, about 20 us.
+std::unique_ptr<SteeringController> WithActuatorModel(std::unique_ptr<SteeringController> inner,
+                                                      ActuatorKnowledge knowledge);
+
+}  // namespace trackbed
