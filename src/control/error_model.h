@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "src/control/tracking.h"
@@ -93,6 +95,23 @@ ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options) {
   return {.cross_track = options.cross_track.value_or(1.0 / (scale.length * scale.length)),
           .heading = options.heading,
           .steering_rate = options.steering_rate.value_or(scale.time * scale.time)};
+}
+
+/// As above, for a car at `speed` u [m/s] whose steering response has a lag. The closed loop of a
+/// car without slip has the bandwidth w_0 = ((u^2/L)^2 cross_track/steering_rate)^(1/6), if the
+/// heading has no weight. The default weight of the steering rate is increased until 1/w_0 is at
+/// least twice SteeringResponse::time_constant. A faster loop would move small errors of the
+/// actuator, such as backlash, back and forth through the lag.
+template <typename Options>
+ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options, double speed) {
+  constexpr double kLags = 2.0;  // lower bound of 1/w_0 in lags
+  ErrorWeights weights = WeightsFor(vehicle, options);
+  if (!options.steering_rate) {
+    const double turn = speed * speed / vehicle.wheelbase;
+    const double slow = std::pow(kLags * vehicle.steering_response.time_constant, 3) * turn;
+    weights.steering_rate = std::max(weights.steering_rate, weights.cross_track * slow * slow);
+  }
+  return weights;
 }
 
 /// The linear-quadratic regulator of an error model: the control law w = -K x minimizes the cost,
