@@ -408,8 +408,9 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
     // spacing of points along lines [m]; a polyline with this spacing deviates by 1 cm from an arc
     // with a radius of 12 m
     constexpr double kSpacing = 1.0;
-    recording.roads =
-        PaintRoads(ReadOpenDrive(run_folder::RequireFile(folder / kRoadNetworkXodr)), kSpacing);
+    const fs::path file = run_folder::RequireFile(folder / kRoadNetworkXodr);
+    const auto& read = recording.world.road_network->data;
+    recording.roads = PaintRoads(read ? read->network : ReadOpenDrive(file), kSpacing);
   }
   recording.new_plans = ReadNewPlans(new_plans);
   recording.curvatures = ReadCurvatures(plan, recording.begin());

@@ -14,6 +14,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/scenario/log_columns.h"
 #include "trackbed/scenario/record.h"
 
 // Compares two runs at equal stations. Both traces are interpolated linearly at every station where
@@ -87,6 +88,7 @@ std::vector<RowDifference> DifferencesAtRows(const Trace& first, const Trace& se
              second.station.end(), std::back_inserter(stations));
   stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
   std::vector<RowDifference> all;
+  const Vec2 between_origins = second.origin - first.origin;
   bool after_gap = false;
   for (const double s : stations) {
     if (s < from || s > to) {
@@ -103,7 +105,7 @@ std::vector<RowDifference> DifferencesAtRows(const Trace& first, const Trace& se
     all.push_back({.s = s,
                    .first_t = a.Between(first.time),
                    .second_t = b.Between(second.time),
-                   .position = pose_2.position() - pose_1.position(),
+                   .position = pose_2.position() - pose_1.position() + between_origins,
                    .yaw = AngleDifference(pose_2.yaw, pose_1.yaw),
                    .yaw_rate = b.Between(second.yaw_rate) - a.Between(first.yaw_rate),
                    .steering = b.Between(second.steering) - a.Between(first.steering),
@@ -162,6 +164,7 @@ double Trace::TimeAt(double at) const {
 
 Trace MakeTrace(const RunLog& log, StationSource source) {
   Trace trace{.name = log.plant};
+  trace.origin = log.origin;
   for (const LogRow& row : log.rows) {
     const VehicleState& state = row.state;
     if (log.contact_time && state.time > *log.contact_time) {
@@ -176,11 +179,21 @@ Trace MakeTrace(const RunLog& log, StationSource source) {
   return trace;
 }
 
+Vec2 OriginIn(const Table& table) {
+  Vec2 origin = Vec2::Zero();
+  for (std::size_t i = 0; i < kOriginColumns.size() && table.rows() > 0; ++i) {
+    if (const int column = table.Find(kOriginColumns[i]); column >= 0) {
+      origin[static_cast<Eigen::Index>(i)] = table.at(0, static_cast<std::size_t>(column));
+    }
+  }
+  return origin;
+}
+
 Trace ReadTrace(const fs::path& file, const std::string& name, std::optional<double> contact_time) {
   const Table table =
       ReadCsvExcerpt(file,
                      {"s_m", "t_s", "x_m", "y_m", "yaw_rad", "yaw_rate_radps", "steering_rad"},
-                     {"valid"})
+                     {"valid", kOriginColumns[0], kOriginColumns[1]})
           .table;
   const auto column = [&](std::string_view of) { return table.Column(of); };
   const auto s = column("s_m");
@@ -197,6 +210,7 @@ Trace ReadTrace(const fs::path& file, const std::string& name, std::optional<dou
   }
   const int valid = table.Find("valid");
   Trace trace{.name = name};
+  trace.origin = OriginIn(table);
   for (std::size_t i = 0; i < table.rows(); ++i) {
     if (contact_time && t[i] > *contact_time) {
       break;

@@ -209,6 +209,7 @@ Trace PathIn(const Table& plan) {
   for (std::size_t i = 0; i < plan.rows(); ++i) {
     trace.pose.push_back({x[i], y[i], yaw[i]});
   }
+  trace.origin = OriginIn(plan);
   trace.time = trace.yaw_rate = trace.steering = std::vector<double>(plan.rows(), 0.0);
   return trace;
 }

@@ -8,6 +8,31 @@
 namespace trackbed {
 namespace {
 
+/// Returns the log with positions in the coordinates of the scenario's file, in which formulas are
+/// written.
+Table TableOf(const RunLog& log) {
+  const Table local = ToTable(log);
+  if (log.origin == Vec2::Zero()) {
+    return local;
+  }
+  std::vector<double> added(local.columns().size(), 0.0);
+  for (std::size_t column = 0; column < added.size(); ++column) {
+    const std::string& name = local.columns()[column];
+    added[column] = name == "x_m" || name == "measured_x_m"   ? log.origin.x()
+                    : name == "y_m" || name == "measured_y_m" ? log.origin.y()
+                                                              : 0.0;
+  }
+  Table table(local.columns());
+  std::vector<double> cells(added.size());
+  for (std::size_t row = 0; row < local.rows(); ++row) {
+    for (std::size_t column = 0; column < added.size(); ++column) {
+      cells[column] = local.at(row, column) + added[column];
+    }
+    table.AddRow(cells);
+  }
+  return table;
+}
+
 RequirementMetrics MeasureOnTable(const RequirementExpectation& requirement, const Table& log) {
   RequirementMetrics metrics{.name = requirement.name, .formula = requirement.formula};
   try {
@@ -36,7 +61,7 @@ RequirementMetrics MeasureOnTable(const RequirementExpectation& requirement, con
 
 RequirementMetrics MeasureRequirement(const RequirementExpectation& requirement,
                                       const RunLog& log) {
-  return MeasureOnTable(requirement, ToTable(log));
+  return MeasureOnTable(requirement, TableOf(log));
 }
 
 std::vector<RequirementMetrics> MeasureRequirements(const Expectations& expect, const RunLog& log) {
@@ -48,7 +73,7 @@ std::vector<RequirementMetrics> MeasureRequirements(const Expectations& expect, 
   }
   std::vector<RequirementMetrics> metrics;
   if (!own.empty()) {
-    const Table table = ToTable(log);
+    const Table table = TableOf(log);
     for (const RequirementExpectation& requirement : own) {
       metrics.push_back(MeasureOnTable(requirement, table));
     }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "src/analysis/origin_statement.h"
 #include "src/analysis/overspeed.h"
 #include "src/analysis/simulate_plants.h"
 #include "trackbed/analysis/json_file.h"
@@ -198,6 +199,7 @@ RunResult PlanRun(const Scenario& scenario, const CarModel& car) {
     result.verdict = {.passed = false,
                       .failures = {fmt::format("no plan ({}): {}", ToString(result.plan->status),
                                                result.plan->reason)}};
+    NoteOrigin(result.scenario, result.verdict);
   }
   return result;
 }
@@ -238,6 +240,7 @@ RunResult SimulateRun(RunResult planned, const CarModel& car, const RunHooks& ho
   const Scenario& scenario = result.scenario;
   for (SimulatedPlant& simulated : SimulatePlants(result, car, hooks)) {
     result.logs.push_back(std::move(simulated.log));
+    result.logs.back().origin = OriginOf(scenario);
     const RunLog& log = result.logs.back();
     PlantMetrics& metrics = result.metrics.emplace_back(MeasurePlant(result, log, car));
     if (scenario.record && log.plant != kRecordedPlant) {
@@ -257,6 +260,7 @@ RunResult SimulateRun(RunResult planned, const CarModel& car, const RunHooks& ho
   for (const std::string& note : result.plan->notes) {
     result.verdict.notes.push_back("plan: " + note);
   }
+  NoteOrigin(result.scenario, result.verdict);
   if (const auto& rate = scenario.vehicle.steering_rate) {
     result.verdict.notes.push_back(fmt::format("steering rate set to {:.4g} rad/s", *rate));
   }
@@ -294,6 +298,10 @@ Table PlanTable(const Reference& reference) {
 
 ordered_json MetricsJson(const RunResult& result) {
   ordered_json metrics{{"scenario", result.scenario.name}, {"complete", !result.interrupted}};
+  const Vec2 origin = OriginOf(result.scenario);
+  if (origin != Vec2::Zero()) {
+    metrics["origin"] = OriginJson(origin);
+  }
   metrics["plants"] = ordered_json::object();
   for (const PlantMetrics& plant : result.metrics) {
     metrics["plants"][plant.plant] = ToJson(plant);
@@ -316,6 +324,9 @@ ordered_json PlanJson(const RunResult& result) {
   }
   content["method"] = PlannerFor(result.scenario.plan->global).name;
   content["seed"] = result.scenario.seed;
+  if (const Vec2 origin = OriginOf(result.scenario); origin != Vec2::Zero()) {
+    content["origin"] = OriginJson(origin);
+  }
   if (plan.ok()) {
     for (const PathProperty& property : PathProperties()) {
       if (const auto value = property.measure({plan, result.scenario.world, result.vehicle})) {
@@ -334,13 +345,14 @@ namespace {
 
 void AddPlan(const RunResult& result, ResultWriter& writer) {
   const Plan& plan = result.plan;
+  const Vec2 origin = OriginOf(result.scenario);
   if (plan.ok()) {
-    writer.Add(run_folder::kPlanCsv, PlanTable(plan.reference).ToCsv());
+    writer.Add(run_folder::kPlanCsv, WithOrigin(PlanTable(plan.reference), origin).ToCsv());
     writer.Add(run_folder::kScheduleCsv, ScheduleTable(plan.schedule).ToCsv());
     for (const PlannerTable& table : PlannerFor(result.scenario.plan->global).tables) {
       AddUnlessEmpty(table.make(plan.diagnostics), table.file, writer);
     }
-    AddUnlessEmpty(TreeTable(plan.tree), run_folder::kTreeCsv, writer);
+    AddUnlessEmpty(WithOrigin(TreeTable(plan.tree), origin), run_folder::kTreeCsv, writer);
   }
   writer.Add(run_folder::kPlanJson, JsonText(PlanJson(result)));
 }
@@ -349,10 +361,11 @@ void AddLog(const RunLog& log, ResultWriter& writer) {
   writer.Add(run_folder::LogCsv(log.plant), ToTable(log).ToCsv());
   writer.Add(run_folder::StateCsv(log.plant), log.configurations.ToCsv());
   if (!log.changes.empty()) {
-    writer.Add(run_folder::NewPlansCsv(log.plant), ChangesTable(log).ToCsv());
+    writer.Add(run_folder::NewPlansCsv(log.plant),
+               WithOrigin(ChangesTable(log), log.origin).ToCsv());
     writer.Add(run_folder::NewPlansJson(log.plant), JsonText(ChangesJson(log)));
-    AddUnlessEmpty(TreeTable(log.changes.back().plan.tree), run_folder::NewPlansTreeCsv(log.plant),
-                   writer);
+    AddUnlessEmpty(WithOrigin(TreeTable(log.changes.back().plan.tree), log.origin),
+                   run_folder::NewPlansTreeCsv(log.plant), writer);
   }
 }
 

@@ -48,6 +48,7 @@ Table ToTable(const RunLog& log) {
                           .noise = noise,
                           .wheels = wheels,
                           .gaps = gaps,
+                          .origin = log.origin != Vec2::Zero(),
                           .controller = log.controller_columns}));
   for (const LogRow& row : log.rows) {
     const VehicleState& state = row.state;
@@ -85,6 +86,9 @@ Table ToTable(const RunLog& log) {
     }
     if (gaps) {
       cells.push_back(row.valid ? 1.0 : 0.0);
+    }
+    if (log.origin != Vec2::Zero()) {
+      cells.insert(cells.end(), {log.origin.x(), log.origin.y()});
     }
     cells.insert(cells.end(), row.controller.begin(), row.controller.end());
     table.AddRow(cells);

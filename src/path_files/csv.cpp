@@ -219,6 +219,14 @@ class CsvPath {
     if (is_broken_) {
       return;
     }
+    // A table of a run with a local origin states the origin in two columns (log_columns.h).
+    for (const auto& [name, quantity] :
+         {std::pair("origin_x_m", kX), std::pair("origin_y_m", kY)}) {
+      const auto own = std::find(names_.begin(), names_.end(), name);
+      if (own != names_.end()) {
+        origin_[quantity] = static_cast<std::size_t>(own - names_.begin());
+      }
+    }
     std::vector<std::string> used;
     for (std::size_t i = 0; i < kQuantities; ++i) {
       if (columns_[i]) {
@@ -339,6 +347,9 @@ class CsvPath {
         number = TimestampSeconds(cells[column.index]);
       }
       values[i] = number.value_or(0.0) * column.factor + column.offset;
+      if (i <= kY && origin_[i]) {
+        values[i] += CellNumber(cells[*origin_[i]]).value_or(0.0);
+      }
       const auto quantity = static_cast<Quantity>(i);
       if (!number) {
         TakeInvalidCell(quantity, line, NumberProblem(cells[column.index]));
@@ -393,6 +404,7 @@ class CsvPath {
   bool is_broken_ = false;
   std::vector<std::string> names_;
   std::array<std::optional<Column>, kQuantities> columns_;
+  std::array<std::optional<std::size_t>, 2> origin_;  // columns of the local origin, x and y
   std::array<InvalidCells, kQuantities> invalid_;
   std::vector<double> times_;
   DirectionColumn direction_column_ = DirectionColumn::kSigned;

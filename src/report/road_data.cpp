@@ -3,8 +3,6 @@
 #include <vector>
 
 #include "src/report/numbers.h"
-#include "trackbed/analysis/run_folder.h"
-#include "trackbed/road_network/open_drive.h"
 #include "trackbed/road_network/road_paint.h"
 
 namespace trackbed {
@@ -21,12 +19,11 @@ nlohmann::ordered_json PointsJson(const std::vector<Vec2>& points) {
 
 }  // namespace
 
-nlohmann::ordered_json RoadsJson(const std::filesystem::path& folder) {
+nlohmann::ordered_json RoadsJson(const RoadNetwork& network) {
   // spacing of points along a line [m]; the polyline deviates by 3 cm from an arc with a radius of
   // 10 m
   constexpr double kSpacing = 1.5;
-  const RoadPaint paint =
-      PaintRoads(ReadOpenDrive(run_folder::RequireFile(folder / kRoadNetworkXodr)), kSpacing);
+  const RoadPaint paint = PaintRoads(network, kSpacing);
   nlohmann::ordered_json json{{"bands", nlohmann::ordered_json::array()},
                               {"lines", nlohmann::ordered_json::array()}};
   for (const PavedBand& band : paint.bands) {

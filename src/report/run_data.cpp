@@ -24,6 +24,7 @@
 #include "trackbed/core/table.h"
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/report/names.h"
+#include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/run_track.h"
 #include "trackbed/scenario/scenario.h"
@@ -345,7 +346,9 @@ World AddWorldAndPlan(const fs::path& folder, const fs::path& scenario, ordered_
   World world = ReadWorld(scenario);
   run["world"] = WorldJson(world);
   if (world.road_network) {
-    run["world"]["roads"] = RoadsJson(folder);
+    const fs::path file = run_folder::RequireFile(folder / kRoadNetworkXodr);
+    const auto& read = world.road_network->data;
+    run["world"]["roads"] = RoadsJson(read ? read->network : ReadOpenDrive(file));
   }
   if (fs::exists(folder / run_folder::kPlanJson) || fs::exists(folder / run_folder::kPlanCsv)) {
     run["plan"] = PlanJson(folder);

@@ -40,6 +40,25 @@ void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& pro
   }
 }
 
+/// Reads the offset of the header. A wrong offset does not make the roads unusable, so it counts as
+/// missing.
+void ReadOffset(const XMLElement& root, OpenDriveFile& file) {
+  XmlProblems ignored("");
+  const XMLElement* header = root.FirstChildElement("header");
+  const XMLElement* offset = header == nullptr ? nullptr : header->FirstChildElement("offset");
+  if (offset == nullptr) {
+    return;
+  }
+  constexpr Bounds kOffset{-1e8, 1e8};  // Bounds of a coordinate [m].
+  const XmlFields fields(*offset, "header.offset", ignored);
+  const Vec2 place(fields.Number("x", kOffset, 0.0), fields.Number("y", kOffset, 0.0));
+  const double heading = fields.Number("hdg", {}, 0.0);
+  if (ignored.empty()) {
+    file.offset = place;
+    file.offset_heading = heading;
+  }
+}
+
 /// Reads a junction. Connections with an error are left out.
 Junction ReadJunction(const XmlFields& fields, RoadNetwork& network) {
   Junction junction{.id = fields.OptionalText("id"), .connections = {}};
@@ -149,7 +168,8 @@ void CheckDeclarations(const tinyxml2::XMLDocument& document, const std::string&
 
 }  // namespace
 
-RoadNetwork ParseOpenDrive(std::string_view xml, const std::string& name) {
+OpenDriveFile ParseOpenDriveFile(std::string text, const std::string& name, const Vec2& origin) {
+  const std::string_view xml = text;
   if (std::count(xml.begin(), xml.end(), '<') > kMaxElements) {
     Refuse(name, 0, fmt::format("more than {} XML tags", kMaxElements));
   }
@@ -168,7 +188,8 @@ RoadNetwork ParseOpenDrive(std::string_view xml, const std::string& name) {
            fmt::format("expected an <OpenDRIVE> element{}",
                        root == nullptr ? "" : fmt::format("; found <{}>", root->Name())));
   }
-  RoadNetwork network;
+  OpenDriveFile file;
+  RoadNetwork& network = file.network;
   XmlProblems problems(name);
   CheckVersion(*root, network, problems);
   problems.ThrowIfAny();
@@ -176,7 +197,7 @@ RoadNetwork ParseOpenDrive(std::string_view xml, const std::string& name) {
   Parts<Road> roads("road", network.roads, network, problems);
   ForEachChild(root, "road", [&](const XMLElement& element, std::size_t) {
     XmlProblems own(name);
-    Road road = ReadRoad(element, own, network);
+    Road road = ReadRoad(element, origin, own, network);
     roads.Add(std::move(road), element.GetLineNum(), own);
   });
   Parts<Junction> junctions("junction", network.junctions, network, problems);
@@ -197,7 +218,13 @@ RoadNetwork ParseOpenDrive(std::string_view xml, const std::string& name) {
   network.notes.insert(network.notes.end(), problems.flaws().begin(), problems.flaws().end());
   Shorten(network.notes, first_flaw, "flaws");
   NoteUnreadHeights(network);
-  return network;
+  ReadOffset(*root, file);
+  file.text = std::move(text);
+  return file;
+}
+
+RoadNetwork ParseOpenDrive(std::string_view xml, const std::string& name) {
+  return ParseOpenDriveFile(std::string(xml), name).network;
 }
 
 RoadNetwork ReadOpenDrive(const std::filesystem::path& file) {
@@ -205,9 +232,7 @@ RoadNetwork ReadOpenDrive(const std::filesystem::path& file) {
 }
 
 OpenDriveFile ReadOpenDriveFile(const std::filesystem::path& file) {
-  OpenDriveFile read{.text = ReadFile(file, kMaxOpenDriveBytes), .network = {}};
-  read.network = ParseOpenDrive(read.text, file.string());
-  return read;
+  return ParseOpenDriveFile(ReadFile(file, kMaxOpenDriveBytes), file.string());
 }
 
 }  // namespace trackbed

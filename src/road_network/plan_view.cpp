@@ -112,7 +112,7 @@ std::optional<Curve> ReadCurve(const XmlFields& geometry, const GeometryPlace& p
 
 }  // namespace
 
-ReferenceLine ReadPlanView(const XmlFields& road, double length) {
+ReferenceLine ReadPlanView(const XmlFields& road, double length, const Vec2& origin) {
   const XMLElement* plan_view = road.Child("planView");
   if (plan_view == nullptr || plan_view->FirstChildElement("geometry") == nullptr) {
     road.AddError("planView", "missing, or without <geometry>");
@@ -126,8 +126,8 @@ ReferenceLine ReadPlanView(const XmlFields& road, double length) {
                            road.problems());
     const double s = fields.Number("s", kGeometryLength);
     GeometryPlace place;
-    place.start = {fields.Number("x", kCoordinate), fields.Number("y", kCoordinate),
-                   fields.Number("hdg")};
+    place.start = {fields.Number("x", kCoordinate) - origin.x(),
+                   fields.Number("y", kCoordinate) - origin.y(), fields.Number("hdg")};
     place.length = fields.Number("length", kGeometryLength);
     if (place.length < kMinGeometryLength) {
       return;

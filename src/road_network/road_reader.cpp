@@ -205,7 +205,8 @@ PiecewiseCubic ReadCubics(const XMLElement* parent, const char* name, const char
   return rises ? PiecewiseCubic(std::move(pieces)) : PiecewiseCubic();
 }
 
-Road ReadRoad(const XMLElement& element, XmlProblems& problems, RoadNetwork& network) {
+Road ReadRoad(const XMLElement& element, const Vec2& origin, XmlProblems& problems,
+              RoadNetwork& network) {
   const XmlFields unnamed(element, "road", problems);
   Road road;
   road.id = unnamed.Text("id");
@@ -224,7 +225,7 @@ Road ReadRoad(const XMLElement& element, XmlProblems& problems, RoadNetwork& net
   }
   road.predecessor = ReadRoadLink(fields, "predecessor", road.id, network);
   road.successor = ReadRoadLink(fields, "successor", road.id, network);
-  road.reference = ReadPlanView(fields, road.length);
+  road.reference = ReadPlanView(fields, road.length, origin);
   ReadHeights(fields, road);
   const XMLElement* lanes = fields.Child("lanes");
   if (lanes == nullptr) {

@@ -12,12 +12,14 @@
 namespace trackbed {
 
 /// Reads a <road> element, and adds its errors to `problems`. Adds links with errors to
-/// RoadNetwork::broken; these links are left out.
-Road ReadRoad(const tinyxml2::XMLElement& element, XmlProblems& problems, RoadNetwork& network);
+/// RoadNetwork::broken; these links are left out. Coordinates count from the place `origin` of the
+/// file [m].
+Road ReadRoad(const tinyxml2::XMLElement& element, const Vec2& origin, XmlProblems& problems,
+              RoadNetwork& network);
 
 /// Reads the reference line of a road from its <planView>. If the plan view has an error, returns
-/// an empty reference line.
-ReferenceLine ReadPlanView(const XmlFields& road, double length);
+/// an empty reference line. Coordinates count from the place `origin` of the file [m].
+ReferenceLine ReadPlanView(const XmlFields& road, double length, const Vec2& origin);
 
 /// Reads the cubic polynomials of a piecewise function from the child elements with the name
 /// `name`. The argument `start` is the name of the attribute that contains the station at which a

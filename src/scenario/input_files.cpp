@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "src/scenario/input_files.h"
+#include "src/scenario/local_origin.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -36,7 +37,8 @@ bool ReplaysRecord(const Scenario& scenario) {
 
 }  // namespace
 
-std::vector<InputFile> InputFiles(const Scenario& scenario) {
+std::vector<InputFile> InputFiles(const Scenario& from_origin) {
+  const Scenario scenario = InFileCoordinates(from_origin, /*with_files=*/true);
   std::vector<InputFile> files;
   if (const auto& record = scenario.record) {
     files.push_back({kRecordCsv, RecordCsv(*record->data), "record " + record->file});

@@ -46,6 +46,9 @@ std::vector<std::string> LogColumns(const LogContents& contents) {
   if (contents.gaps) {
     columns.emplace_back("valid");
   }
+  if (contents.origin) {
+    columns.insert(columns.end(), kOriginColumns.begin(), kOriginColumns.end());
+  }
   columns.insert(columns.end(), contents.controller.begin(), contents.controller.end());
   return columns;
 }
@@ -59,6 +62,7 @@ std::vector<std::string> LogColumns(const Scenario& scenario, const std::string&
                      .noise = !recorded && (noise.position > 0.0 || noise.heading > 0.0),
                      .wheels = !recorded && plant != "kinematic" && plant != "single_track",
                      .gaps = recorded,
+                     .origin = OriginOf(scenario) != Vec2::Zero(),
                      .controller = recorded ? std::vector<std::string>{}
                                             : ControllerFor(steering).make(steering)->Columns()});
 }

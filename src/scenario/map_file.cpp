@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/scenario/map_image.h"
+#include "src/scenario/map_range.h"
 #include "src/scenario/yaml_file.h"
 #include "src/scenario/yaml_reader.h"
 #include "trackbed/core/error.h"
@@ -36,7 +37,7 @@ void Visit(KeyVisitor& keys, RosMapKeys& map) {
   keys.Field({"resolution", "m", "side of a cell"}, map.resolution, Need::kRequired,
              Range{.min = 1e-3, .max = 1e3});
   keys.Field({"origin", "", "x, y and yaw of the lower left corner"}, map.origin, Need::kRequired,
-             kMap);
+             kPlace);
   keys.Field({"negate", "", "whether black is free"}, map.negate, Need::kRequired,
              Names{"0", "1", "false", "true"});
   keys.Field({"occupied_thresh", "", "darker is occupied"}, map.occupied_thresh, Need::kRequired,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "src/scenario/local_origin.h"
 #include "src/scenario/yaml_file.h"
 #include "src/scenario/yaml_reader.h"
 #include "trackbed/control/playback.h"
@@ -96,6 +97,8 @@ Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::s
     scenario.drive.control_period = std::round(steps) * scenario.drive.timestep;
   }
   record.data = std::move(drive);
+  const auto problem = MoveToLocalOrigin(scenario);
+  TRACKBED_CHECK(!problem, "the record contradicts itself: {}", problem->second);
   return scenario;
 }
 

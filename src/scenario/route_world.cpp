@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "src/scenario/local_origin.h"
 #include "src/scenario/read_section.h"
 #include "src/scenario/visit.h"
 #include "trackbed/core/error.h"
@@ -31,7 +32,7 @@ std::string AddRouteGround(const std::vector<LanePlace>& route, World& world) {
   return ground.failure;
 }
 
-void ReadRouteGround(const std::filesystem::path& scenario, World& world) {
+void ReadRouteGround(const std::filesystem::path& scenario, const Vec2& origin, World& world) {
   if (!world.road_network) {
     return;
   }
@@ -48,7 +49,7 @@ void ReadRouteGround(const std::filesystem::path& scenario, World& world) {
     fail("world.road_network", fmt::format("{} {}", file, why));
   }
   world.road_network->data =
-      std::make_shared<const OpenDriveFile>(ReadOpenDriveFile(folder / file));
+      std::make_shared<const OpenDriveFile>(RoadsFrom(ReadOpenDriveFile(folder / file), origin));
   if (std::string why = AddRouteGround(mission.route, world); !why.empty()) {
     fail("mission.route", std::move(why));
   }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "src/scenario/check_requirements.h"
@@ -11,6 +12,7 @@
 #include "src/scenario/cross_check.h"
 #include "src/scenario/input_files.h"
 #include "src/scenario/inputs.h"
+#include "src/scenario/local_origin.h"
 #include "src/scenario/overrides.h"
 #include "src/scenario/read_section.h"
 #include "src/scenario/route_world.h"
@@ -83,6 +85,18 @@ std::vector<std::pair<std::string, std::string>> UnknownMetrics(
   return found;
 }
 
+/// Returns why a list is no local origin; empty for an origin and for no list.
+std::string OriginError(const YAML::Node& node) {
+  if (!node || !node.IsSequence()) {
+    return "";
+  }
+  bool is_whole = node.size() == 2;
+  for (const YAML::Node& number : node) {
+    is_whole = is_whole && std::fmod(number.as<double>(0.5), 1.0) == 0.0;
+  }
+  return is_whole ? "" : "must be two whole numbers [x, y], such as [500000, 5200000]";
+}
+
 }  // namespace
 
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
@@ -120,6 +134,17 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   if (std::find(context.overridden.begin(), context.overridden.end(), "drive.plants") !=
       context.overridden.end()) {
     DropUnusedExpectations(scenario);
+  }
+  if (context.Read("origin")) {
+    if (const std::string wrong = OriginError(NodeAt(root, "origin")); !wrong.empty()) {
+      add_error("origin", wrong);
+    }
+  }
+  if (context.problems.empty() && of_inputs.empty()) {
+    if (const auto mixed = MoveToLocalOrigin(scenario)) {
+      add_error(mixed->first, mixed->second);
+      throw InputError(context.problems);
+    }
   }
   const auto could_read = [&context](const std::string& key) { return context.Read(key); };
   for (auto& [key, message] : CrossProblems(scenario, could_read)) {
@@ -179,7 +204,9 @@ World ReadWorld(const std::filesystem::path& file) {
     world.map->data =
         std::make_shared<const MapObstacles>(ReadMap(*world.map, folder, access_error));
   }
-  ReadRouteGround(file, world);
+  const Vec2 origin = ReadOrigin(file);
+  MoveToOrigin(world, origin);
+  ReadRouteGround(file, origin, world);
   return world;
 }
 
@@ -277,6 +304,7 @@ std::string ResolvedYaml(const Scenario& scenario) {
       scenario.record || route_sets_steering ? scenario.mission.start.steering : start.steering;
   resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed, steering};
   resolved.mission.duration = RunDuration(scenario);
+  resolved = InFileCoordinates(resolved, /*with_files=*/false);
   YAML::Emitter out;
   out << YAML::BeginMap;
   YamlWriter writer(out);

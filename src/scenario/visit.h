@@ -43,10 +43,10 @@ inline void Visit(KeyVisitor& a, VehicleSpec& vehicle) {
 inline void Visit(KeyVisitor& a, StartSpec& start) {
   a.Field({"x", "m",
            "initial position of the rear axle; default: that of the record, first waypoint, or 0"},
-          start.x, kMap);
+          start.x, kPlace);
   a.Field({"y", "m",
            "initial position of the rear axle; default: that of the record, first waypoint, or 0"},
-          start.y, kMap);
+          start.y, kPlace);
   a.Field({"yaw", "rad",
            "initial heading; default: that of the record, the first of `headings`, along the first "
            "leg, "
@@ -95,7 +95,8 @@ inline void Visit(KeyVisitor& a, MissionSpec& mission) {
            "the initial speed"},
           speed, Range{.min = 0.1, .max = 100.0});
   mission.speed = speed.value_or(0.0);
-  a.Field({"waypoints", "m", "route; at least two points"}, mission.waypoints, Need::kOptional);
+  a.Field({"waypoints", "m", "route; at least two points"}, mission.waypoints, Need::kOptional,
+          kPlaces);
   a.Field({"headings", "rad",
            "heading of the car at each waypoint; default: along the last leg at the goal, from the "
            "previous to the next stop at stops in between"},
@@ -249,12 +250,27 @@ inline void Visit(KeyVisitor& a, RenderSpec& render) {
           Range{.min = 1.0, .max = 240.0});
 }
 
+inline void VisitOrigin(KeyVisitor& a, std::optional<Vec2>& origin) {
+  std::vector<double> numbers;
+  if (origin) {
+    numbers = {origin->x(), origin->y()};
+  }
+  a.Field({"origin", "m",
+           "local origin [x, y] in whole meters; default: chosen near the scenario's places if a "
+           "coordinate exceeds 1e5 m, otherwise none"},
+          numbers, Need::kOptional, Range{.min = -1e8, .max = 1e8});
+  if (a.mode() == KeyVisitor::Mode::kRead) {
+    origin = numbers.size() == 2 ? std::optional(Vec2(numbers[0], numbers[1])) : std::nullopt;
+  }
+}
+
 inline void Visit(KeyVisitor& a, Scenario& scenario) {
   int schema = 1;
   a.Field({"schema", "", "version of this format"}, schema, Need::kRequired,
           Range{.min = 1, .max = 1});
   a.Identifier({"name", "", "name of the scenario and its output folder"}, scenario.name);
   a.Field({"seed", "", "seed of all random numbers"}, scenario.seed, Need::kOptional);
+  VisitOrigin(a, scenario.origin);
   a.Section(kVehicleSection, scenario.vehicle);
   a.Section(kMissionSection, scenario.mission, Need::kRequired);
   a.Section({"record", "", "recorded drive of a real vehicle, to be replayed and compared with"},

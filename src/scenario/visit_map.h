@@ -1,5 +1,6 @@
 #pragma once
 
+#include "src/scenario/map_range.h"
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/world/map_obstacles.h"
 
@@ -15,9 +16,9 @@ inline void Visit(KeyVisitor& a, MapSpec& map) {
   a.Field({"cell", "m", "side of a cell; required with a .map file, not allowed with a ROS map"},
           map.cell, kMapCellSize);
   a.Field({"x", "m", "lower left corner of the map; default: the file's origin, or 0"}, map.x,
-          kMap);
+          kPlace);
   a.Field({"y", "m", "lower left corner of the map; default: the file's origin, or 0"}, map.y,
-          kMap);
+          kPlace);
   a.Field({"yaw", "rad", "direction of its rows; default: the file's origin, or 0"}, map.yaw,
           kDirection);
   static const EnumNames<UnknownCells> unknown{{UnknownCells::kFree, "free"},

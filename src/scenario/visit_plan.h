@@ -76,7 +76,7 @@ inline void VisitPlan(KeyVisitor& a, std::optional<PlanSpec>& plan) {
       VisitPlanRules(inner, infeasible, max_waypoint_miss);
     });
   }
-  if (global && a.mode() == Mode::kRead) {
+  if (global && a.mode() != Mode::kList) {
     plan = {*global, avoid, replan, infeasible, max_waypoint_miss};
   }
 }

@@ -18,8 +18,8 @@ inline constexpr Range kWindSpeed{.min = -100.0, .max = 100.0};  // [m/s]
 inline constexpr Key kWorldSection{"world", "", "environment of the car"};
 
 inline void Visit(KeyVisitor& a, OrientedBox& box) {
-  a.Field({"x", "m", "center of the rectangle"}, box.center.x, Need::kRequired, kMap);
-  a.Field({"y", "m", "center of the rectangle"}, box.center.y, Need::kRequired, kMap);
+  a.Field({"x", "m", "center of the rectangle"}, box.center.x, Need::kRequired, kPlace);
+  a.Field({"y", "m", "center of the rectangle"}, box.center.y, Need::kRequired, kPlace);
   a.Field({"yaw", "rad", "direction of its length"}, box.center.yaw, Need::kOptional, kDirection);
   a.Field({"length", "m", "along its own x axis"}, box.length, Need::kRequired, kSize);
   a.Field({"width", "m", "along its own y axis"}, box.width, Need::kRequired, kSize);
@@ -59,7 +59,9 @@ inline void Visit(KeyVisitor& a, Superelevation& stretch) {
 
 inline void Visit(KeyVisitor& a, Ground& ground) {
   GradeKeys grade{ground.grade};
-  a.Section({"grade", "", "slope of the ground plane through the origin"}, grade);
+  a.Section(
+      {"grade", "", "slope of the ground plane through the origin (the local one, with `origin`)"},
+      grade);
   a.List({"bumps", "", "bumps on the ground plane"}, ground.bumps);
   a.List({"side_slopes", "", "superelevated (banked) sections"}, ground.side_slopes);
 }

@@ -15,7 +15,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kMaxPosition = 1e5;  // Largest permitted |x| and |y| of a point [m].
+constexpr double kMaxPosition = 1e7;  // Largest permitted |x| and |y| of a point [m].
 constexpr double kMaxWidth = 1000.0;  // Largest permitted track width on either side [m].
 
 /// Quantities in the columns of a track.

@@ -87,8 +87,8 @@ TEST(ReadTrack, NamesTheLineOfEachMistake) {
             "t.csv:5: cell 2 (y_m): 'nan' is not a finite number");
   EXPECT_EQ(ErrorMessages(RingFile(5, "1,inf,4,3")),
             "t.csv:5: cell 2 (y_m): 'inf' is not a finite number");
-  EXPECT_EQ(ErrorMessages(RingFile(5, "1,2e5,4,3")),
-            "t.csv:5: y_m: 200000 is out of range; must be between -100000 and 100000");
+  EXPECT_EQ(ErrorMessages(RingFile(5, "1,2e7,4,3")),
+            "t.csv:5: y_m: 20000000 is out of range; must be between -10000000 and 10000000");
   EXPECT_EQ(ErrorMessages(RingFile(5, "1,2,0,3")),
             "t.csv:5: w_tr_right_m: 0 is out of range; must be above 0 and at most 1000");
   EXPECT_EQ(ErrorMessages(RingFile(5, "1,2,4,-3")),

@@ -34,6 +34,7 @@ struct Trace {
   /// Whether each row has recorded data; false in a gap of the record. Empty if the record has no
   /// gaps.
   std::vector<bool> valid{};
+  Vec2 origin = Vec2::Zero();  ///< Local origin from which the positions count [m].
 
   /// Returns the car's pose at the station `at`, interpolated linearly between rows. The trace must
   /// have at least two rows.
@@ -46,6 +47,10 @@ struct Trace {
 /// Converts the log of a run to a trace. For a run with a path, `source` selects how the station is
 /// measured.
 Trace MakeTrace(const RunLog& log, StationSource source = StationSource::kProjection);
+
+/// Returns the local origin that a table of positions states in its first row; (0, 0) if the table
+/// states none.
+Vec2 OriginIn(const Table& table);
 
 /// Reads the log `<plant>.csv` of a run. Throws InputError if the file has fewer than two rows, or
 /// if ReadCsvExcerpt throws InputError. Log rows later than `contact_time` [s] are omitted from the

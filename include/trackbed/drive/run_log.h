@@ -76,6 +76,8 @@ struct RunLog {
   std::string cause;
   /// Time of the first contact with an obstacle [s]; nullopt if the car touched no obstacle.
   std::optional<double> contact_time;
+  /// Local origin from which the coordinates count, in the scenario's own coordinates [m].
+  Vec2 origin = Vec2::Zero();
   std::vector<std::string> controller_columns;  ///< Names from SteeringController::Columns.
   /// Rows of the log; the station keeps increasing when the plan changes.
   std::vector<LogRow> rows;
@@ -85,7 +87,8 @@ struct RunLog {
 };
 
 /// Converts the rows of the log to the table that is stored as `<plant>.csv`. The table has columns
-/// for a path or for tyres only if the run has a path or tyres.
+/// for a path or for tyres only if the run has a path or tyres, and columns `origin_x_m` and
+/// `origin_y_m` only if the run has a local origin.
 Table ToTable(const RunLog& log);
 
 }  // namespace trackbed

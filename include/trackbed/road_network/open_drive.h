@@ -38,6 +38,10 @@ RoadNetwork ReadOpenDrive(const std::filesystem::path& file);
 struct OpenDriveFile {
   std::string text;
   RoadNetwork network;
+  /// Offset of the header [m]: the place of the file's origin in the coordinates of its map
+  /// projection. The offset is not part of the coordinates of the roads.
+  Vec2 offset = Vec2::Zero();
+  double offset_heading = 0.0;  ///< Rotation of the header's offset [rad]; not applied.
 };
 
 /// Reads a file like ReadOpenDrive, and also returns the text of the file, which is stored in the
@@ -50,5 +54,10 @@ inline constexpr const char* kRoadNetworkXodr = "road_network.xodr";
 /// Parses the text of an OpenDRIVE file like ReadOpenDrive. Error messages use `name` as the name
 /// of the file.
 RoadNetwork ParseOpenDrive(std::string_view xml, const std::string& name);
+
+/// Parses a text like ParseOpenDrive, and also returns the text and the header's offset. The
+/// coordinates of the roads count from the place `origin` of the file [m].
+OpenDriveFile ParseOpenDriveFile(std::string text, const std::string& name,
+                                 const Vec2& origin = Vec2::Zero());
 
 }  // namespace trackbed

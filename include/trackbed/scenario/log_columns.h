@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,9 @@
 
 /// The columns of a run log, `<plant>.csv` (docs/conventions.md).
 namespace trackbed {
+
+/// Columns of a table of positions that state the local origin of the positions, in every row.
+inline constexpr std::array kOriginColumns{"origin_x_m", "origin_y_m"};
 
 /// Optional contents of a log, in addition to the car's state.
 struct LogContents {
@@ -18,6 +22,7 @@ struct LogContents {
   bool wheels = false;  ///< Whether the log has tyre forces and slip.
   /// Whether the log has a column that states the validity of each row of a recorded drive.
   bool gaps = false;
+  bool origin = false;  ///< Whether the log states the local origin of its coordinates.
   /// Names of the controller's columns, from SteeringController::Columns.
   std::vector<std::string> controller{};
 };

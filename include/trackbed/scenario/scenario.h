@@ -181,6 +181,9 @@ struct RenderSpec {
 struct Scenario {
   std::string name;
   std::uint64_t seed = 0;
+  /// Local origin: the place, in the coordinates of the scenario file, from which all coordinates
+  /// in the other members count [m]. ReadScenario moves a scenario there; nullopt: no origin.
+  std::optional<Vec2> origin{};
   VehicleSpec vehicle;
   MissionSpec mission;
   std::optional<RecordSpec> record;  ///< Recorded drive to replay; nullopt: no replay.
@@ -219,9 +222,20 @@ using MetricPaths = std::function<std::vector<std::string>(const Scenario& scena
 /// function `metrics` returns the names that are allowed in `expect.metrics`; if the function is
 /// empty, these names are not checked (LoadScenario in analysis/run.h checks the names).
 /// `asset_folders` becomes Scenario::asset_folders.
+///
+/// If a coordinate of a place exceeds 1e5 m, as in UTM, all places are moved to one local origin
+/// (Scenario::origin), which is the middle of the places, rounded to 1000 m, or the key `origin`.
+/// Places are the coordinates of keys, of files and of the start. Throws InputError if a place is
+/// more than 1e5 m from the origin, because then the inputs are in different coordinates. The
+/// coordinates of the header's <offset> are added to those of a road network if only then the roads
+/// are near the other places.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {}, const MetricPaths& metrics = {},
                       const std::vector<std::filesystem::path>& asset_folders = {});
+
+/// Returns the scenario's local origin [m], in the coordinates of its file; (0, 0) without one.
+/// A coordinate of the file is the coordinate in the Scenario plus the origin.
+Vec2 OriginOf(const Scenario& scenario);
 
 /// Reads a scenario like ReadScenario, but from the text `yaml`. Error messages use `name` as the
 /// name of the file. Relative paths in the scenario are relative to `folder`.
@@ -249,11 +263,12 @@ Expectations ReadExpectations(const std::filesystem::path& file);
 void CheckScenario(const Scenario& scenario);
 
 /// Formats the scenario as YAML, including all default values. ReadScenario reads an equal scenario
-/// from this YAML, in any folder. A model that is given by a path is written with its absolute
-/// path. The caller must write data from other files to the folder of the YAML file: a recording as
-/// `recording.csv` (RecordingCsv), a recorded drive as `record.csv` (RecordCsv), a track as
-/// `track.csv` (TrackCsv), a map as `map.yaml` and `map.pgm` (map_file.h), and a road network as
-/// `road_network.xodr`.
+/// from this YAML, in any folder. Coordinates are those of the scenario's own file, from before the
+/// move to the local origin, which the key `origin` states. A model that is given by a path is
+/// written with its absolute path. The caller must write data from other files to the folder of the
+/// YAML file: a recording as `recording.csv` (RecordingCsv), a recorded drive as `record.csv`
+/// (RecordCsv), a track as `track.csv` (TrackCsv), a map as `map.yaml` and `map.pgm` (map_file.h),
+/// and a road network as `road_network.xodr`.
 std::string ResolvedYaml(const Scenario& scenario);
 
 /// Formats the keys and values of a method's options on one line, such as "distance: 2.5, law:

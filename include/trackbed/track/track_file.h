@@ -36,7 +36,7 @@ struct TrackFile {
 /// bend's radius, to no less than half of its width in the file.
 ///
 /// Throws InputError, which lists up to twenty problems with file and line, including the problems
-/// that ReadCsvTable finds. A point is a problem if its position is beyond 1e5 m, if a width is
+/// that ReadCsvTable finds. A point is a problem if its position is beyond 1e7 m, if a width is
 /// not above 0 or exceeds 1000 m, or if the point coincides with the previous point. A point at
 /// which the center line turns by more than 150 degrees is also a problem. The track as a whole has
 /// a problem if a lap is longer than 200 km, if there are fewer than Track::kMinPoints or more than
