@@ -455,9 +455,10 @@ vary:
 
 TEST_F(Studies, TellOfTheirScenariosOwnProblemsOnce) {
   folder_.Write("small.yaml", std::string(kScenario) + "extra: 1\n");
-  EXPECT_EQ(ErrorMessages("vary: {mission.speed: [1, 2]}\n"),
-            "small.yaml:8:1: extra: unknown key 'extra'; allowed: schema, name, seed, vehicle, "
-            "mission, record, world, plan, control, maneuver, drive, disturb, expect, render");
+  EXPECT_EQ(
+      ErrorMessages("vary: {mission.speed: [1, 2]}\n"),
+      "small.yaml:8:1: extra: unknown key 'extra'; allowed: schema, name, seed, origin, vehicle, "
+      "mission, record, world, plan, control, maneuver, drive, disturb, expect, render");
 }
 
 TEST_F(Studies, TryBisectionsAtBothEndsAndBetween) {
