@@ -15,6 +15,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/pose.h"
+#include "trackbed/path/fit_path_within.h"
 
 // Fits a path to points. The points are divided into legs of one direction of motion (legs.cpp).
 // Each leg is fitted as a forward path in its direction of travel (leg_fit.cpp). A first fit of
@@ -207,13 +208,14 @@ FittedPath JoinLegs(const std::vector<Leg>& legs, const std::vector<FittedPath>&
 }
 
 /// Fits a path as FitPath does, without a search for a larger deviation if the fit fails.
-FittedPath FitOnce(PathPoints given, const PathFitOptions& options) {
+FittedPath FitOnce(PathPoints given, const PathFitOptions& options,
+                   double max_curvature = kUnbounded) {
   const std::vector<Leg> legs = FindLegs(given, options.max_deviation);
   FittedPath fitted;
   if (std::optional<FittedPath> followed = FollowGiven(given, legs, options)) {
     fitted = std::move(*followed);
   } else if (legs.size() == 1) {
-    fitted = FitLeg(PointsOf(given, legs.front()), options, {});
+    fitted = FitLeg(PointsOf(given, legs.front()), options, {}, max_curvature);
     if (legs.front().direction < 0) {
       fitted = JoinLegs(legs, {std::move(fitted)});
     }
@@ -223,13 +225,13 @@ FittedPath FitOnce(PathPoints given, const PathFitOptions& options) {
     }
     std::vector<FittedPath> fits;
     for (const Leg& leg : legs) {
-      fits.push_back(FitLeg(PointsOf(given, leg), options, {}));
+      fits.push_back(FitLeg(PointsOf(given, leg), options, {}, max_curvature));
     }
     fitted = JoinLegs(legs, fits);
     if (fitted.reversals.empty()) {
       const std::vector<EndHeadings> headings = HeadingsOfLegs(given, legs, fits);
       for (std::size_t i = 0; i < legs.size(); ++i) {
-        fits[i] = FitLeg(std::move(fits[i].given), options, headings[i]);
+        fits[i] = FitLeg(std::move(fits[i].given), options, headings[i], max_curvature);
       }
       fitted = JoinLegs(legs, fits);
     }
@@ -343,6 +345,13 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
     point -= ahead * Vec2(std::cos(yaw), std::sin(yaw));
   }
   return given;
+}
+
+FittedPath FitPathWithin(PathPoints given, const PathFitOptions& options, double max_curvature) {
+  TRACKBED_REQUIRE(max_curvature > 0.0, "FitPathWithin: a curvature of {} 1/m; must be above 0",
+                   max_curvature);
+  CheckArguments(given, options);
+  return FitOnce(std::move(given), options, max_curvature);
 }
 
 FittedPath FitPath(PathPoints given, const PathFitOptions& options) {

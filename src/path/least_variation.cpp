@@ -17,6 +17,9 @@
 // carries the affine terms, extend the state by constants. The curve's nodes are first moved
 // independently, with gaps that close as the method converges (multiple shooting), and then joined.
 //
+// The bound of the curvature is a quadratic penalty at the nodes that exceed it. The nodes that
+// exceed the bound are found anew in each iteration (a semismooth Newton method).
+//
 // Lengths are divided by the smoothing length, which makes all weights independent of the units.
 
 namespace trackbed {
@@ -43,8 +46,12 @@ constexpr double kMinShortening = 0.2;
 
 class Newton {
  public:
-  Newton(std::vector<CurveNode> nodes, bool closed, const EndHeadings& headings)
-      : nodes_(std::move(nodes)), closed_(closed), headings_(headings) {
+  Newton(std::vector<CurveNode> nodes, bool closed, const EndHeadings& headings,
+         double max_curvature)
+      : nodes_(std::move(nodes)),
+        closed_(closed),
+        headings_(headings),
+        max_curvature_(max_curvature) {
     for (const CurveNode& node : nodes_) {
       shortest_.push_back(kMinShortening * node.length);
     }
@@ -62,11 +69,13 @@ class Newton {
   void Slide();
   double Move(StateVector state);
   void AddPoint(StateMatrix& cost, const CurveNode& node) const;
+  void AddBound(StateMatrix& cost, std::size_t node) const;
   StateVector Start(const StateMatrix& cost) const;
 
   std::vector<CurveNode> nodes_;
   bool closed_;
   EndHeadings headings_;
+  double max_curvature_;          // Divided by the smoothing length, like all curvatures.
   double mean_ = 0.0;             // The constant c.
   std::vector<double> shortest_;  // Smallest length before each node.
   std::vector<double> slides_;    // Distance that each node moves along the curve.
@@ -125,6 +134,21 @@ void Newton::AddPoint(StateMatrix& cost, const CurveNode& node) const {
   }
 }
 
+/// Adds the penalty of a node that exceeds the bound of the curvature.
+void Newton::AddBound(StateMatrix& cost, std::size_t node) const {
+  constexpr double kPenalty = 1e5;
+  const double own = nodes_[node].curvature;
+  if (!(std::abs(own) > max_curvature_)) {
+    return;
+  }
+  const double before = node > 0 ? nodes_[node].length : 0.0;
+  const double after = node + 1 < nodes_.size() ? nodes_[node + 1].length : 0.0;
+  StateRow row = StateRow::Zero();
+  row(kCurvature) = 1.0;
+  row(kOne) = own - std::copysign(max_curvature_, own);
+  AddSquare(cost, row, 0.5 * kPenalty * (before + after));
+}
+
 /// Returns the state at the first node that minimizes the cost and meets the conditions.
 StateVector Newton::Start(const StateMatrix& cost) const {
   StateVector state = StateVector::Zero();
@@ -174,6 +198,7 @@ double Newton::Iterate() {
           -AngleDifference(*headings_.end, nodes_.back().pose.yaw);
     }
   }
+  AddBound(cost, count - 1);
   // Where the points leave the constant open, as three points do, it stays as it is.
   double length = 0.0;
   for (std::size_t i = 1; i < count; ++i) {
@@ -192,6 +217,7 @@ double Newton::Iterate() {
     if (i > 1 || closed_) {
       AddPoint(cost, nodes_[i - 1]);
     }
+    AddBound(cost, i - 1);
   }
   if (closed_) {
     for (int i = 0; i < kStates; ++i) {
@@ -288,7 +314,8 @@ void Scale(std::vector<CurveNode>& nodes, double factor) {
 
 std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode> nodes,
                                                           double smoothing_length, bool closed,
-                                                          const EndHeadings& headings) {
+                                                          const EndHeadings& headings,
+                                                          double max_curvature) {
   constexpr int kMaxIterations = 30;
   // Iterations after which nodes that still move by kFar smoothing lengths are given up.
   constexpr int kFarIterations = 10;
@@ -303,7 +330,7 @@ std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode>
     }
   }
   Scale(nodes, 1.0 / smoothing_length);
-  Newton newton(std::move(nodes), closed, headings);
+  Newton newton(std::move(nodes), closed, headings, max_curvature * smoothing_length);
   // Movement below which rounding dominates.
   const double rounding = 1e-14 * length / smoothing_length;
   double before = std::numeric_limits<double>::infinity();

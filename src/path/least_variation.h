@@ -10,6 +10,9 @@
 
 namespace trackbed {
 
+/// A bound that no curvature exceeds [1/m].
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
 /// A point of a LeastVariationCurve at which two of its segments meet.
 struct CurveNode {
   Pose2 pose;              ///< Position [m] and heading [rad, not wrapped] of the curve.
@@ -35,13 +38,22 @@ struct CurveNode {
 /// prescribed headings. A closed curve returns to its first node with equal curvature and
 /// sharpness; the last node repeats the first.
 ///
+/// With a finite `max_curvature` [1/m], > 0, the sum has a further term, k l^4 times the integral
+/// of
+/// (|kappa| - max_curvature)^2 over the parts of the curve on which |kappa| exceeds max_curvature,
+/// with a large factor k, evaluated at the nodes. At the nodes, the curve then exceeds
+/// max_curvature by less than a thousandth of the excess of the curve without this term. Where the
+/// curvature jumps, as between a line and an arc, a curve without the term has a larger curvature
+/// than the arc.
+///
 /// `nodes` are the initial values, at least three; a first and last node of an open curve have
 /// points. `headings` must be empty for a closed curve. Newton's method converges if the initial
 /// curve is near the points compared with its radii. Returns nullopt if the method does not
 /// converge. Costs about 20 us per node.
 std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode> nodes,
                                                           double smoothing_length, bool closed,
-                                                          const EndHeadings& headings = {});
+                                                          const EndHeadings& headings = {},
+                                                          double max_curvature = kUnbounded);
 
 /// Returns the segments between the nodes.
 std::vector<Segment> SegmentsBetween(const std::vector<CurveNode>& nodes);

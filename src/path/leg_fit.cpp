@@ -119,7 +119,8 @@ ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& option
   return options.resample ? Resampled(distinct, *options.resample) : distinct.chords;
 }
 
-FittedPath FitLeg(PathPoints given, const PathFitOptions& options, const EndHeadings& headings) {
+FittedPath FitLeg(PathPoints given, const PathFitOptions& options, const EndHeadings& headings,
+                  double max_curvature) {
   const DistinctPoints distinct = DistinctFor(given, options);
   FittedPath fitted;
   fitted.given = std::move(given);
@@ -150,7 +151,7 @@ FittedPath FitLeg(PathPoints given, const PathFitOptions& options, const EndHead
   }
   std::vector<double> stations;  // stations of the distinct points
   if (options.fit == PathFit::kSpline && !IsStraight(own, headings)) {
-    FitSpline(own, distinct, headings, fitted, stations);
+    FitSpline(own, distinct, headings, max_curvature, fitted, stations);
   } else {
     const std::size_t knots = own.points.size();
     if (headings.begin) {

@@ -17,9 +17,11 @@ ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& option
 /// Returns the points at which the direction of travel changes by more than kMaxHeadingJump.
 std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period);
 
-/// Fits a forward path to the points of one leg, with the prescribed headings at its ends. Does not
+/// Fits a forward path to the points of one leg, with the prescribed headings at its ends, and with
+/// the bound `max_curvature` [1/m] on the curvature of a spline (FitSpline). Does not
 /// compute the deviation and the heading difference. If the points turn back, fits no path and sets
 /// the reversals.
-FittedPath FitLeg(PathPoints given, const PathFitOptions& options, const EndHeadings& headings);
+FittedPath FitLeg(PathPoints given, const PathFitOptions& options, const EndHeadings& headings,
+                  double max_curvature);
 
 }  // namespace trackbed

@@ -192,6 +192,7 @@ struct LocalPoints {
   ChordPoints given;
   double period = 0.0;
   EndHeadings headings;  // Prescribed headings at the ends.
+  double max_curvature = kUnbounded;
 };
 
 /// Returns the station of each distinct point on a path.
@@ -325,12 +326,12 @@ std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& loc
   int failures = 0;
   for (int i = 0; i < kLengths && failures < kMaxFailures; ++i, own_length *= kShorter) {
     if (nodes) {
-      nodes = LeastVariationCurve(*nodes, own_length, closed, local.headings);
+      nodes = LeastVariationCurve(*nodes, own_length, closed, local.headings, local.max_curvature);
     }
     for (std::size_t k = 0; k < (i == 0 ? kStarts.size() : 1) && !nodes; ++k) {
       if (spline.Fit(kStarts[k] * own_length)) {
         nodes = LeastVariationCurve(NodesAlong(spline, local.knots, closed), own_length, closed,
-                                    local.headings);
+                                    local.headings, local.max_curvature);
       }
     }
     if (!nodes) {
@@ -349,12 +350,16 @@ std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& loc
 }  // namespace
 
 void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct,
-               const EndHeadings& headings, FittedPath& fitted, std::vector<double>& stations) {
+               const EndHeadings& headings, double max_curvature, FittedPath& fitted,
+               std::vector<double>& stations) {
   const double tolerance = fitted.options.max_deviation;
   const Vec2 origin = knots.points.front();
-  const LocalPoints local{Relative(knots, origin), Relative(distinct.chords, origin),
+  const LocalPoints local{Relative(knots, origin),
+                          Relative(distinct.chords, origin),
                           Relative({distinct.given_u, fitted.given.points}, origin),
-                          distinct.period, headings};
+                          distinct.period,
+                          headings,
+                          max_curvature};
   SmoothingSpline spline(local.knots, local.period, headings);
   // Reserve 5 % of the tolerance for the segments, which approximate the spline.
   double smoothing_length = FitWithin(spline, local.given, local.knots, 0.95 * tolerance);

@@ -248,6 +248,40 @@ TEST(PathFilePlanner, SaysHowToGiveTheDirection) {
   EXPECT_THAT(plan.reason, HasSubstr("add a column direction of 1 and -1"));
 }
 
+/// A line, an arc of the given curvature, and a line, with points 0.4 m apart.
+std::vector<Vec2> TurnOf(double curvature, double turn) {
+  const Path path({0.0, 0.0, 0.0},
+                  {{.length = 15.0, .curvature = 0.0, .direction = 1},
+                   {.length = turn / std::abs(curvature), .curvature = curvature, .direction = 1},
+                   {.length = 15.0, .curvature = 0.0, .direction = 1}});
+  std::vector<Vec2> points;
+  for (double s = 0.0; s <= path.length(); s += 0.4) {
+    points.push_back(path.At(s).pose.position());
+  }
+  return points;
+}
+
+TEST(PathFilePlanner, PlansTurnsNearFullLock) {
+  const VehicleParams car = ReferenceCar();
+  const double limit = CurvatureForSteering(car, car.steering_limit);
+  for (const double share : {0.98, 0.99, 0.995, -0.985, -0.995}) {
+    for (const double turn : {1.0, 1.6, 3.0}) {
+      const PathFileOptions options = Options(TurnOf(share * limit, turn));
+      PlanRequest request = RequestAlong(options);
+      request.infeasible = InfeasiblePolicy::kSlowDown;
+      const Plan plan = MakePlan(request, options);
+      ASSERT_TRUE(plan.ok()) << share << ", " << turn << ": " << plan.reason;
+      for (double s = 0.0; s <= plan.reference.path.length(); s += 0.05) {
+        EXPECT_LE(std::abs(plan.reference.path.At(s).curvature), limit) << s;
+      }
+      EXPECT_LE(DiagnosticsJson(plan).at("deviation_m").get<double>(), 0.05);
+    }
+  }
+  // A turn that is clearly too tight is refused.
+  const PathFileOptions tight = Options(TurnOf(1.2 * limit, 1.6));
+  EXPECT_FALSE(MakePlan(RequestAlong(tight), tight).ok());
+}
+
 TEST(PathFilePlanner, RefusesACarThatStartsElsewhere) {
   const PathFileOptions options = Bend();
   PlanRequest request = RequestAlong(options);
