@@ -15,7 +15,6 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/pose.h"
-#include "trackbed/path/fit_path_within.h"
 
 // Fits a path to points. The points are divided into legs of one direction of motion (legs.cpp).
 // Each leg is fitted as a forward path in its direction of travel (leg_fit.cpp). A first fit of

@@ -18,7 +18,8 @@
 #include "src/scenario/yaml_reader.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
-#include "trackbed/planning/path_file/path_file_planner.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/recording/recorded_drive.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/track/track.h"
@@ -141,10 +142,11 @@ std::vector<Site> SitesOfFiles(const Scenario& scenario) {
                      BoundsOf(std::array{map->data->map().X_WM.position()})});
   }
   if (scenario.plan) {
-    const auto* followed = scenario.plan->global.As<PathFileOptions>();
-    if (followed != nullptr && followed->path != nullptr) {
-      sites.push_back({PlannerSection(scenario) + "file", "the path " + followed->file,
-                       BoundsOf(followed->path->given.points)});
+    const PlannerEntry& planner = PlannerFor(scenario.plan->global);
+    if (planner.places != nullptr) {
+      sites.push_back({PlannerSection(scenario) + "file",
+                       fmt::format("the file of the planner {}", planner.name),
+                       BoundsOf(planner.places(scenario.plan->global))});
     }
   }
   const StartSpec& start = scenario.mission.start;
@@ -235,13 +237,9 @@ void TranslateFiles(Scenario& scenario, const Vec2& by) {
     map->data = std::make_shared<const MapObstacles>(std::move(moved), map->unknown);
   }
   if (scenario.plan) {
-    auto* followed = scenario.plan->global.As<PathFileOptions>();
-    if (followed != nullptr && followed->path != nullptr) {
-      PathPoints moved = followed->path->given;
-      for (Vec2& point : moved.points) {
-        point += by;
-      }
-      followed->path = std::make_shared<const FittedPath>(FitPath(std::move(moved), followed->fit));
+    const PlannerEntry& planner = PlannerFor(scenario.plan->global);
+    if (planner.translate != nullptr) {
+      planner.translate(scenario.plan->global, by);
     }
   }
 }

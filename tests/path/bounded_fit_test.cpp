@@ -8,7 +8,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
-#include "trackbed/path/fit_path_within.h"
+#include "trackbed/path/fit_path.h"
 
 // Tests the bound of FitPathWithin on the curvature.
 namespace trackbed {

@@ -134,10 +134,12 @@ TEST(LocalOrigin, RefusesPlacesInDifferentCoordinates) {
     });
   };
   EXPECT_EQ(error(""), "");
-  EXPECT_THAT(error("world: {obstacles: [{box: {x: 3, y: 4, length: 1, width: 1}}]}\n"),
-              AllOf(HasSubstr("world.obstacles[0].box"), HasSubstr("is at (3.00, 4.00)"),
-                    HasSubstr("the path utm.csv is at (500009.50, 5200000.00), 5.2e+06 m away"),
-                    HasSubstr("give both in the same coordinates")));
+  EXPECT_THAT(
+      error("world: {obstacles: [{box: {x: 3, y: 4, length: 1, width: 1}}]}\n"),
+      AllOf(HasSubstr("world.obstacles[0].box"), HasSubstr("is at (3.00, 4.00)"),
+            HasSubstr(
+                "the file of the planner path_file is at (500009.50, 5200000.00), 5.2e+06 m away"),
+            HasSubstr("give both in the same coordinates")));
   // Obstacles far from a car that starts at (0, 0) by default.
   EXPECT_THAT(ErrorText([] {
                 Parse(

@@ -330,6 +330,21 @@ std::vector<InputFile> InputFilesOf(const PathFileOptions& options) {
   return {{kPathCsv, PathCsv(options.path->given), "path " + options.file}};
 }
 
+std::vector<Vec2> PlacesOf(const PathFileOptions& options) {
+  return options.path == nullptr ? std::vector<Vec2>{} : options.path->given.points;
+}
+
+void MoveBy(PathFileOptions& options, const Vec2& by) {
+  if (options.path == nullptr) {
+    return;
+  }
+  PathPoints moved = options.path->given;
+  for (Vec2& point : moved.points) {
+    point += by;
+  }
+  options.path = std::make_shared<const FittedPath>(FitPath(std::move(moved), options.fit));
+}
+
 void Resolve(PathFileOptions& options) {
   options.file = kPathCsv;
   options.map = {};  // the output of PathCsv uses the default column names
@@ -470,7 +485,9 @@ PlannerEntry PathFilePlanner() {
           .read_inputs = OnOptions<PathFileOptions, ReadPath>,
           .input_files = OnOptions<PathFileOptions, InputFilesOf>,
           .input_names = {kPathCsv},
-          .resolve = OnOptions<PathFileOptions, Resolve>};
+          .resolve = OnOptions<PathFileOptions, Resolve>,
+          .places = OnOptions<PathFileOptions, PlacesOf>,
+          .translate = OnOptions<PathFileOptions, MoveBy>};
 }
 
 }  // namespace trackbed

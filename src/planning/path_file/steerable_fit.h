@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "trackbed/core/error.h"
-#include "trackbed/path/fit_path_within.h"
+#include "trackbed/path/fit_path.h"
 #include "trackbed/vehicle/params.h"
 
 namespace trackbed {

@@ -105,6 +105,11 @@ struct PlannerEntry {
   std::vector<std::string> input_names{};  ///< All file names that `input_files` may return.
   /// Changes the options so that the options name the files that `input_files` returns.
   void (*resolve)(PlannerOptions& options) = nullptr;
+  /// Returns the places in the contents of the files [m].
+  std::vector<Vec2> (*places)(const PlannerOptions& options) = nullptr;
+  /// Moves all places in the contents of the files by a vector [m]. A planner that stores places
+  /// needs this function for scenarios with a local origin.
+  void (*translate)(PlannerOptions& options, const Vec2& by) = nullptr;
   std::vector<PlannerTable> tables{};  ///< Additional tables that are written for each plan.
 };
 
