@@ -137,8 +137,8 @@ inline void VisitMovingBox(KeyVisitor& a, Obstacle& obstacle) {
   std::optional<double> x;
   std::optional<double> y;
   std::optional<double> yaw;
-  a.Field({"x", "m", "center of the rectangle"}, x, kMap);
-  a.Field({"y", "m", "center of the rectangle"}, y, kMap);
+  a.Field({"x", "m", "center of the rectangle"}, x, kPlace);
+  a.Field({"y", "m", "center of the rectangle"}, y, kPlace);
   a.Field({"yaw", "rad", "direction of its length"}, yaw, kDirection);
   a.Field({"length", "m", "along its own x axis"}, box.length, Need::kRequired, kSize);
   a.Field({"width", "m", "along its own y axis"}, box.width, Need::kRequired, kSize);
@@ -148,8 +148,8 @@ inline void VisitMovingBox(KeyVisitor& a, Obstacle& obstacle) {
 inline void Visit(KeyVisitor& a, TimedPose& at) {
   a.Field({"time", "s", "simulation time, later than that of the pose before"}, at.time,
           Need::kRequired, kNonNegative);
-  a.Field({"x", "m", "center of the box"}, at.pose.x, Need::kRequired, kMap);
-  a.Field({"y", "m", "center of the box"}, at.pose.y, Need::kRequired, kMap);
+  a.Field({"x", "m", "center of the box"}, at.pose.x, Need::kRequired, kPlace);
+  a.Field({"y", "m", "center of the box"}, at.pose.y, Need::kRequired, kPlace);
   a.Field({"yaw", "rad", "direction of its length"}, at.pose.yaw, Need::kRequired, kDirection);
 }
 
