@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "src/path/given_shape.h"
+#include "src/path/least_variation.h"
 #include "src/path/leg_fit.h"
 #include "src/path/legs.h"
 #include "src/path/points_to_fit.h"
