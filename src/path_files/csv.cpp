@@ -224,7 +224,7 @@ class CsvPath {
          {std::pair("origin_x_m", kX), std::pair("origin_y_m", kY)}) {
       const auto own = std::find(names_.begin(), names_.end(), name);
       if (own != names_.end()) {
-        origin_[quantity] = static_cast<std::size_t>(own - names_.begin());
+        origin_columns_[quantity] = static_cast<std::size_t>(own - names_.begin());
       }
     }
     std::vector<std::string> used;
@@ -347,8 +347,8 @@ class CsvPath {
         number = TimestampSeconds(cells[column.index]);
       }
       values[i] = number.value_or(0.0) * column.factor + column.offset;
-      if (i <= kY && origin_[i]) {
-        values[i] += CellNumber(cells[*origin_[i]]).value_or(0.0);
+      if (i <= kY && origin_columns_[i]) {
+        values[i] += CellNumber(cells[*origin_columns_[i]]).value_or(0.0);
       }
       const auto quantity = static_cast<Quantity>(i);
       if (!number) {
@@ -404,7 +404,8 @@ class CsvPath {
   bool is_broken_ = false;
   std::vector<std::string> names_;
   std::array<std::optional<Column>, kQuantities> columns_;
-  std::array<std::optional<std::size_t>, 2> origin_;  // columns of the local origin, x and y
+  std::array<std::optional<std::size_t>, 2>
+      origin_columns_;  // columns of the local origin, x and y
   std::array<InvalidCells, kQuantities> invalid_;
   std::vector<double> times_;
   DirectionColumn direction_column_ = DirectionColumn::kSigned;
