@@ -6,12 +6,6 @@
 
 namespace trackbed {
 
-/// Selects what a controller assumes about the car's steering actuator.
-enum class ActuatorKnowledge {
-  kModel,   ///< The actuator of the vehicle's parameters.
-  kIgnore,  ///< An actuator without dead time, lag, backlash and curve, to study the mismatch.
-};
-
 /// Wraps the path-following controller `inner` in a model of the car's steering actuator. The
 /// control law then accounts for the dead time, the lag, the backlash and the calibration curve of
 /// SteeringResponse, and for the actuator's limits of angle and rate.

@@ -103,13 +103,14 @@ const ControllerEntry& ControllerFor(const ControllerOptions& options) {
   return ControllerRegistry().For(options);
 }
 
-std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options) {
+std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options,
+                                                           ActuatorKnowledge actuator) {
   ControllerOptions own = options;
   RequireInRange("MakeSteeringController", [&](KeyVisitor& keys) { Visit(keys, own); });
   const ControllerEntry& entry = ControllerFor(options);
   std::unique_ptr<SteeringController> controller = entry.make(options);
   if (entry.needs_plan && entry.station == StationSource::kProjection) {
-    controller = WithActuatorModel(std::move(controller), ActuatorKnowledge::kModel);
+    controller = WithActuatorModel(std::move(controller), actuator);
   }
   return std::make_unique<ValidatingController>(std::move(controller));
 }

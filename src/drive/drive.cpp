@@ -83,7 +83,8 @@ RunLog SimulateScenario(const Scenario& scenario, const CarModel& car, const Fea
   if (plant_name == kRecordedPlant) {
     return RecordedLog(scenario, car);
   }
-  const auto controller = MakeSteeringController(scenario.control.steering);
+  const auto controller =
+      MakeSteeringController(scenario.control.steering, scenario.control.actuator);
   const auto plant = PlantAtStart(scenario, car, plant_name);
   LoopConfig config = MakeLoopConfig(scenario, car);
   config.hooks = hooks;
@@ -103,7 +104,7 @@ SteppedLoop MakeSteppedLoop(const std::shared_ptr<const Scenario>& scenario,
   auto plant = PlantAtStart(*scenario, *car, plant_name);
   return {
       std::move(plant),
-      MakeSteeringController(scenario->control.steering),
+      MakeSteeringController(scenario->control.steering, scenario->control.actuator),
       plan,
       MakeLoopConfig(*scenario, *car),
       std::make_shared<std::pair<std::shared_ptr<const Scenario>, std::shared_ptr<const CarModel>>>(

@@ -277,10 +277,16 @@ inline void Visit(KeyVisitor& a, Scenario& scenario) {
             scenario.record);
   a.Section(kWorldSection, scenario.world);
   VisitPlan(a, scenario.plan);
+  static const EnumNames<ActuatorKnowledge> actuators{{ActuatorKnowledge::kModel, "model"},
+                                                      {ActuatorKnowledge::kIgnore, "ignore"}};
   std::optional<ControllerOptions> steering = scenario.control.steering;
   a.Method({"control", "", "steering and speed controllers"}, steering, Controllers(),
            Need::kOptional, [&](KeyVisitor& inner) {
              inner.Section({"speed", "", "speed controller"}, scenario.control.speed);
+             inner.Field({"actuator", "",
+                          "whether path-following controllers account for dead time, lag, backlash "
+                          "and calibration curve of the car's steering"},
+                         scenario.control.actuator, Need::kOptional, actuators);
            });
   scenario.control.steering = *steering;
   a.Method({"maneuver", "", "standard maneuver as which the run is evaluated"}, scenario.maneuver,

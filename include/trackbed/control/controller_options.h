@@ -10,4 +10,10 @@ class SteeringController;
 /// selects the controller.
 using ControllerOptions = MethodOptions<SteeringController>;
 
+/// Selects what a path-following controller assumes about the car's steering actuator.
+enum class ActuatorKnowledge {
+  kModel,   ///< The actuator of the vehicle's parameters.
+  kIgnore,  ///< An actuator without dead time, lag, backlash and curve, to study the mismatch.
+};
+
 }  // namespace trackbed

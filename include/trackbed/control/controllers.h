@@ -23,7 +23,10 @@ const ControllerEntry& ControllerFor(const ControllerOptions& options);
 
 /// Makes the controller to which `options` belong. The function Steer of the returned controller
 /// throws InternalError if the car's state contains NaN or infinity. MakeController throws
-/// PreconditionError if an option value is outside of its documented range.
-std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options);
+/// PreconditionError if an option value is outside of its documented range. A
+/// path-following controller with feedback accounts for the car's steering actuator as `actuator`
+/// selects (docs/algorithms/control.md).
+std::unique_ptr<SteeringController> MakeSteeringController(
+    const ControllerOptions& options, ActuatorKnowledge actuator = ActuatorKnowledge::kModel);
 
 }  // namespace trackbed

@@ -97,6 +97,8 @@ struct PlanSpec {
 struct ControlSpec {
   ControllerOptions steering = DefaultController();
   SpeedControlOptions speed;
+  /// What path-following controllers assume about the car's steering actuator.
+  ActuatorKnowledge actuator = ActuatorKnowledge::kModel;
 };
 
 struct DriveSpec {
