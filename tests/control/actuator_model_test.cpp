@@ -372,5 +372,21 @@ TEST(ActuatorModel, PassesAnIdealActuator) {
   }
 }
 
+TEST(ActuatorModel, IsLeftOutOnRequest) {
+  // Without the model, the dead time of the small car makes the loop of lqr oscillate.
+  const Drive drive{SmallCar(), Straight(40.0), {0.0, 0.05, 0.0}, 2.0, 750};
+  const auto reversals = [&](ActuatorKnowledge actuator) {
+    const auto controller = MakeSteeringController(LqrOptions{}, actuator);
+    const std::vector<Row> rows = Simulate(*controller, drive);
+    int count = 0;
+    for (std::size_t i = 251; i < rows.size(); ++i) {
+      count += rows[i].command * rows[i - 1].command < 0.0 ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_LE(reversals(ActuatorKnowledge::kModel), 10);
+  EXPECT_GT(reversals(ActuatorKnowledge::kIgnore), 20);
+}
+
 }  // namespace actuator_model_test
 }  // namespace trackbed
