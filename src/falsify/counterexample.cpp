@@ -34,6 +34,8 @@ class OutcomeExpectations {
       case CheckReason::kCorridor:
       case CheckReason::kOverspeed:
         return check.met || AddLimit(check);
+      case CheckReason::kOscillation:
+        return check.met || AddOscillation(check);
       case CheckReason::kRequirement:
         return AddRequirement(check);
       case CheckReason::kExpected:
@@ -97,6 +99,17 @@ class OutcomeExpectations {
       // Set the bound explicitly, because otherwise the default bound of one car width would apply.
       Of(check.plant).max_cross_track = 2.0 * *real;
     }
+    return true;
+  }
+
+  /// Expects an oscillation of at least half the amplitude. Its limit is 0, which every amplitude
+  /// reaches.
+  bool AddOscillation(const Check& check) {
+    const double* amplitude = std::get_if<double>(&check.value);
+    if (amplitude == nullptr) {
+      return false;
+    }
+    OfMetric(check).min = 0.5 * *amplitude;
     return true;
   }
 
