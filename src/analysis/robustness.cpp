@@ -26,7 +26,8 @@ std::optional<double> ExtentOf(const Check& check) {
   const std::optional<double> value = NumberOf(check.value);
   const bool is_limit = check.relation != Relation::kEquals && bound && value &&
                         check.reason != CheckReason::kSteeringRate &&
-                        check.reason != CheckReason::kOverspeed;
+                        check.reason != CheckReason::kOverspeed &&
+                        check.reason != CheckReason::kOscillation;
   if (!is_limit) {
     return check.met ? std::nullopt : std::optional(kViolatedRobustness);
   }
