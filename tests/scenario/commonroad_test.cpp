@@ -10,11 +10,11 @@
 namespace trackbed {
 namespace {
 
-const std::filesystem::path kTwoLanes =
+const std::filesystem::path kCommonRoadFile =
     std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios/roads/two_lanes.xml";
 
 TEST(CommonRoad, BecomesAScenario) {
-  const Scenario scenario = ReadScenario(kTwoLanes);
+  const Scenario scenario = ReadScenario(kCommonRoadFile);
   EXPECT_EQ(scenario.name, "ZAM_TwoLanes-1_1_T-1");
   EXPECT_EQ(scenario.vehicle.model, "bmw320i");
   ASSERT_EQ(scenario.world.obstacles.size(), 2U);
@@ -30,9 +30,9 @@ TEST(CommonRoad, BecomesAScenario) {
 }
 
 TEST(CommonRoad, IsTheSameAfterItIsResolved) {
-  const Scenario scenario = ReadScenario(kTwoLanes);
+  const Scenario scenario = ReadScenario(kCommonRoadFile);
   const Scenario again =
-      ParseScenario(ResolvedYaml(scenario), "again.yaml", kTwoLanes.parent_path(), {}, {},
+      ParseScenario(ResolvedYaml(scenario), "again.yaml", kCommonRoadFile.parent_path(), {}, {},
                     {std::filesystem::path(TRACKBED_SOURCE_DIR)});
   EXPECT_EQ(ResolvedYaml(again), ResolvedYaml(scenario));
 }
