@@ -21,7 +21,7 @@ using Series = std::vector<double>;
 /// Number of cycles in each of the two halves that are compared. If the second half has half of the
 /// amplitude, the damping ratio is ln 2/(2 pi kCycles) = 0.028.
 constexpr int kCycles = 4;
-constexpr double kShortestHalf = 1.0;    ///< Shortest half of an oscillation [s].
+constexpr double kShortestHalf = 2.0;    ///< Shortest half of an oscillation [s].
 constexpr double kHalves = 0.9;          ///< Least correlation of the two halves.
 constexpr double kNeighbors = 0.9;       ///< Least correlation of neighboring cycles.
 constexpr double kLeastRemainder = 0.5;  ///< Least amplitude of the second half over the first.

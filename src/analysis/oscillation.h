@@ -31,7 +31,7 @@ struct Wave {
 };
 
 /// Finds sustained oscillations in the unexplained part of a command: stretches of at least eight
-/// cycles and 2 s, whose second half repeats the first half with a correlation of at least 0.9 and
+/// cycles and 4 s, whose second half repeats the first half with a correlation of at least 0.9 and
 /// at least half of the amplitude. If inputs of the loop are `random`, each cycle must also repeat
 /// the one before, because noise excites poorly damped loops to short trains of waves. At least
 /// half of the wave must be in the command, too, because the fit of the inputs may add waves of its

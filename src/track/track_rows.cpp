@@ -16,6 +16,8 @@ namespace trackbed {
 namespace {
 
 constexpr double kMaxPosition = 1e7;  // Largest permitted |x| and |y| of a point [m].
+// Largest permitted distance of a point from the middle of the track, in x and in y [m].
+constexpr double kMaxExtent = 1e5;
 constexpr double kMaxWidth = 1000.0;  // Largest permitted track width on either side [m].
 
 /// Quantities in the columns of a track.
@@ -42,6 +44,8 @@ TrackRows::TrackRows(const std::filesystem::path& file, const TrackReading& read
       file, {.delimiter = kFindDelimiter}, problems,
       [&](const std::vector<std::string>& names, int line) { TakeNames(names, line); },
       [&](const std::vector<std::string>& cells, int line) { TakeRow(cells, line); });
+  problems.ThrowIfAny();
+  CheckExtent();
   problems.ThrowIfAny();
   DropRepeatedEnd();
 }
@@ -165,6 +169,29 @@ void TrackRows::CheckNumbers(const TrackNumbers& numbers) {
   }
   if (row > 0 && points[row].position == points[row - 1].position) {
     Add(row, "", "same point as in the row before");
+  }
+}
+
+/// Checks that no point is far from the middle of the track, the median of the coordinates.
+void TrackRows::CheckExtent() {
+  if (points.empty()) {
+    return;
+  }
+  for (const Quantity quantity : {kX, kY}) {
+    const auto at = [&](std::size_t i) { return points[i].position[quantity == kX ? 0 : 1]; };
+    std::vector<double> sorted;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      sorted.push_back(at(i));
+    }
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (std::abs(at(i) - *middle) > kMaxExtent) {
+        Add(i, names_[*columns_[quantity]],
+            fmt::format("{} is more than {:.0f} km from the middle of the track, {}", at(i),
+                        1e-3 * kMaxExtent, *middle));
+      }
+    }
   }
 }
 

@@ -38,6 +38,7 @@ class TrackRows {
   void TakeNames(const std::vector<std::string>& names, int line);
   void TakeRow(const std::vector<std::string>& cells, int line);
   void CheckNumbers(const TrackNumbers& numbers);
+  void CheckExtent();
   void DropRepeatedEnd();
 
   std::string name_;

@@ -162,9 +162,9 @@ TEST(ReportData, FindsUnmetWhatTheVerdictFinds) {
                   "mujoco: Collision = true", "mujoco: Distance to the goal ≤ 1e-09",
                   "mujoco: Distance traveled ≤ 2", "mujoco: Replans = 1", "mujoco: distanze ≥ 1",
                   "kinematic – mujoco: Maximum distance ≤ 1e-09"));
-  // The list has 25 entries: every bound, the arrival of plants without an expected end, and the
-  // limits of steering rate and overspeed.
-  EXPECT_EQ(data["expectations"].size(), 25U);
+  // The list has 27 entries: every bound, the arrival of plants without an expected end, and the
+  // limits of steering rate, overspeed and oscillation.
+  EXPECT_EQ(data["expectations"].size(), 27U);
   EXPECT_FALSE(data["verdict"].contains("checks"));
 }
 
