@@ -68,13 +68,10 @@ std::string InWords(DriveStatus status) {
   return words;
 }
 
-void PrintSteering(const PlantMetrics& plant) {
-  Print("; steering {:.2g} reversals/s", plant.steering_reversals);
-  if (plant.steering_activity) {
-    Print(", {:.2g} % of the rate", 100.0 * *plant.steering_activity);
-  }
+/// Prints the oscillation of the steering command, if there is one.
+void PrintOscillation(const PlantMetrics& plant) {
   if (plant.oscillation && plant.oscillation->frequency) {
-    Print(", oscillates by {:.3g} rad at {:.3g} Hz", plant.oscillation->amplitude,
+    Print("; steering oscillates by {:.3g} rad at {:.3g} Hz", plant.oscillation->amplitude,
           *plant.oscillation->frequency);
   }
 }
@@ -101,7 +98,7 @@ void PrintSummary(const RunResult& result, const std::filesystem::path& folder) 
       const TrackingMetrics& tracking = *plant.tracking;
       Print("; cross-track error max {:.4f} m, rms {:.4f} m; goal distance {:.4f} m",
             tracking.cross_track_max, tracking.cross_track_rms, tracking.goal_distance);
-      PrintSteering(plant);
+      PrintOscillation(plant);
     }
     Print("\n");
     if (plant.maneuver) {
