@@ -90,7 +90,8 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
     const double v_to = plan.reference.speed.SpeedAt(piece.stations.to);
     const double v = std::max(v_from, v_to);
     if (!plan.sampled) {
-      rate.Take(SteeringRateOn(car, piece.bends(), feasible_speeds::SpeedOn(plan, piece, road)),
+      rate.Take(SteeringRateOn(car, piece.bends(),
+                               feasible_speeds::SpeedOn(path, piece, road, v_from, v_to)),
                 vehicle.steering_rate, s);
     }
     steering.Take(SteeringForCurvature(vehicle, piece.curvature), vehicle.steering_limit, s);

@@ -58,15 +58,13 @@ double UsableSteeringRate(const PlanRequest& request) {
   return share * request.vehicle.steering_rate;
 }
 
-PieceSpeed SpeedOn(const Plan& plan, const PathPiece& piece, const RoadHold& road) {
+PieceSpeed SpeedOn(const Path& path, const PathPiece& piece, const RoadHold& road, double v_from,
+                   double v_to) {
   const auto [from, to] = piece.stations;
-  const SpeedProfile& speed = plan.reference.speed;
-  const double v_from = speed.SpeedAt(from);
-  const double v_to = speed.SpeedAt(to);
   return {.speed = std::max(v_from, v_to),
           .acceleration = to > from ? 0.5 * (v_to * v_to - v_from * v_from) / (to - from) : 0.0,
           .direction = piece.direction,
-          .road = road.FrictionAt(plan.reference.path, from)};
+          .road = road.FrictionAt(path, from)};
 }
 
 std::vector<SpeedCap> CapsForSteering(const Plan& plan, const PlanRequest& request) {
@@ -79,7 +77,10 @@ std::vector<SpeedCap> CapsForSteering(const Plan& plan, const PlanRequest& reque
   const VehicleParams car = SteeredCar(plan, request);
   const RoadHold road(request);
   ForEachPiece(plan.reference.path, kCheckSpacing, [&](const PathPiece& piece) {
-    const PieceSpeed at = SpeedOn(plan, piece, road);
+    const SpeedProfile& profile = plan.reference.speed;
+    const PieceSpeed at =
+        SpeedOn(plan.reference.path, piece, road, profile.SpeedAt(piece.stations.from),
+                profile.SpeedAt(piece.stations.to));
     const double speed = SpeedForSteeringRate(car, piece.bends(), rate, at);
     if (speed < at.speed * (1.0 - kTolerance)) {
       caps.push_back({piece.stations.from, piece.stations.to, speed});

@@ -57,9 +57,10 @@ VehicleParams SteeredCar(const Plan& plan, const PlanRequest& request);
 /// a share of the car's steering rate, because the controllers need the rest.
 double UsableSteeringRate(const PlanRequest& request);
 
-/// Returns the motion of the plan on a piece of its path: the larger speed of both ends, and the
-/// mean acceleration.
-PieceSpeed SpeedOn(const Plan& plan, const PathPiece& piece, const RoadHold& road);
+/// Returns the motion on a piece of a path between the speeds of its ends [m/s]: the larger speed,
+/// and the mean acceleration.
+PieceSpeed SpeedOn(const Path& path, const PathPiece& piece, const RoadHold& road, double v_from,
+                   double v_to);
 
 /// Returns the speed caps that enforce the limits of steering rate, top speed and lateral
 /// acceleration, for a car that drives each piece of the path at constant speed. The lateral
