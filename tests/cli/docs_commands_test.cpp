@@ -116,10 +116,10 @@ std::vector<std::string> Outputs(const std::vector<std::string>& words) {
   return outputs;
 }
 
-/// Output folder of a command; "" if it writes none.
+/// Output folder or file of a command; "" if it writes none.
 std::string MadeBy(const std::vector<std::string>& words) {
   for (std::size_t i = 1; i < words.size(); ++i) {
-    if (words[i - 1] == "-o" || words[i - 1] == "--out") {
+    if (words[i - 1] == "-o" || words[i - 1] == "--out" || words[i - 1] == ">") {
       return words[i];
     }
   }
