@@ -460,7 +460,8 @@ TEST(CommonRoad, ReadsTrajectories) {
 TEST(CommonRoad, SaysWhatIsWrong) {
   EXPECT_THAT(Error("s.xml", "<CommonRoadSolution>"), HasSubstr("not XML"));
   EXPECT_THAT(Error("s.xml", "no xml"), HasSubstr("not XML"));
-  EXPECT_THAT(Error("s.xml", "<OpenSCENARIO></OpenSCENARIO>"), HasSubstr("must be CommonRoadSolution"));
+  EXPECT_THAT(Error("s.xml", "<OpenSCENARIO></OpenSCENARIO>"),
+              HasSubstr("must be CommonRoadSolution"));
   EXPECT_THAT(Error("s.xml", "<CommonRoadSolution></CommonRoadSolution>"),
               HasSubstr("no trajectory"));
   const std::string begin = "<CommonRoadSolution><ksTrajectory>\n<ksState>";
