@@ -68,7 +68,7 @@ std::string InWords(DriveStatus status) {
   return words;
 }
 
-/// Prints the oscillation of the steering command, if there is one.
+/// Prints the oscillation of the steering command if the command oscillates.
 void PrintOscillation(const PlantMetrics& plant) {
   if (plant.oscillation && plant.oscillation->frequency) {
     Print("; steering oscillates by {:.3g} rad at {:.3g} Hz", plant.oscillation->amplitude,

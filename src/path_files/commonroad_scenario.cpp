@@ -28,12 +28,13 @@ using tinyxml2::XMLElement;
 constexpr double kAcceleration = kCommonRoadAcceleration;
 constexpr double kMinSpeed = 0.1;   // [m/s]
 constexpr double kMaxSpeed = 60.0;  // [m/s]
+constexpr double kMaxLength = 5e4;  // Largest length of a route [m].
 
 std::pair<double, double> PairOf(const CommonRoadInterval& interval, double factor = 1.0) {
   return {factor * interval.from, factor * interval.to};
 }
 
-/// What is read of a planning problem.
+/// A planning problem.
 struct PlanningProblem {
   Pose2 start;
   double speed = 0.0;
@@ -88,6 +89,11 @@ PlanningProblem ReadProblem(const XMLElement& root, const Lanelets& lanelets, do
   };
   problem.start.yaw = middle("orientation", 0.0);
   problem.speed = std::abs(middle("velocity", 0.0));
+  if (problem.speed > kMaxPathSpeed) {
+    Refuse(reading.file, "velocity",
+           fmt::format("{} m/s; must be at most {} m/s", problem.speed, kMaxPathSpeed),
+           initial.GetLineNum());
+  }
   problem.start_step = middle("time", 0.0);
   const XMLElement& goal = RequiredChild(*element, "goalState", reading);
   if (goal.NextSiblingElement("goalState") != nullptr) {
@@ -364,6 +370,18 @@ CommonRoadScenario ReadCommonRoadScenario(const std::filesystem::path& file,
     const double ahead = problem.goal.regions.empty() ? speed * problem.goal.time.second : 0.0;
     const bool has_aim = problem.goal_lanelets.empty() && problem.goal.regions.size() == 1;
     const auto aim = has_aim ? std::optional(MiddleOf(problem.goal.regions.front())) : std::nullopt;
+    double length = stop + ahead;
+    for (const LaneletLane& lane : lanes) {
+      for (const Lanelet* lanelet : lane) {
+        length += lanelet->Length();
+      }
+    }
+    if (length > kMaxLength) {
+      Refuse(file, "goalState",
+             fmt::format("the route to the goal would be {:.4g} km long; must be at most {:.0f} km",
+                         1e-3 * length, 1e-3 * kMaxLength),
+             line);
+    }
     scenario.route = LaneletPath(lanelets, lanes, problem.start, aim, speed, stop + ahead);
     const std::optional<Passage> passage = PassageOf(scenario.route, problem.goal.regions);
     if (!passage) {

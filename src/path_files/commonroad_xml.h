@@ -54,7 +54,7 @@ std::optional<CommonRoadInterval> IntervalOfChild(const tinyxml2::XMLElement& pa
 /// Returns the point in the child elements `x` and `y`. Ignores the height `z`.
 Vec2 PointIn(const tinyxml2::XMLElement& element, const CommonRoadReading& reading);
 
-/// Returns the child element `name`. Throws InputError if there is none.
+/// Returns the child element `name`. Throws InputError if the element has no child with this name.
 const tinyxml2::XMLElement& RequiredChild(const tinyxml2::XMLElement& parent, const char* name,
                                           const CommonRoadReading& reading);
 

@@ -89,6 +89,9 @@ double Lanelet::Length() const {
 }
 
 bool Lanelet::Contains(const Vec2& point) const {
+  if ((point.array() < low.array()).any() || (point.array() > high.array()).any()) {
+    return false;
+  }
   std::vector<Vec2> ring = left;
   ring.insert(ring.end(), right.rbegin(), right.rend());
   // Counts the edges to the left of the point that cross its height.
@@ -117,8 +120,18 @@ Lanelets ReadLanelets(const XMLElement& root, const CommonRoadReading& reading) 
       lanelet.left = Resampled(lanelet.left, count);
       lanelet.right = Resampled(lanelet.right, count);
     }
+    lanelet.low = lanelet.left.front();
+    lanelet.high = lanelet.low;
     for (std::size_t i = 0; i < lanelet.left.size(); ++i) {
       lanelet.center.emplace_back(0.5 * (lanelet.left[i] + lanelet.right[i]));
+      lanelet.low = lanelet.low.cwiseMin(lanelet.left[i]).cwiseMin(lanelet.right[i]);
+      lanelet.high = lanelet.high.cwiseMax(lanelet.left[i]).cwiseMax(lanelet.right[i]);
+    }
+    constexpr double kShortest = 0.01;  // [m]
+    const Vec2& start = lanelet.center.front();
+    if (std::all_of(lanelet.center.begin(), lanelet.center.end(),
+                    [&](const Vec2& point) { return (point - start).norm() < kShortest; })) {
+      continue;
     }
     for (const XMLElement* child = element->FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {

@@ -22,6 +22,8 @@ struct Lanelet {
   std::vector<std::string> successors;
   std::vector<std::string> neighbors;  ///< Adjacent lanelets with the same driving direction.
   int line = 0;                        ///< Line of the lanelet in the file.
+  Vec2 low{0.0, 0.0};                  ///< Smallest coordinates of both bounds [m].
+  Vec2 high{0.0, 0.0};                 ///< Largest coordinates of both bounds [m].
 
   [[nodiscard]] double Length() const;
   /// Whether the lanelet contains the point.
@@ -30,7 +32,8 @@ struct Lanelet {
 
 using Lanelets = std::map<std::string, Lanelet>;
 
-/// Reads all lanelets of a scenario. Ignores links to lanelets that are not in the file.
+/// Reads all lanelets of a scenario. Leaves out lanelets without a length, and ignores links to
+/// lanelets that are not in the file.
 Lanelets ReadLanelets(const tinyxml2::XMLElement& root, const CommonRoadReading& reading);
 
 /// Returns `count` >= 1 convex regions that cover a lanelet: four-sided pieces between its bounds.

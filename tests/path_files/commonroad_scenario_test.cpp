@@ -221,6 +221,13 @@ TEST(CommonRoadScenario, SaysWhatIsWrong) {
   EXPECT_THAT(
       Refusal(Roads() + PlanningProblem({5.0, 0.0, 0.0}, 10.0, "<lanelet ref=\"3\"/>", 20, 10)),
       HasSubstr("the interval begins at 20 and ends before, at 10"));
+  EXPECT_THAT(Refusal(Roads() + PlanningProblem({5.0, 0.0, 0.0}, 1e6, "", 0, 150)),
+              HasSubstr("velocity: 1000000 m/s; must be at most 100 m/s"));
+  EXPECT_THAT(Refusal(Roads() + PlanningProblem({5.0, 0.0, 0.0}, 10.0, "", 0, 1000000)),
+              HasSubstr("km long; must be at most 50 km"));
+  EXPECT_THAT(Refusal(StraightLanelet(1, {0.0, 0.0}, 0.0, "") +
+                      PlanningProblem({0.0, 0.0, 0.0}, 10.0, "", 0, 150)),
+              HasSubstr("lanelet: missing: the file has no roads"));
   EXPECT_THAT(Refusal(Roads() + StraightLanelet(1, {0.0, 9.0}, 5.0, "") + problem),
               HasSubstr("two lanelets have the id 1"));
   EXPECT_THAT(Refusal(Roads() + "<lanelet id=\"5\"><leftBound/></lanelet>" + problem),

@@ -32,7 +32,7 @@ struct CommonRoadRegion {
   [[nodiscard]] bool Contains(const Vec2& point) const;
 };
 
-/// What the goal of a planning problem demands of the car's center at one time.
+/// The goal of a planning problem: conditions for the car's center at one time.
 struct CommonRoadGoal {
   /// The center is in one of these regions; if empty, anywhere.
   std::vector<CommonRoadRegion> regions;
@@ -60,7 +60,7 @@ struct CommonRoadScenario {
   /// direction, to the left and to the right [m], at most 8 m.
   double room_left = 0.0;
   double room_right = 0.0;
-  std::vector<std::string> notes;  ///< What was not read, or read with a loss.
+  std::vector<std::string> notes;  ///< Parts of the file that were left out or approximated.
 };
 
 /// Acceleration and deceleration of the car, with which the route's speed and length are chosen
@@ -84,7 +84,7 @@ bool IsCommonRoadScenario(const std::string& text);
 ///
 /// Throws InputError, with line and element, if the file is not a CommonRoad scenario, a number is
 /// not finite or out of range, there is no planning problem, the start is more than 5 m from every
-/// lanelet, or no lanelets lead from the start to the goal.
+/// lanelet, no lanelets lead from the start to the goal, or the route is longer than 50 km.
 CommonRoadScenario ReadCommonRoadScenario(const std::filesystem::path& file,
                                           const std::string& text);
 
