@@ -68,6 +68,9 @@ def copy_of_a_result(source, target):
 
 
 class Reports(PageTest):
+    # replay_test.py tests the 3D replay. Without it, pages open three times as fast.
+    webgl = False
+
     @classmethod
     def make_inputs(cls):
         for name, speed in (("slow", 3), ("quick", 3.3)):
