@@ -255,12 +255,15 @@ TEST(MinimumTime, KeepsTheCarsSmallestRadius) {
   // violates the radius by more than 1e-3 at stations 1 m apart. At denser stations, the violation
   // is hardly larger.
   EXPECT_GT(MeasureLine(lap.track, found.line).radius_min, (radius + 0.5) * (1.0 - 2e-3));
+}
 
-  // The largest circle on this ring has a radius of 52.5 m.
-  lap.limits.curvature_max = 1.0 / 60.0;
+TEST(MinimumTime, RefusesATrackThatIsTooTightForTheCar) {
+  // The largest circle on this ring has a radius of 17.5 m.
+  LapLimits limits = CircleOfFriction();
+  limits.curvature_max = 1.0 / 20.0;
   EXPECT_THAT(
-      FindMinimumTime(Track(RingPoints(50.0, 63, 4.0, 3.0)), 1.5, lap.limits).refused,
-      HasSubstr("the car turns on a radius of 60 m at least; the line found bends on 52.5 m"));
+      FindMinimumTime(Track(RingPoints(15.0, 24, 4.0, 3.0)), 1.5, limits).refused,
+      HasSubstr("the car turns on a radius of 20 m at least; the line found bends on 17.5 m"));
 }
 
 TEST(MinimumTime, IsAFunctionOfItsArguments) {
