@@ -1,0 +1,81 @@
+"""Adapts vehicle models and compares their total mass with what MuJoCo's library says of the file."""
+import pathlib
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+
+from result import Result
+
+LIMIT = 1e-9  # of the mass
+
+
+def library(program):
+    """The library that the program is linked with, or None."""
+    try:
+        listed = subprocess.run(["ldd", program.path], capture_output=True, text=True, check=False).stdout
+    except OSError:
+        return None
+    found = re.search(r"libmujoco\S* => (\S+)", listed)
+    return found.group(1) if found else None
+
+
+def mass(program, file):
+    """(mass, "") or (None, why not)."""
+    found = library(program)
+    if not found:
+        return None, "MuJoCo's library was not found"
+    done = subprocess.run([sys.executable, str(pathlib.Path(__file__).with_name("masses.py")), found, str(file)],
+                          capture_output=True, text=True, cwd=program.scratch, check=False, preexec_fn=program.bound)
+    if done.returncode != 0:
+        return None, "MuJoCo's library refuses it: " + (done.stderr.strip().splitlines() or ["?"])[-1]
+    return float(done.stdout), ""
+
+
+def movable_trees(file):
+    """How many bodies of the world can move; a file that includes others counts as 1."""
+    root = ElementTree.parse(file).getroot()
+    if root.tag == "robot" or root.find(".//include") is not None:
+        return 1
+    bodies = root.findall("worldbody/body")
+    return sum(b.find(".//joint") is not None or b.find(".//freejoint") is not None for b in bodies)
+
+
+def survey(program, file, _, drive):
+    result = Result("vehicle model")
+    known = program.call("model", file, "--allow-assets", file.parent)
+    car = file
+    if known.accepted:
+        result.detail = "as found"
+    else:
+        car = program.scratch / "car.xml"
+        car.unlink(missing_ok=True)
+        adapted = program.call("model", file, "--adapt", "-o", car, "--allow-assets", file.parent)
+        result.add(adapted if not adapted.accepted else program.call("model", car))
+        result.detail = "adapted"
+    result.accepted = car.exists() and not result.messages
+    if not result.accepted:
+        return result
+    compare(program, file, car, result)
+    if drive:
+        result.driven = program.drive({"vehicle": {"model": str(car)}, "mission": {
+            "speed": 1.0, "start": {"speed": 0.0}, "waypoints": [[0, 0], [10, 0]]}, "plan": {"method": "fillet"}}, car.parent)
+    return result
+
+
+def compare(program, file, car, result):
+    """The mass of the car that the program steps, against that of the file."""
+    composed = program.scratch / "composed.xml"
+    saved = program.call("model", car, "--save", composed, "--allow-assets", file.parent)
+    if not saved.accepted:
+        result.add(saved)
+        return
+    trees = movable_trees(file)
+    expected, why = (mass(program, file) if trees == 1 else (None, f"{trees} movable bodies in the file"))
+    found, also = mass(program, composed)
+    if expected is None or found is None:
+        result.detail += ", mass not compared: " + (why or also)
+        return
+    result.detail += f", {found:.6g} kg"
+    if abs(found - expected) > LIMIT * max(expected, 1.0):
+        result.wrong(f"{found!r} kg instead of {expected!r} kg")
