@@ -353,6 +353,13 @@ fs::path FindModel(const std::string& model, const fs::path& base) {
   if (fs::is_regular_file(file, error)) {
     return file;
   }
+  if (fs::exists(file, error)) {
+    try {
+      OpenInput(file);  // fails, with the reason: a folder, a pipe, a device
+    } catch (const RunError& reason) {
+      throw InputError(Problem{.message = reason.what()});
+    }
+  }
   throw InputError(Problem{.message = is_name ? "unknown model " + UnknownName(model, ModelNames())
                                               : fmt::format("no model file {}", file.string())});
 }

@@ -71,7 +71,8 @@ TEST(InputPipe, NamedByAScenarioIsRefused) {
     const Outcome outcome =
         Shell(folder, "mkfifo " + name + "; timeout 20 " TRACKBED_PROGRAM " check s.yaml");
     EXPECT_EQ(outcome.code, 2) << outcome.output;
-    EXPECT_THAT(outcome.output, AllOf(HasSubstr(name), Not(HasSubstr("internal error"))));
+    EXPECT_THAT(outcome.output,
+                AllOf(HasSubstr(name + ": it is a pipe"), Not(HasSubstr("internal error"))));
   }
 }
 
@@ -92,6 +93,7 @@ TEST(InputPipe, OfACommandLineIsRefused) {
                                                                "import p --map " + log_map,
                                                                "import log.csv --map p",
                                                                "model ./p",
+                                                               "model ./p --adapt",
                                                                "report p",
                                                                "render p",
                                                                "compare p",
