@@ -164,13 +164,15 @@ void Command::AddExample(const std::string& text, const std::string& command) co
 
 namespace {
 
-/// Returns the message "missing FILE" for the first required option that the user did not give.
+/// Returns the message "missing FILE" or "missing --speed SPEED" for the first required argument or
+/// option that the user did not give.
 std::optional<std::string> Missing(const CLI::App& program) {
   for (const CLI::App* verb : program.get_subcommands()) {
     for (const CLI::Option* option : verb->get_options()) {
       if (option->get_required() && option->count() == 0) {
-        std::string name = option->get_type_name();
-        return "missing " + name.substr(0, name.find('.'));
+        const OptionInfo info = Info(*option);
+        const std::string name = info.name.substr(0, info.name.find('.'));
+        return "missing " + name + (info.value.empty() ? "" : " " + info.value);
       }
     }
     if (std::optional<std::string> below = Missing(*verb)) {

@@ -98,6 +98,9 @@ TEST(Report, RefusesWhatIsNoRun) {
   outcome = Trackbed(folder, "report");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.output, testing::StartsWith("missing DIR\n"));
+  outcome = Trackbed(folder, "check-path path.csv");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, testing::StartsWith("missing --speed SPEED\n"));
   const auto told = [&](const std::string& film) {
     const Outcome refused = Trackbed(folder, "report empty --film " + film);
     EXPECT_EQ(refused.code, 2);
