@@ -22,18 +22,25 @@ using tinyxml2::XMLElement;
 /// gigabytes of memory.
 constexpr std::ptrdiff_t kMaxElements = 4000000;
 
+/// Refuses other major versions than 1. A missing header or version is a flaw: the roads are read
+/// as those of 1.4 to 1.7.
 void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& problems) {
-  const XmlFields fields(root, "OpenDRIVE", problems);
+  XmlProblems flaws(problems.file());
+  const XmlFields fields(root, "OpenDRIVE", flaws);
   const XMLElement* header = fields.Child("header");
   if (header == nullptr) {
-    fields.AddError("header", "missing");
+    network.notes.emplace_back("the file has no header; it is read as version 1.4 to 1.7");
     return;
   }
-  const XmlFields own(*header, "header", problems);
+  const XmlFields own(*header, "header", flaws);
   const int major = own.Integer("revMajor");
+  const bool has_major = flaws.empty();
   const int minor = own.Integer("revMinor");
-  if (problems.empty() && major != 1) {
-    own.AddError("revMajor", fmt::format("version {}.{}; must be 1.4 to 1.7", major, minor));
+  if (has_major && major != 1) {
+    XmlFields(*header, "header", problems)
+        .AddError("revMajor", fmt::format("version {}.{}; must be 1.4 to 1.7", major, minor));
+  } else if (!flaws.empty()) {
+    network.notes.push_back(flaws.First() + "; the file is read as version 1.4 to 1.7");
   } else if (minor < 4 || minor > 7) {
     network.notes.push_back(
         fmt::format("version {}.{} is read as if it were 1.4 to 1.7", major, minor));

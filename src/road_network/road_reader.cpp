@@ -189,20 +189,23 @@ RoadEnd ReadContactPoint(const XmlFields& fields) {
 PiecewiseCubic ReadCubics(const XMLElement* parent, const char* name, const char* start,
                           const std::string& where, XmlProblems& problems) {
   std::vector<PiecewiseCubic::Piece> pieces;
-  bool rises = true;
   ForEachChild(parent, name, [&](const XMLElement& element, std::size_t index) {
     const XmlFields fields(element, fmt::format("{}.{}[{}]", where, name, index), problems);
     const PiecewiseCubic::Piece piece{
         fields.Number(start, {0.0, 1e6}),
         {fields.Number("a"), fields.Number("b"), fields.Number("c"), fields.Number("d")}};
     if (!pieces.empty() && piece.s < pieces.back().s) {
-      fields.AddError(
-          start, fmt::format("{} m is before the record above, at {} m", piece.s, pieces.back().s));
-      rises = false;
+      problems.AddFlaw(
+          fields.line(), fmt::format("{}.{}", fields.where(), start),
+          fmt::format("{} m is before the record above, at {} m; the records are read in the "
+                      "order of their stations",
+                      piece.s, pieces.back().s));
     }
     pieces.push_back(piece);
   });
-  return rises ? PiecewiseCubic(std::move(pieces)) : PiecewiseCubic();
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const auto& a, const auto& b) { return a.s < b.s; });
+  return PiecewiseCubic(std::move(pieces));
 }
 
 Road ReadRoad(const XMLElement& element, const Vec2& origin, XmlProblems& problems,
