@@ -90,9 +90,6 @@ bool IsBanked(const Road& road) {
 std::vector<double> Joints(const RoadStretch& own) {
   const double low = std::min(own.stretch.from, own.stretch.to);
   const double high = std::max(own.stretch.from, own.stretch.to);
-  // Smallest distance between two joints [m]; closer joints are merged, because they differ only by
-  // rounding errors or enclose a negligible piece.
-  constexpr double kMinSpacing = 0.01;
   std::vector<double> joints;
   const auto add = [&](double s) { joints.push_back(s); };
   for (const auto& piece : own.road.reference.pieces()) {
@@ -117,7 +114,7 @@ std::vector<double> Joints(const RoadStretch& own) {
   std::sort(joints.begin(), joints.end());
   std::vector<double> apart{low};
   for (const double joint : joints) {
-    if (joint > apart.back() + kMinSpacing && joint < high - kMinSpacing) {
+    if (joint > apart.back() + kMergedJoints && joint < high - kMergedJoints) {
       apart.push_back(joint);
     }
   }
@@ -167,6 +164,11 @@ std::vector<Piece> SmoothPieces(const RoadStretch& own) {
   return pieces;
 }
 
+std::string Place(const Piece& piece) {
+  return fmt::format("at x = {:.4g} m, y = {:.4g} m", piece.front().position.x(),
+                     piece.front().position.y());
+}
+
 /// Joins pieces of lane centers to one line with continuous distances and headings. Kinks between
 /// pieces are rounded.
 class Joiner {
@@ -188,12 +190,17 @@ class Joiner {
       point.curve.yaw += turn;
     }
     if (std::abs(kink) > kMaxKink) {
-      return fmt::format("the lanes' centers have a kink of {:.3g} rad (at most {})", kink,
-                         kMaxKink);
+      return fmt::format(
+          "the lanes' centers have a kink of {:.3g} rad (at most {}) {}; choose a route around "
+          "this "
+          "place, or correct the file there",
+          kink, kMaxKink, Place(piece));
     }
     if (gap > kMaxDeviation) {
-      return fmt::format("the lanes' centers are {:.3g} m apart (at most {} m)", gap,
-                         kMaxDeviation);
+      return fmt::format(
+          "the lanes' centers are {:.3g} m apart (at most {} m) {}; choose a route around this "
+          "place, or correct the file there",
+          gap, kMaxDeviation, Place(piece));
     }
     const double step = std::abs(piece.front().curve.curvature - end.curvature);
     const bool is_rounded_step = step > kSameCurvature && step <= kCurvatureStep;

@@ -7,6 +7,10 @@
 
 namespace trackbed {
 
+/// Smallest distance between two joints of polynomials along a lane center [m]; closer joints are
+/// merged, because they differ only by rounding errors or enclose a negligible piece.
+constexpr double kMergedJoints = 0.01;
+
 /// Result of joining the lane centers of a route.
 struct JoinedPath {
   /// Message that explains why the lane centers cannot be joined; empty on success.

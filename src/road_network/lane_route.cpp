@@ -100,10 +100,17 @@ Pose2 PoseAt(const RoadNetwork& network, const LanePlace& place) {
   const std::string why = LanePlaceError(network, place);
   TRACKBED_REQUIRE(why.empty(), "PoseAt: {}", why);
   const Road& road = network.roads.find(place.road)->second;
-  const SurfaceLine center =
-      SurfaceLineAt(road, LaneBordersAt(road, place.lane, place.s).Center(), place.s, place.s);
+  const bool follows = FollowsRoad(road, place.lane);
+  const std::size_t section = road.SectionAt(place.s);
+  // A route begins on the polynomials beyond merged joints, so less than 1 cm before a kink the
+  // pose has the heading beyond the kink.
+  const double beyond = std::clamp(place.s + (follows ? 2.0 : -2.0) * kMergedJoints,
+                                   road.sections[section].s, road.SectionEnd(section));
+  const double piece_of = 0.5 * (place.s + beyond);
+  const CubicValue offset = LaneBordersAt(road, section, place.lane, place.s, piece_of).Center();
+  const SurfaceLine center = SurfaceLineAt(road, offset, place.s, piece_of);
   return {center.position.x(), center.position.y(),
-          WrapAngle(FollowsRoad(road, place.lane) ? center.heading : center.heading + kPi)};
+          WrapAngle(follows ? center.heading : center.heading + kPi)};
 }
 
 std::string LanePlaceError(const RoadNetwork& network, const LanePlace& place) {

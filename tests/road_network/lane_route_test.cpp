@@ -215,13 +215,44 @@ TEST(LaneRoute, RoundsSmallKinksAndSaysHowFarThatLeadsOff) {
 
 TEST(LaneRoute, RefusesLanesThatDoNotMeet) {
   const std::vector<LanePlace> places{{"1", -1, 10.0}, {"2", -1, 90.0}};
-  EXPECT_THAT(FindLaneRoute(ParseNetwork(TwoRoads(0.3, 0.0)), places).failure,
-              HasSubstr("road 2, lane -1: the lanes' centers have a kink of 0.3 rad"));
+  EXPECT_THAT(
+      FindLaneRoute(ParseNetwork(TwoRoads(0.3, 0.0)), places).failure,
+      HasSubstr("road 2, lane -1: the lanes' centers have a kink of 0.3 rad (at most 0.2) at x = "
+                "100 m, y = -1.75 m; choose a route around this place"));
   EXPECT_THAT(FindLaneRoute(ParseNetwork(TwoRoads(0.0, 0.2)), places).failure,
               HasSubstr("road 2, lane -1: the lanes' centers are 0.2 m apart"));
   const LaneRoute near = FindLaneRoute(ParseNetwork(TwoRoads(0.0, 0.03)), places);
   ASSERT_TRUE(near.ok()) << near.failure;
   EXPECT_NEAR(near.deviation, 0.03, Tolerance(1e-6));
+}
+
+/// A lane whose width begins to grow by 0.1 at s = 50 m: its center has a kink of atan(0.05) there.
+RoadText KinkedLane() {
+  const std::string lane =
+      "type='driving'>"
+      "<width sOffset='0' a='3.5' b='0' c='0' d='0'/>"
+      "<width sOffset='50' a='3.5' b='0.1' c='0' d='0'/></lane>";
+  RoadText road;
+  road.lanes = "<laneSection s='0'><left><lane id='1' " + lane +
+               "</left><center><lane id='0'/></center><right><lane id='-1' " + lane +
+               "</right></laneSection>";
+  return road;
+}
+
+TEST(LaneRoute, BeginsAtThePoseOfItsFirstPlaceBesideAKink) {
+  const RoadNetwork network = ParseNetwork(KinkedLane().Xml());
+  for (const double s : {49.9, 49.985, 49.995, 50.0, 50.005, 50.015, 50.1}) {
+    for (const int lane : {-1, 1}) {
+      const LanePlace start{"1", lane, s};
+      const LaneRoute route = FindLaneRoute(network, {start, {"1", lane, lane < 0 ? 90.0 : 10.0}});
+      ASSERT_TRUE(route.ok()) << route.failure;
+      const Pose2 pose = PoseAt(network, start);
+      const Pose2 path = route.path.At(0.0).pose;
+      // Both evaluate the same polynomials.
+      EXPECT_NEAR(AngleDifference(pose.yaw, path.yaw), 0.0, Tolerance(1e-12)) << s << " " << lane;
+      EXPECT_LT((pose.position() - path.position()).norm(), Tolerance(1e-9)) << s << " " << lane;
+    }
+  }
 }
 
 TEST(LaneRoute, RefusesALaneBeyondTheCenterOfCurvature) {
