@@ -108,9 +108,8 @@ class RoutePlanner {
 
   /// The largest curvature at `speed` [1/m].
   [[nodiscard]] double MaxCurvature(double speed) const {
-    const double grip = kGripShare * MaxLateralAcceleration(request_.vehicle, request_.friction);
-    const double most = grip > 0.0 ? std::min(grip, route_.max_lateral_acceleration)
-                                   : route_.max_lateral_acceleration;
+    const double most = LateralAccelerationOnClothoids(request_.vehicle, request_.friction,
+                                                       route_.max_lateral_acceleration);
     return std::min(1.0 / route_.radius, most / (speed * speed));
   }
 
@@ -316,6 +315,27 @@ class RoutePlanner {
 };
 
 }  // namespace
+
+double LateralAccelerationOnClothoids(const VehicleParams& vehicle, double friction, double most) {
+  const double grip = kGripShare * MaxLateralAcceleration(vehicle, friction);
+  return grip > 0.0 ? std::min(grip, most) : most;
+}
+
+const EnumNames<CurveCurvature>& CurvaturesWithCusps() {
+  static const EnumNames<CurveCurvature> names{{CurveCurvature::kSteps, "steps"},
+                                               {CurveCurvature::kContinuous, "continuous"},
+                                               {CurveCurvature::kCuspSteps, "cusp_steps"}};
+  return names;
+}
+
+void VisitClothoids(KeyVisitor& keys, double& max_lateral_acceleration,
+                    double& max_steering_rate_fraction) {
+  keys.Field({"max_lateral_acceleration", "m/s^2", "maximum lateral acceleration with clothoids"},
+             max_lateral_acceleration, Need::kOptional, kPositive);
+  keys.Field({"max_steering_rate_fraction", "",
+              "maximum fraction of the car's steering rate that clothoids may use"},
+             max_steering_rate_fraction, Need::kOptional, Range{.max = 1.0, .above = 0.0});
+}
 
 Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request) {
   return RoutePlanner(route, request).Make();

@@ -22,4 +22,22 @@ struct ContinuousRoute {
 /// of a few choices for which the whole route is cheapest.
 Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request);
 
+/// Returns the largest lateral acceleration on a path of continuous curvature [m/s^2]: `most`, or a
+/// share of the tyres' grip on a road with the factor `friction`, if that is less.
+double LateralAccelerationOnClothoids(const VehicleParams& vehicle, double friction, double most);
+
+// Scenario keys of the planners of curves of continuous curvature.
+
+inline constexpr Key kCurvatureKey{
+    "curvature", "",
+    "change of curvature between straights and arcs: in steps, at which the car slows down or "
+    "stops, or along clothoids that the steering can follow"};
+
+/// Returns the names of all choices, for planners whose paths have cusps.
+const EnumNames<CurveCurvature>& CurvaturesWithCusps();
+
+/// Visits the keys of the limits on paths of continuous curvature.
+void VisitClothoids(KeyVisitor& keys, double& max_lateral_acceleration,
+                    double& max_steering_rate_fraction);
+
 }  // namespace trackbed

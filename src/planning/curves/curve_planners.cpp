@@ -239,15 +239,8 @@ void VisitKeys(KeyVisitor& keys, Options& options, const EnumNames<CurveCurvatur
   static const EnumNames<CurveObjective> objectives{{CurveObjective::kLength, "length"},
                                                     {CurveObjective::kTime, "time"}};
   route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);
-  keys.Field({"curvature", "",
-              "change of curvature between straights and arcs: in steps, at which the car slows "
-              "down or stops, or along clothoids that the steering can follow"},
-             options.curvature, Need::kOptional, curvatures);
-  keys.Field({"max_lateral_acceleration", "m/s^2", "maximum lateral acceleration with clothoids"},
-             options.max_lateral_acceleration, Need::kOptional, kPositive);
-  keys.Field({"max_steering_rate_fraction", "",
-              "maximum fraction of the car's steering rate that clothoids may use"},
-             options.max_steering_rate_fraction, Need::kOptional, Range{.max = 1.0, .above = 0.0});
+  keys.Field(kCurvatureKey, options.curvature, Need::kOptional, curvatures);
+  VisitClothoids(keys, options.max_lateral_acceleration, options.max_steering_rate_fraction);
   keys.Field({"objective", "",
               "what curves with clothoids minimize: the length at the mission's speed, or the "
               "driving time, with slower, sharper turns"},
@@ -263,10 +256,7 @@ void Visit(KeyVisitor& keys, DubinsOptions& options) {
 }
 
 void Visit(KeyVisitor& keys, ReedsSheppOptions& options) {
-  static const EnumNames<CurveCurvature> names{{CurveCurvature::kSteps, "steps"},
-                                               {CurveCurvature::kContinuous, "continuous"},
-                                               {CurveCurvature::kCuspSteps, "cusp_steps"}};
-  VisitKeys(keys, options, names);
+  VisitKeys(keys, options, CurvaturesWithCusps());
 }
 
 PlannerEntry DubinsPlanner() {

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
+#include "src/planning/curves/continuous_route.h"
+#include "src/planning/grid/clothoid_costs.h"
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/curves/drivable_curve.h"
@@ -18,6 +21,11 @@ using route::IsFree;
 using route::LeadInForCurves;
 using route::RadiusFor;
 using route::Refused;
+
+double Length(const std::vector<Segment>& segments) {
+  return std::accumulate(segments.begin(), segments.end(), 0.0,
+                         [](double sum, const Segment& segment) { return sum + segment.length; });
+}
 
 /// Data that the plans of all legs need.
 struct Route {
@@ -105,11 +113,82 @@ HybridAStarResult FirstRollingLeg(const Route& route) {
   return found;
 }
 
+/// Returns how the car drives a path of continuous curvature through the stops of a request.
+ClothoidDrive DriveOf(const HybridAStarOptions& options, const PlanRequest& request) {
+  const VehicleParams& car = request.vehicle;
+  ClothoidDrive drive{.speed = std::max(request.speed.speed, options.min_speed),
+                      .min_speed = options.min_speed,
+                      .steering_rate = options.max_steering_rate_fraction * car.steering_rate,
+                      .lateral_acceleration = LateralAccelerationOnClothoids(
+                          car, request.friction, options.max_lateral_acceleration),
+                      .acceleration = request.speed.acceleration,
+                      .deceleration = request.speed.deceleration};
+  return drive;
+}
+
+/// Returns how the car drives the leg to stop `i`.
+ClothoidDrive DriveOfLeg(ClothoidDrive drive, const PlanRequest& request, std::size_t i,
+                         std::size_t stops) {
+  drive.rests_at_start = i == 1 && request.start_speed == 0.0;
+  drive.rests_at_goal = i + 1 == stops;
+  if (i == 1 && request.start_speed > 0.0) {
+    drive.start_speed = request.start_speed;
+    drive.start_curvature = CurvatureForSteering(request.vehicle, request.start_steering);
+    // The length on which the car can stop is longer on a slippery road.
+    const double stopping = ComputeLeadIn(request, 0.0, 0.0).length -
+                            ComputeLeadIn(request, request.start_speed, 0.0).length;
+    drive.deceleration = 0.5 * request.start_speed * request.start_speed / stopping;
+  }
+  return drive;
+}
+
+/// Plans a path of continuous curvature.
+Plan PlanClothoids(const HybridAStarOptions& options, const PlanRequest& request) {
+  const std::vector<Pose2> stops = PlannedStops(request);
+  const ClothoidDrive drive = DriveOf(options, request);
+  Plan plan;
+  HybridAStarDiagnostics diagnostics;
+  std::vector<Segment> segments;
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    const ClothoidDrive own = DriveOfLeg(drive, request, i, stops.size());
+    const HybridAStarResult found = SearchHybridAStar(request.vehicle,
+                                                      {.start = stops[i - 1],
+                                                       .goal = stops[i],
+                                                       .obstacles = request.obstacles,
+                                                       .rolls = own.start_speed > 0.0,
+                                                       .clothoids = own},
+                                                      options);
+    if (!found.ok()) {
+      return Refused(found.status,
+                     fmt::format("from waypoint {} to {}: {}", i - 1, i, found.reason));
+    }
+    const ClothoidCosts costs(request.vehicle, options, own,
+                              RadiusFor(request.vehicle, options.radius));
+    double station = Length(segments);
+    for (const Segment& segment : found.segments) {
+      if (const double speed = costs.SpeedOn(segment); speed < drive.speed) {
+        plan.caps.push_back({station, station + segment.length, speed});
+      }
+      station += segment.length;
+      segments.push_back(segment);
+    }
+    diagnostics.legs.push_back(
+        {.cost = found.cost, .expansions = found.expansions, .cells = found.cells});
+  }
+  plan.diagnostics.planner = std::move(diagnostics);
+  plan.reference.path = Path(request.start, std::move(segments));
+  route::Complete(plan, request);
+  return plan;
+}
+
 Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
   for (Plan refused : {CheckPoses(request), CheckRadius(request.vehicle, options.radius)}) {
     if (!refused.ok()) {
       return refused;
     }
+  }
+  if (options.curvature != CurveCurvature::kSteps) {
+    return PlanClothoids(options, request);
   }
   const Route route{.options = options,
                     .request = request,
@@ -175,6 +254,8 @@ void Visit(KeyVisitor& keys, HybridAStarOptions& options) {
   keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNonNegative);
   keys.Field({"budget", "", "maximum expanded poses per leg"}, options.budget, Need::kOptional,
              Range{.min = 0, .max = 1e7});
+  keys.Field(kCurvatureKey, options.curvature, Need::kOptional, CurvaturesWithCusps());
+  VisitClothoids(keys, options.max_lateral_acceleration, options.max_steering_rate_fraction);
 }
 
 PlannerEntry HybridAStarPlanner() {

@@ -9,6 +9,7 @@
 #include "trackbed/path/path.h"
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/curves/curve_planners.h"
 #include "trackbed/planning/curves/drivable_curve.h"
 #include "trackbed/vehicle/params.h"
 
@@ -30,6 +31,16 @@
 /// path, other searches follow at a fixed series of resolutions, from the start and from the goal.
 /// The series depends only on r and on the problem: finer cells or headings lose no path that the
 /// series finds.
+///
+/// With clothoids (CurveCurvature::kContinuous and kCuspSteps), the curvature of the path is
+/// continuous. The state of the search includes the curvature. Each step is an arc of the present
+/// curvature, or a clothoid to the next of the five curvatures, in the length that the steering
+/// needs at one of a few speeds from the speed v of the mission down to the lowest speed. The last
+/// curve is a curve of continuous curvature (continuous_curvature.h) for one of these speeds. A
+/// stretch on which the car drives at w < v counts v/w times, and each change of speed and each
+/// turn of the wheels at rest counts the distance that the car would drive at v in the lost time.
+/// After the first path, the search ends after as many expansions as this path needed and 1500
+/// more, so that the cost may be above `weight` times the optimum.
 namespace trackbed {
 
 struct HybridAStarOptions {
@@ -49,8 +60,29 @@ struct HybridAStarOptions {
   double margin = 10.0;    ///< Margin of the search area around start, goal and obstacles [m].
   double min_speed = 0.3;  ///< Lowest speed of the car at a step of curvature [m/s].
   int budget = 200000;     ///< Maximum number of poses that all searches may expand, >= 0.
+  CurveCurvature curvature = CurveCurvature::kSteps;  ///< How the curvature may change.
+  /// Largest lateral acceleration on paths of continuous curvature [m/s^2], > 0; at most half of
+  /// the tyres' grip applies anyway.
+  double max_lateral_acceleration = 3.0;
+  /// Fraction of the car's steering rate that paths of continuous curvature use, in (0, 1]. The
+  /// rest is left for the corrections of controllers close to obstacles.
+  double max_steering_rate_fraction = 0.6;
 };
 void Visit(KeyVisitor& keys, HybridAStarOptions& options);
+
+/// States how the car drives a path of continuous curvature.
+struct ClothoidDrive {
+  double speed = 1.0;                 ///< Speed v of the mission [m/s], > 0.
+  double min_speed = 0.3;             ///< Lowest speed on clothoids [m/s], > 0.
+  double steering_rate = 1.0;         ///< Largest rate of the steering angle [rad/s], > 0.
+  double lateral_acceleration = 3.0;  ///< Largest lateral acceleration [m/s^2], > 0.
+  double acceleration = 1.0;          ///< Of the speed profile [m/s^2], > 0.
+  double deceleration = 1.0;          ///< Of the speed profile [m/s^2], > 0.
+  double start_speed = 0.0;           ///< Speed at the start, forwards [m/s], >= 0.
+  double start_curvature = 0.0;       ///< Curvature of the path at the start [1/m].
+  bool rests_at_start = false;        ///< Whether the car may turn its wheels at rest at the start.
+  bool rests_at_goal = false;         ///< Whether the wheels need not be straight at the goal.
+};
 
 struct HybridAStarProblem {
   Pose2 start;
@@ -61,6 +93,7 @@ struct HybridAStarProblem {
   /// How the car drives the last curve, whose short arcs then become gentler (drivable_curve.h). If
   /// empty, the last curve is a shortest curve.
   std::optional<CurveDrive> drive{};
+  ClothoidDrive clothoids{};  ///< How the car drives a path of continuous curvature.
 };
 
 struct HybridAStarResult {
@@ -77,15 +110,19 @@ struct HybridAStarResult {
 /// Searches for a path by Hybrid A*. Guarantees for the status kOk: the path ends within 1e-9 m and
 /// 1e-9 rad of the goal pose. The last part of the path is a Reeds-Shepp curve, or a Dubins curve
 /// if the car may not drive backwards; if the path was found from the goal, the first part is. With
-/// `drive`, short arcs of this curve are gentler. The curvature of the path never exceeds 1/r. The
-/// car's footprint is clear of all obstacles (CollisionChecker). The same input always yields the
-/// same result. The path is not globally optimal, because the search keeps only one pose per cell,
-/// and because the path must contain a Reeds-Shepp or Dubins curve. If the budget is used up, the
+/// `drive`, short arcs of this curve are gentler. The curvature of the path never exceeds 1/r. With
+/// clothoids, the last or first part is a curve of continuous curvature, the path begins with the
+/// curvature `start_curvature` and ends with straight wheels, and the curvature steps at no place
+/// except, with kCuspSteps, at cusps and where the car rests at the start or at the goal. The car's
+/// footprint is clear of all obstacles (CollisionChecker). The same input always yields the same
+/// result. The path is not globally optimal, because the search keeps only one pose per cell, and
+/// because the path must contain a Reeds-Shepp or Dubins curve. If the budget is used up, the
 /// function returns the best path found so far. Half of the budget is reserved for the series of
 /// resolutions, unless the search at the requested resolution finds a path with the other half. The
 /// status is kNoPath if obstacles enclose the start or the goal, or if there is no path with steps
 /// of 0.016 r: the searches have expanded all poses around the start or around the goal. Throws
-/// InternalError if an option is out of range. Computing time: about 10 us per expanded pose.
+/// InternalError if an option is out of range. Computing time: about 10 us per expanded pose, 100
+/// us with clothoids.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 

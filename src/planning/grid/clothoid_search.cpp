@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <cmath>
+
+#include "src/planning/grid/clothoid_costs.h"
+#include "src/planning/grid/pose_tree.h"
+#include "trackbed/planning/curves/continuous_curvature.h"
+
+// The curvature belongs to the state of the search. Its five values, the levels, are multiples of
+// 1/(2r); the start of a rolling car may have another curvature. A step is an arc of the present
+// curvature, or a clothoid to the next level on either side, whose sharpness is the largest one at
+// one of a few speeds. With cusp steps, the first arc behind a cusp may have any level.
+//
+// The curves to the goal are words of continuous curvature. Each attempt takes the words for
+// another of the speeds in turn; the first one, in a world without obstacles the only one, takes
+// those for all speeds.
+
+namespace trackbed {
+namespace {
+
+class ClothoidSearch final : public PoseTree {
+ public:
+  ClothoidSearch(const SearchSpace& space, const Resolution& resolution, SearchSide side,
+                 std::shared_ptr<const GridDistance> left)
+      : PoseTree(space, resolution, side, std::move(left)),
+        drive_(problem_.clothoids),
+        costs_(vehicle_, options_, drive_, radius_),
+        speeds_(costs_.Speeds()),
+        max_curvature_(std::max(1.0 / radius_, std::abs(drive_.start_curvature))) {
+    for (const double speed : speeds_) {
+      const double curvature = std::min(max_curvature_, costs_.CurvatureAt(speed));
+      curves_.emplace_back(
+          CurveLimits{.radius = 1.0 / curvature, .sharpness = costs_.SharpnessAt(speed)});
+    }
+  }
+
+ private:
+  using PoseTree::IsFree;
+
+  /// Number of expansions after the first path, in addition to as many as the first path needed.
+  /// The estimated costs to the goal know nothing of slow clothoids. A search until no path can be
+  /// cheaper would take a hundred times as long as the search for the first path.
+  static constexpr int kMoreExpansions = 1500;
+
+  /// Index of the largest of the curvatures.
+  static constexpr int kLevels = 2;
+
+  [[nodiscard]] double LevelCurvature(int level) const { return level * (0.5 / radius_); }
+
+  /// Returns whether the car may turn its wheels at rest before it leaves a node in a direction.
+  [[nodiscard]] bool TurnsAtRest(const Node& node, int direction) const {
+    if (options_.curvature != CurveCurvature::kCuspSteps) {
+      return false;
+    }
+    if (node.parent < 0) {
+      return from_start_ ? drive_.rests_at_start : drive_.rests_at_goal;
+    }
+    return node.step.direction != direction;
+  }
+
+  /// Returns whether the car may drive a step from a node.
+  [[nodiscard]] bool MayDrive(const Node& node, const Segment& segment) const {
+    return !from_start_ || costs_.BrakesFor(segment, node.length);
+  }
+
+  [[nodiscard]] std::vector<Step> Steps(const Node& node) const override {
+    std::vector<Step> steps;
+    const auto add = [&](const Segment& segment, double end_curvature) {
+      if (MayDrive(node, segment)) {
+        steps.push_back({segment, end_curvature});
+      }
+    };
+    const auto add_arc = [&](int direction, double curvature) {
+      add({.length = resolution_.step, .curvature = curvature, .direction = direction}, curvature);
+    };
+    for (const int direction : {1, -1}) {
+      if (IsReverse({.direction = direction}) && !options_.reverse) {
+        continue;
+      }
+      if (TurnsAtRest(node, direction)) {
+        for (int level = -kLevels; level <= kLevels; ++level) {
+          add_arc(direction, LevelCurvature(level));
+        }
+        continue;
+      }
+      add_arc(direction, node.curvature);
+      // Levels at rounding distance of the curvature count as equal.
+      constexpr double kRounding = 1e-9;
+      const double level = 2.0 * node.curvature * radius_;
+      const int above = static_cast<int>(std::floor(level + kRounding)) + 1;
+      const int below = static_cast<int>(std::ceil(level - kRounding)) - 1;
+      for (const int next : {std::min(above, kLevels), std::max(below, -kLevels)}) {
+        AddClothoids(node, direction, LevelCurvature(next), add);
+      }
+    }
+    return steps;
+  }
+
+  /// Adds the clothoids from a node to a curvature.
+  template <typename Add>
+  void AddClothoids(const Node& node, int direction, double curvature, const Add& add) const {
+    const double change = curvature - node.curvature;
+    const double largest = std::max(std::abs(curvature), std::abs(node.curvature));
+    if (std::abs(change) * radius_ < 1e-9) {
+      return;
+    }
+    for (const double speed : speeds_) {
+      // Too fast for the curvature: the car would drive more slowly, and could turn more sharply.
+      if (costs_.CurvatureAt(speed) < largest && speed != speeds_.back()) {
+        continue;
+      }
+      const double sharpness = std::copysign(costs_.SharpnessAt(speed), change);
+      add({.length = change / sharpness,
+           .curvature = node.curvature,
+           .direction = direction,
+           .sharpness = sharpness},
+          curvature);
+    }
+  }
+
+  [[nodiscard]] double StepCost(const Segment& before, const Segment& segment) const override {
+    return costs_.Of(before, segment, IsReverse(segment));
+  }
+
+  [[nodiscard]] Pose2 EndOf(const Pose2& pose, const Segment& segment) const override {
+    if (segment.sharpness == 0.0) {
+      const double along = segment.direction * segment.length;
+      return MoveOnArc(pose, along, segment.curvature * along);
+    }
+    const trackbed::Path path(pose, {segment});
+    return path.At(path.length()).pose;
+  }
+
+  [[nodiscard]] bool IsFree(const Pose2& pose, const Segment& segment) const override {
+    return segment.sharpness == 0.0 ? clear_.IsFree(pose, segment)
+                                    : !clear_.FirstBlocked(trackbed::Path(pose, {segment}));
+  }
+
+  [[nodiscard]] std::uint64_t CurvatureBin(const Node& node) const override {
+    const auto level = static_cast<int>(std::lround(2.0 * node.curvature * radius_));
+    return static_cast<std::uint64_t>(std::clamp(level, -3, 3) + 3);
+  }
+
+  /// Returns the words between two states, as segments of the path.
+  [[nodiscard]] std::vector<std::vector<Segment>> Words(const ContinuousCurves& curves,
+                                                        const CurveState& from,
+                                                        const CurveState& to) const {
+    std::vector<std::vector<Segment>> words;
+    const auto add = [&](const std::vector<ShortestCurve>& found) {
+      std::transform(found.begin(), found.end(), std::back_inserter(words), ToSegments);
+    };
+    if (!options_.reverse) {
+      add(curves.DubinsWords(from, to));
+    } else if (from.curvature == 0.0 && to.curvature == 0.0) {
+      add(options_.curvature == CurveCurvature::kCuspSteps ? curves.HybridReedsSheppWords(from, to)
+                                                           : curves.ReedsSheppWords(from, to));
+    } else {
+      // The words with cusps from and to curved states are many, and need much time.
+      add(curves.DubinsWords(from, to));
+      for (const ShortestCurve& word : curves.DubinsWords(to, from)) {
+        words.push_back(Reversed(ToSegments(word)));
+      }
+    }
+    return words;
+  }
+
+  /// Returns whether a car that rolls at the start can slow down for all segments of the path that
+  /// ends with a curve from a node.
+  [[nodiscard]] bool SlowsDown(int index, const Node& node,
+                               const std::vector<Segment>& curve) const {
+    if (drive_.start_speed == 0.0) {
+      return true;
+    }
+    double length = from_start_ ? node.length : 0.0;
+    std::vector<Segment> path = from_start_ ? std::vector<Segment>{} : StepsTo(index);
+    path.insert(path.end(), curve.begin(), curve.end());
+    for (const Segment& segment : InSearchOrder(std::move(path))) {
+      if (!costs_.BrakesFor(segment, length)) {
+        return false;
+      }
+      length += segment.length;
+    }
+    return true;
+  }
+
+  void TryToEnd(int index, const Node& node) override {
+    constexpr std::size_t kMaxAttempts = 4;
+    struct Curve {
+      std::vector<Segment> segments;
+      double cost;
+    };
+    const auto [from, to] = CurveEnds(node.pose);
+    const CurveState start{from, from_start_ ? node.curvature : drive_.start_curvature};
+    const CurveState goal{to, from_start_ ? 0.0 : node.curvature};
+    const bool all = attempts_++ == 0;
+    std::vector<Curve> curves;
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+      const double largest = std::max(std::abs(start.curvature), std::abs(goal.curvature));
+      constexpr double kRounding = 1e-9;
+      if ((!all && i != attempts_ % curves_.size()) ||
+          largest * curves_[i].limits().radius > 1.0 + kRounding) {
+        continue;
+      }
+      for (std::vector<Segment>& word : Words(curves_[i], start, goal)) {
+        std::vector<Segment> segments = InSearchOrder(std::move(word));
+        const double cost = EndCost(node, segments);
+        if (cost < best_end_ && SlowsDown(index, node, segments)) {
+          curves.push_back({std::move(segments), cost});
+        }
+      }
+    }
+    std::stable_sort(curves.begin(), curves.end(),
+                     [](const Curve& a, const Curve& b) { return a.cost < b.cost; });
+    curves.resize(std::min(curves.size(), kMaxAttempts));
+    for (Curve& curve : curves) {
+      if (IsFree(node.pose, curve.segments)) {
+        EndAfter(expansions() + kMoreExpansions);
+        AddEnd(index, curve.cost, std::move(curve.segments));
+        return;
+      }
+    }
+  }
+
+  const ClothoidDrive& drive_;
+  ClothoidCosts costs_;
+  std::vector<double> speeds_;
+  double max_curvature_;                  // [1/m]
+  std::vector<ContinuousCurves> curves_;  // for each speed
+  std::size_t attempts_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<PoseSearch> MakeClothoidSearch(const SearchSpace& space,
+                                               const Resolution& resolution, SearchSide side,
+                                               std::shared_ptr<const GridDistance> left) {
+  return std::make_unique<ClothoidSearch>(space, resolution, side, std::move(left));
+}
+
+}  // namespace trackbed
