@@ -51,6 +51,7 @@ set(public_headers
     core/version.h
     falsify/falsify.h
     falsify/verify.h
+    fmu/export.h
     identify/identify.h
     path_files/path_file.h
     recording/import_log.h

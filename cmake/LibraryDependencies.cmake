@@ -27,6 +27,15 @@ if(TRACKBED_IPOPT AND NOT TARGET ipopt::ipopt)
                                                 INTERFACE_INCLUDE_DIRECTORIES ${IPOPT_INCLUDE_DIR})
 endif()
 
+# libzip's CMake package is not used, because it requires programs that Debian packages separately.
+if(NOT TARGET libzip::zip)
+  find_path(ZIP_INCLUDE_DIR zip.h REQUIRED)
+  find_library(ZIP_LIBRARY zip REQUIRED)
+  add_library(libzip::zip UNKNOWN IMPORTED)
+  set_target_properties(libzip::zip PROPERTIES IMPORTED_LOCATION ${ZIP_LIBRARY}
+                                               INTERFACE_INCLUDE_DIRECTORIES ${ZIP_INCLUDE_DIR})
+endif()
+
 # dlib's CMake package is not used, because it adds libraries that are not needed here, such as
 # SQLite.
 if(NOT TARGET dlib::dlib)

@@ -27,6 +27,7 @@ set(pkg_config_names
     Threads::Threads=-pthread
     OpenSSL::Crypto=libcrypto
     csv::csv=-lcsv
+    libzip::zip=libzip
     fastcdr=-lfastcdr
     SQLite::SQLite3=sqlite3
     lz4::lz4=liblz4

@@ -17,6 +17,7 @@ endif()
 # Sets the run paths (RPATH) of the installed program and libraries, which are relative paths from
 # one installed folder to another.
 file(RELATIVE_PATH libraries_from_program /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+set(TRACKBED_FMU_FROM_PROGRAM ${libraries_from_program}/trackbed)
 set(TRACKBED_PROGRAM_RPATH "")
 set(TRACKBED_LIBRARY_RPATH $ORIGIN)
 if(BUILD_SHARED_LIBS)

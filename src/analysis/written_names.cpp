@@ -177,6 +177,7 @@ const std::vector<VerbNames>& AllVerbNames() {
       {"report", {}, {kReport}, {"--out"}},
       {"render", {}, {kVideo, kPicture}, {"--out"}},
       {"test", {}, {}, {"--junit"}},
+      {"fmu", {}, {}, {"--out"}},
       {"experiment", {}, {}, {"--out"}},
       {"model", {}, AssetNames(), {"--save", "--out"}},
   };

@@ -48,6 +48,7 @@ const std::vector<Verb> kVerbs{
     {"verify", "Run a sample of a study until it is known whether enough of it passes", AddVerify},
     {"report", "Write one HTML page about finished runs or a study", AddReport},
     {"watch", "Show a run in a browser while it goes on, or a finished run", AddWatch},
+    {"fmu", "Export the car of a scenario as a co-simulation unit (FMI 2 or 3)", AddFmu},
     {"experiment", "Repeat a published experiment and print its table", AddExperiment},
     {"list",
      "List available planners, controllers, maneuvers, plants, optimizers, cameras, overlays, "

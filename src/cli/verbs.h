@@ -31,6 +31,7 @@ void AddFalsify(const Command& command);
 void AddVerify(const Command& command);
 void AddReport(const Command& command);
 void AddWatch(const Command& command);
+void AddFmu(const Command& command);
 void AddExperiment(const Command& command);
 void AddList(const Command& command);
 void AddModel(const Command& command);

@@ -30,6 +30,7 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/cameras.h"
+#include "trackbed/scenario/input_files.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/sim/scene.h"
 
@@ -292,6 +293,25 @@ std::string OptionDefaults(const ManeuverOptions& options) {
   return OneLine(options);
 }
 
+namespace {
+
+/// Writes a scenario whose files have the names of their copies.
+std::string YamlOf(const Scenario& resolved) {
+  Scenario written = InFileCoordinates(resolved, /*with_files=*/false);
+  YAML::Emitter out;
+  out << YAML::BeginMap;
+  YamlWriter writer(out);
+  Visit(writer, written);
+  out << YAML::EndMap;
+  return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace
+
+std::string PortableYaml(const Scenario& scenario) {
+  return YamlOf(WithResolvedFiles(scenario));
+}
+
 std::string ResolvedYaml(const Scenario& scenario) {
   Scenario resolved = WithResolvedFiles(scenario);
   const StartState start = InitialState(scenario);
@@ -304,13 +324,7 @@ std::string ResolvedYaml(const Scenario& scenario) {
       scenario.record || route_sets_steering ? scenario.mission.start.steering : start.steering;
   resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed, steering};
   resolved.mission.duration = RunDuration(scenario);
-  resolved = InFileCoordinates(resolved, /*with_files=*/false);
-  YAML::Emitter out;
-  out << YAML::BeginMap;
-  YamlWriter writer(out);
-  Visit(writer, resolved);
-  out << YAML::EndMap;
-  return std::string(out.c_str()) + "\n";
+  return YamlOf(resolved);
 }
 
 }  // namespace trackbed

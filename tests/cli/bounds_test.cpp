@@ -84,6 +84,7 @@ TEST(InputPipe, OfACommandLineIsRefused) {
   for (const std::string& arguments : std::vector<std::string>{"check p",
                                                                "run p",
                                                                "plan p",
+                                                               "fmu p -o car.fmu",
                                                                "test p",
                                                                "check-path p --speed 3",
                                                                "sweep p",

@@ -476,6 +476,8 @@ TEST(HostileNames, DoNotReachTheTerminal) {
                                 "run $'\\e[31m'",
                                 "run good/$'\\xff'.yaml" + quick + " -o $'o\\e[31m\\xff'",
                                 "plan good/$'\\xff'.yaml -o $'p\\e[31m\\xff'",
+                                "fmu $'none\\e[31m\\xff.yaml' -o car.fmu",
+                                "fmu good/$'\\xff'.yaml -o $'none\\e[31m\\xff/../f.fmu'",
                                 "report $'o\\e[31m\\xff'",
                                 "compare $'o\\e[31m\\xff' $'o\\e[31m\\xff' -o $'c\\e[31m'",
                                 "render $'o\\e[31m\\xff/none'",

@@ -130,7 +130,7 @@ TEST(Help, ExamplesDoWhatTheySay) {
   std::string commands = "set -e\ntrackbed() { " TRACKBED_PROGRAM " \"$@\" > /dev/null; }\n";
   std::string words;
   for (const char* verb : {"run", "check", "compare", "test", "plan", "render", "report", "list",
-                           "model", "experiment", "sweep"}) {
+                           "model", "fmu", "experiment", "sweep"}) {
     for (const std::string& line :
          LinesOf(Trackbed(folder, std::string(verb) + " --help").output)) {
       if (line.starts_with("    trackbed ") &&

@@ -203,6 +203,8 @@ def cases(program):
              ["test", "-q", "--junit", "t/j.xml", "b.yaml", *SHORT]),
         Case("model --save", ["model", "bmw320i", "--save", "m/car.xml"], "m",
              ["model", "prius", "--save", "m/car.xml"], before=[["plan", "-q", "-o", "m", "a.yaml"]]),
+        Case("fmu", ["fmu", "-q", "a.yaml", "--plant", "kinematic", "-o", "u/car.fmu"], "u",
+             ["fmu", "-q", "b.yaml", "--plant", "kinematic", "-o", "u/car.fmu"]),
         Case("experiment", ["experiment", "optimal_steering", "-q", "--evaluations", "20", "--speeds",
                             "2", "--searches", "crs2", "-o", "e/e.csv"], "e",
              ["experiment", "optimal_steering", "-q", "--evaluations", "20", "--speeds", "1",

@@ -21,6 +21,11 @@ std::vector<std::string> InputFileNames();
 /// model file or tyre files of its own.
 bool HasOwnVehicle(const VehicleSpec& vehicle);
 
+/// Returns the scenario like ResolvedYaml, but without the members of the start and the duration
+/// that the scenario does not set. An override of another key of this YAML therefore has the same
+/// effect as in the scenario's own file: the start moves with the first waypoint, for example.
+std::string PortableYaml(const Scenario& scenario);
+
 /// Returns the options with which ComposeScene makes the scenario's car. Reads the tyre files of
 /// the scenario (ReadTyreFile). Errors: throws InputError if a tyre file is missing or cannot be
 /// used.

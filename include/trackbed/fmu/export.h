@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed {
+
+/// Version of the Functional Mock-up Interface.
+enum class FmiVersion { k2 = 2, k3 = 3 };
+
+/// Exports the car of a scenario as a co-simulation FMU (fmi-standard.org): a ZIP file with the
+/// description of its variables, a shared library with the libraries that it needs, the scenario,
+/// and all files that the scenario names. docs/how-to/fmu.md describes the variables and the
+/// behavior of the FMU.
+///
+/// `plant` is the plant that the FMU simulates; the plants in `scenario` are ignored. Expectations
+/// and the video settings are not exported. An existing file is replaced.
+///
+/// Guarantees: the FMU contains no path of this machine outside of its shared library, and equal
+/// scenarios give equal files. Before the file is written, the FMU is instantiated and initialized
+/// once, so that an FMU without a plan is not written.
+///
+/// Cost: about two seconds, mostly to compress the libraries (about 30 MB).
+///
+/// Errors: throws InputError if the plant cannot be stepped, if the FMU does not start (for
+/// example, because the scenario has no plan, or because it uses a planner or controller that this
+/// program registered), or if FMI 2 does not know the machine's architecture. Throws RunError if
+/// the shared library of FMUs (trackbed_fmu.so) is missing or the file cannot be written.
+void ExportFmu(const Scenario& scenario, const std::string& plant,
+               const std::filesystem::path& file, FmiVersion version = FmiVersion::k3);
+
+}  // namespace trackbed

@@ -1,0 +1,61 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "src/cli/scenario_options.h"
+#include "src/cli/terminal.h"
+#include "src/cli/verbs.h"
+#include "trackbed/fmu/export.h"
+
+namespace trackbed::cli {
+namespace {
+
+struct FmuVerbOptions {
+  std::string file;
+  std::string out;
+  std::string plant;
+  int fmi = 3;
+  ScenarioOptions scenario;
+};
+
+/// Returns the plant to export: the plant of the option, or the last plant of the scenario, which
+/// is the most detailed one by convention.
+std::string PlantOf(const FmuVerbOptions& options, const Scenario& scenario) {
+  return options.plant.empty() ? scenario.drive.plants.back() : options.plant;
+}
+
+int RunFmuVerb(FmuVerbOptions& options) {
+  if (!options.plant.empty()) {
+    options.scenario.plants = {options.plant};
+  }
+  const Scenario scenario = options.scenario.Read(options.file);
+  const std::string plant = PlantOf(options, scenario);
+  ExportFmu(scenario, plant, options.out, static_cast<FmiVersion>(options.fmi));
+  if (!options.scenario.quiet) {
+    Print("{}: the plant {} as a co-simulation FMU (FMI {}.0), in {}\n", scenario.name, plant,
+          options.fmi, options.out);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void AddFmu(const Command& command) {
+  const auto options = std::make_shared<FmuVerbOptions>();
+  command.AddPositional("file", options->file, "Scenario file").Required().TypeName("SCENARIO");
+  command.AddOption("-o,--out", options->out, "FMU to write").Required().TypeName("FILE");
+  command
+      .AddOption("--plant", options->plant,
+                 "Plant that the FMU simulates (default: the scenario's last plant)")
+      .TypeName("PLANT");
+  command.AddOption("--fmi", options->fmi, "Version of FMI: 2 or 3")
+      .Range(2, 3)
+      .TypeName("2|3")
+      .ShowDefault();
+  options->scenario.AddKeysTo(command);
+  command.AddExample("The car of a shipped scenario, for FMI 3 tools",
+                     "trackbed fmu three_turns -o car.fmu");
+  command.OnRun([options] { return RunFmuVerb(*options); });
+}
+
+}  // namespace trackbed::cli

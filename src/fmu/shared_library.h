@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+
+namespace trackbed::fmu {
+
+/// A shared library that is loaded as long as the object exists. Its symbols are not visible to
+/// other libraries.
+class SharedLibrary {
+ public:
+  /// Throws RunError, with the message of the dynamic loader, if the library cannot be loaded.
+  explicit SharedLibrary(const std::filesystem::path& file);
+  SharedLibrary(const SharedLibrary&) = delete;
+  SharedLibrary& operator=(const SharedLibrary&) = delete;
+  ~SharedLibrary();
+
+  [[nodiscard]] void* handle() const { return handle_; }
+
+  /// Returns the function `name` of the library. Throws RunError if there is none.
+  template <typename Function>
+  [[nodiscard]] Function* Find(const char* name) const {
+    return reinterpret_cast<Function*>(Address(name));
+  }
+
+ private:
+  [[nodiscard]] void* Address(const char* name) const;
+
+  std::filesystem::path file_;
+  void* handle_;
+};
+
+/// Returns the file of the program or shared library that contains this function's code.
+std::filesystem::path OwnFile();
+
+}  // namespace trackbed::fmu

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/fmu/variables.h"
+#include "trackbed/drive/drive.h"
+
+namespace trackbed::fmu {
+
+/// The commands of a control period.
+struct Commands {
+  double steering = 0.0;           ///< [rad]
+  double acceleration = 0.0;       ///< [m/s^2]
+  bool controller_steers = false;  ///< The scenario's controller drives.
+  bool plan_sets_speed = false;    ///< The plan sets the speed.
+};
+
+enum class Phase : std::uint8_t { kInstantiated, kInitialization, kStepping, kTerminated };
+
+/// Everything in an FMU instance that changes.
+struct State {
+  Phase phase = Phase::kInstantiated;
+  double start_time = 0.0;                     ///< [s]
+  std::map<std::uint32_t, double> parameters;  ///< Values that differ from the start values.
+  Commands commands;                           ///< Present values of the inputs.
+  std::vector<Commands> history;               ///< The commands of all periods since the start.
+  std::optional<SteppedLoop> loop;             ///< Set from the initialization on.
+
+  [[nodiscard]] State Copy() const;
+};
+
+/// How a communication step ended.
+struct StepEnd {
+  bool ended = false;  ///< Whether the run has ended.
+  double time = 0.0;   ///< Time that was reached [s].
+};
+
+/// An instance of an FMU, independent of the version of FMI. Functions throw InputError for a value
+/// or a call that is not allowed. One thread may use an instance at a time; different instances are
+/// independent.
+class Unit {
+ public:
+  /// `warn` receives notes about the plan. Reads the resources; throws InputError if they do not
+  /// belong to the FMU with this token, and RunError if they cannot be read.
+  Unit(std::filesystem::path resources, std::string token,
+       std::function<void(const std::string&)> warn);
+
+  [[nodiscard]] const std::vector<Variable>& variables() const { return variables_; }
+
+  /// Begins the initialization at time `start` [s].
+  void EnterInitialization(double start);
+  /// Plans, and makes the loop.
+  void ExitInitialization();
+  void Terminate();
+  /// Returns to the state after instantiation.
+  void Reset();
+
+  /// Advances the loop by whole control periods, with the present inputs. `time` and `step` [s] are
+  /// the communication point and the step size of the caller.
+  StepEnd Step(double time, double step);
+
+  /// Returns whether the run has ended, and the present time.
+  [[nodiscard]] StepEnd Present() const;
+
+  void Set(Type type, std::uint32_t reference, double value);
+  double Get(Type type, std::uint32_t reference);
+
+  [[nodiscard]] State Save() const { return state_.Copy(); }
+  void Restore(const State& state);
+  /// Returns a state as bytes: parameters, and the commands of all periods.
+  [[nodiscard]] std::string Serialize(const State& state) const;
+  /// Simulates the commands in `bytes` again. Throws InputError unless the result is the state that
+  /// was serialized.
+  [[nodiscard]] State Deserialize(std::string_view bytes) const;
+
+ private:
+  [[nodiscard]] const Variable& Find(Type type, std::uint32_t reference) const;
+  [[nodiscard]] SteppedLoop MakeLoop(const std::map<std::uint32_t, double>& parameters) const;
+  void MakeLoopIfNeeded();
+  [[nodiscard]] double Time() const;
+
+  std::filesystem::path resources_;
+  std::string token_;
+  std::function<void(const std::string&)> warn_;
+  std::vector<Variable> variables_;
+  double period_ = 0.0;  ///< Control period [s].
+  State state_;
+  /// Present values of the outputs by name; empty if they have changed since.
+  std::map<std::string, double> outputs_;
+};
+
+/// Simulates a control period with `commands`.
+void StepOnce(SteppedLoop& loop, const Commands& commands);
+
+/// Returns a table with the row of the log at the present time. The command and the controller's
+/// columns are those of the last control period.
+Table PresentRow(const SteppedLoop& loop);
+
+}  // namespace trackbed::fmu

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace trackbed::fmu {
+
+struct ZipEntry {
+  std::string name;  ///< Path in the archive, with forward slashes.
+  std::string content;
+};
+
+/// Returns a ZIP archive with the entries, compressed. Equal entries give equal bytes. Throws
+/// RunError if there is not enough memory.
+std::string MakeZip(const std::vector<ZipEntry>& entries);
+
+}  // namespace trackbed::fmu
