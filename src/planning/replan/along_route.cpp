@@ -290,14 +290,14 @@ class AlongRoute {
     }
     RejectionCounts rejected;
     for (const double speed : speeds) {
-      if (TryWith(
-              KeepSpeed{request_.wanted},
-              PullOutOptions(WithFactors(options_, settings_, {1.0}), request_, offsets, speed)) &&
-          Passes(leader)) {
-        return true;
-      }
-      for (std::size_t i = 0; i < rejected.counts.size(); ++i) {
-        rejected.counts[i] += found_.rejected.counts[i];
+      for (const AlongOptions& options :
+           PullOutOptions(WithFactors(options_, settings_, {1.0}), request_, offsets, speed)) {
+        if (TryWith(KeepSpeed{request_.wanted}, options) && Passes(leader)) {
+          return true;
+        }
+        for (std::size_t i = 0; i < rejected.counts.size(); ++i) {
+          rejected.counts[i] += found_.rejected.counts[i];
+        }
       }
     }
     why_ = why_.empty() ? WhyNoPullOut(rejected) : why_;

@@ -196,37 +196,50 @@ std::vector<double> PassingSpeeds(const AlongRequest& request, const Leader& lea
   return speeds;
 }
 
-AlongOptions PullOutOptions(AlongOptions options, const AlongRequest& request,
-                            const std::vector<double>& offsets, double speed) {
-  // Multiples of the shortest end time. The longer end time leaves a margin for the approximations
-  // of ShiftLength.
-  constexpr std::array kEndTimes{1.0, 1.5};
+std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongRequest& request,
+                                         const std::vector<double>& offsets, double speed) {
+  // Multiples of the shortest length. The longer one leaves a margin for the approximations of
+  // ShiftLength.
+  constexpr std::array kLengths{1.0, 1.5};
   std::visit(
       [&](auto& own) {
         own.end_offsets = offsets;
         own.speed_factors = {speed / request.wanted};
       },
       options);
+  const double start = std::max(request.start.s_rate, 0.0);
+  std::vector<double> aside(offsets);
+  for (double& offset : aside) {
+    offset = std::abs(offset - request.start.d);
+  }
+  const double nearest = *std::min_element(aside.begin(), aside.end());
+  const double length =
+      ShiftLength(request.vehicle, std::visit([](const auto& own) { return own.limits; }, options),
+                  std::max(start, speed), nearest);
+  std::vector<AlongOptions> variants;
   if (auto* frenet = std::get_if<FrenetOptions>(&options)) {
     if (frenet->lateral == LateralMotion::kAuto) {
       frenet->lateral = LateralMotion::kOverStation;
     }
-    const double start = std::max(request.start.s_rate, 0.0);
-    std::vector<double> aside(offsets);
-    for (double& offset : aside) {
-      offset = std::abs(offset - request.start.d);
-    }
-    const double nearest = *std::min_element(aside.begin(), aside.end());
-    const double length =
-        ShiftLength(request.vehicle, frenet->limits, std::max(start, speed), nearest);
-    for (const double times : kEndTimes) {
+    for (const double times : kLengths) {
       const double end_time = times * length / (0.5 * (start + speed));
       if (end_time > 0.0) {
         frenet->end_times.push_back(end_time);
       }
     }
+  } else {
+    const auto& lattice = std::get<LatticeOptions>(options);
+    for (const double times : kLengths) {
+      if (times * length > 0.0 && times * length < lattice.layers * lattice.spacing) {
+        LatticeOptions shorter = lattice;
+        shorter.layers = 1;
+        shorter.spacing = times * length;
+        variants.emplace_back(std::move(shorter));
+      }
+    }
   }
-  return options;
+  variants.push_back(std::move(options));
+  return variants;
 }
 
 std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,

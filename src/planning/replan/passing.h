@@ -52,11 +52,16 @@ std::vector<double> PassingSpeeds(const AlongRequest& request, const Leader& lea
                                   const AlongOptions& options);
 
 /// Returns the options with which the method searches for motions that pull out to one of `offsets`
-/// and end at `speed` [m/s]. The offset is a function of the station unless the options say
-/// otherwise, because a car that accelerates then needs a lower steering rate. The end times
-/// include those that the steering needs at this speed.
-AlongOptions PullOutOptions(AlongOptions options, const AlongRequest& request,
-                            const std::vector<double>& offsets, double speed);
+/// and end at `speed` [m/s], in the order in which to try them. The offset is a function of the
+/// station unless the options say otherwise, because a car that accelerates then needs a lower
+/// steering rate.
+///
+/// The end times of `frenet` include those that the steering needs at this speed. The first
+/// lattices of `lattice` are as long as the steering needs, and have one layer. On a longer
+/// lattice, the car moves aside so slowly that a new plan after each replanning period would
+/// postpone the maneuver.
+std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongRequest& request,
+                                         const std::vector<double>& offsets, double speed);
 
 /// Returns why the car could not finish passing the leader after `motion`; empty if it could. To
 /// pass, the car accelerates to the desired speed at the last offset of the motion, drives until

@@ -209,6 +209,23 @@ TEST_P(Passing, GetsPastFromManyStarts) {
   }
 }
 
+// A car that has slowed down to its leader's speed. Each new plan must continue to pull out, not
+// begin a longer maneuver.
+TEST_P(Passing, PullsOutAtTheSpeedOfAVerySlowLeader) {
+  for (const double lead : {0.4, 0.6}) {
+    for (const double gap : {2.0, 6.0}) {
+      Road road(lead, lead, gap);
+      road.OpenOnTheLeft();
+      double nearest = 1e9;
+      // The car moves aside by 2.25 m over ShiftLength = 8 m, or over twice this length if each
+      // plan begins anew, in 40 s. It passes in 10 s.
+      EXPECT_LT(TimeToPass(road, GetParam().defaults, 60.0, nearest), 60.0)
+          << lead << " m/s, gap " << gap << " m";
+      EXPECT_GE(nearest, AlongSettings{}.safe_distance - 0.01);
+    }
+  }
+}
+
 TEST_P(Passing, KeepsClearOfOncomingTraffic) {
   int passed = 0;
   for (double ahead = 20.0; ahead <= 150.0; ahead += 10.0) {
