@@ -32,10 +32,24 @@ def mass(program, file):
     return float(done.stdout), ""
 
 
-def movable_trees(file):
-    """How many bodies of the world can move; a file that includes others counts as 1."""
+def urdf_mass(root):
+    """The masses that a URDF file states: MuJoCo's library welds its base to the world, which has no mass. A link
+    without mass gets 1e-6 kg (docs/how-to/adapt.md)."""
+    masses = [link.find("inertial/mass") for link in root.findall("link")]
+    return sum(1e-6 if m is None or float(m.get("value")) == 0.0 else float(m.get("value")) for m in masses)
+
+
+def expected_mass(program, file):
     root = ElementTree.parse(file).getroot()
-    if root.tag == "robot" or root.find(".//include") is not None:
+    if root.tag == "robot":
+        return urdf_mass(root), ""
+    trees = movable_trees(root)
+    return mass(program, file) if trees == 1 else (None, f"{trees} movable bodies in the file")
+
+
+def movable_trees(root):
+    """How many bodies of the world can move; a file that includes others counts as 1."""
+    if root.find(".//include") is not None:
         return 1
     bodies = root.findall("worldbody/body")
     return sum(b.find(".//joint") is not None or b.find(".//freejoint") is not None for b in bodies)
@@ -70,8 +84,7 @@ def compare(program, file, car, result):
     if not saved.accepted:
         result.add(saved)
         return
-    trees = movable_trees(file)
-    expected, why = (mass(program, file) if trees == 1 else (None, f"{trees} movable bodies in the file"))
+    expected, why = expected_mass(program, file)
     found, also = mass(program, composed)
     if expected is None or found is None:
         result.detail += ", mass not compared: " + (why or also)
