@@ -9,7 +9,7 @@
 
 // Tests the model f1tenth against the parameters of f1tenth_gym, which are repeated here.
 namespace trackbed {
-namespace {
+namespace f1tenth_test {
 
 constexpr double kMass = 3.74;             // m [kg]
 constexpr double kYawInertia = 0.04712;    // I [kg m^2]
@@ -85,5 +85,5 @@ TEST(F1tenth, StandsStillAtRest) {
   EXPECT_NEAR(plant->Observe().pitch, 0.0, Tolerance(1e-5));
 }
 
-}  // namespace
+}  // namespace f1tenth_test
 }  // namespace trackbed
