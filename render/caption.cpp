@@ -53,6 +53,9 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
   if (readings.tyre_use) {
     shown.push_back({"grip used", fmt::format("{:.0f} %", 100.0 * *readings.tyre_use), "000 %"});
   }
+  if (readings.aids) {
+    shown.push_back({"aids", *readings.aids, "ABS ESC"});
+  }
   if (readings.cross_track) {
     shown.push_back({"off path", Signed(*readings.cross_track, 2, " m"), "+0.00 m"});
   }

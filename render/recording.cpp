@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "render/intervening_aids.h"
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/road_look.h"
 #include "trackbed/analysis/run_folder.h"
@@ -291,6 +292,7 @@ Readings PlantRecording::ReadingsAt(double time) const {
   if (lateral_acceleration_) {
     readings.lateral_acceleration = log_.Value(place, *lateral_acceleration_);
   }
+  readings.aids = InterveningAids(log_, place);
   return readings;
 }
 

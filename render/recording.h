@@ -58,6 +58,8 @@ struct Readings {
   std::optional<double> lateral_acceleration;
   /// Largest fraction of the available grip that one of the tyres uses.
   std::optional<double> tyre_use;
+  /// Driver aids that intervene, such as "ABS ESC", or "-"; nullopt for a car without these aids.
+  std::optional<std::string> aids;
   /// Position of the first ghost relative to the recorded car.
   std::optional<RelativePosition> apart;
   std::optional<Vec2> wind;  ///< Wind at the car [m/s]; nullopt if the run has no

@@ -340,13 +340,17 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
   if (scenario.mission.track) {
     metrics.laps.resize(static_cast<std::size_t>(scenario.mission.track->laps));
   }
+  const AidOptions aids = scenario.vehicle.aids.value_or(AidOptions{});
   for (const MetricEntry& entry : Metrics()) {
-    // Metrics of track limits exist only for runs on a track, and metrics of road limits only for
-    // routes over lanes.
+    // Metrics of track limits exist only for runs on a track, metrics of road limits only for
+    // routes over lanes, and metrics of driver aids only for cars with these aids.
     const bool of_track = entry.path.starts_with("track_limits.");
     const bool of_road = entry.path.starts_with("road_limits.");
+    const bool of_abs = entry.path.starts_with("aids.abs_");
+    const bool of_esc = entry.path.starts_with("aids.esc_");
     if (entry.measure && (!of_track || scenario.mission.track) &&
-        (!of_road || !scenario.mission.route.empty())) {
+        (!of_road || !scenario.mission.route.empty()) && (!of_abs || aids.abs) &&
+        (!of_esc || aids.esc)) {
       metrics.measured.emplace_back(entry.path, MetricReading{0.0, {}});
     }
   }

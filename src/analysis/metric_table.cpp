@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "src/analysis/aid_metrics.h"
 #include "src/analysis/predicted_time.h"
 #include "src/analysis/road_metrics.h"
 #include "src/analysis/sideslip.h"
@@ -227,6 +228,13 @@ std::vector<MetricEntry> BuiltInMetrics() {
                         SmallestRoadMargin})),
       {"track_limits.time_off", "Time off the track", "s", {}, TimeOffTrack},
       {"track_limits.distance_off", "Distance off the track", "m", {}, DistanceOffTrack},
+      {"aids.abs_time", "Time with anti-lock control", "s", {}, TimeOfAbs},
+      {"aids.esc_time", "Time with stability control", "s", {}, TimeOfEsc},
+      {"aids.esc_brake_torque_max",
+       "Largest brake torque of stability control",
+       "N m",
+       {},
+       LargestEscTorque},
   };
 }
 

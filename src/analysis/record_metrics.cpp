@@ -61,6 +61,7 @@ ReplayOptions ReplayOptionsOf(const Scenario& scenario) {
           .speed_gain = scenario.control.speed.gain,
           .tyre = scenario.vehicle.tyre,
           .input = scenario.drive.steering,
+          .aids = scenario.vehicle.aids.value_or(AidOptions{}),
           .world = scenario.world};
 }
 

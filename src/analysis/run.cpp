@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "src/analysis/aid_metrics.h"
 #include "src/analysis/origin_statement.h"
 #include "src/analysis/overspeed.h"
 #include "src/analysis/simulate_plants.h"
@@ -268,6 +269,7 @@ RunResult SimulateRun(RunResult planned, const CarModel& car, const RunHooks& ho
     result.verdict.notes.push_back(std::move(note));
   }
   NoteSlidingContacts(result, car);
+  NoteIgnoredAids(result.scenario, result.logs, result.verdict.notes);
   NoteFollowing(result);
   if (scenario.record) {
     for (const std::string& note : scenario.record->data->notes) {

@@ -76,8 +76,11 @@ void CheckPlants(const CheckedStudy& checked, const Scenario& scenario) {
       continue;
     }
     try {
-      MakePlant(plant,
-                {.car = *compiled, .world = bare, .start = {}, .tyre = scenario.vehicle.tyre});
+      MakePlant(plant, {.car = *compiled,
+                        .world = bare,
+                        .start = {},
+                        .tyre = scenario.vehicle.tyre,
+                        .aids = scenario.vehicle.aids.value_or(AidOptions{})});
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -135,7 +138,8 @@ CheckedStudy CheckStudy(Study study, bool all) {
       .points = StudyPoints(std::move(study)), .cars = std::make_unique<CarCache>(), .inputs = {}};
   CheckPoints(checked.points, all);
   checked.inputs["scenario"] = Sha256(checked.points.study().scenario_text);
-  using PlantsKey = std::tuple<CarKey, std::vector<std::string>, TyreLaw>;
+  // The last three elements are the driver aids.
+  using PlantsKey = std::tuple<CarKey, std::vector<std::string>, TyreLaw, bool, bool, Differential>;
   OncePerKey<CarKey> compiles([&](const Scenario& scenario) {
     checked.cars->Load(Bare(scenario));
     checked.inputs["model " + scenario.vehicle.model] = HashOfModel(scenario);
@@ -150,8 +154,10 @@ CheckedStudy CheckStudy(Study study, bool all) {
       continue;
     }
     const CarKey car = MakeCarKey(scenario);
-    if (compiles(car, scenario) &&
-        drives({car, scenario.drive.plants, scenario.vehicle.tyre}, scenario)) {
+    const AidOptions aids = scenario.vehicle.aids.value_or(AidOptions{});
+    if (compiles(car, scenario) && drives({car, scenario.drive.plants, scenario.vehicle.tyre,
+                                           aids.abs, aids.esc, aids.differential},
+                                          scenario)) {
       any_valid = true;
       const std::vector<std::string> own = PossibleOutputs(scenario);
       possible.insert(own.begin(), own.end());

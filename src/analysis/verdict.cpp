@@ -199,7 +199,9 @@ void NoteLimitedSteering(const PlantMetrics& metrics, Verdict& verdict) {
 
 /// Adds a note to the verdict if a standard for stability control is applied to a car without one.
 void NoteStabilityControl(const PlantMetrics& metrics, Verdict& verdict) {
-  if (metrics.maneuver && metrics.maneuver->method == "sine_with_dwell") {
+  const bool has_esc = std::any_of(metrics.measured.begin(), metrics.measured.end(),
+                                   [](const auto& own) { return own.first == "aids.esc_time"; });
+  if (metrics.maneuver && metrics.maneuver->method == "sine_with_dwell" && !has_esc) {
     verdict.notes.push_back(fmt::format(
         "{}: the car has no electronic stability control (ESC), which ISO 19365 and FMVSS 126 test",
         metrics.plant));

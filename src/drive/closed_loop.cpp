@@ -62,6 +62,7 @@ LoopCore::LoopCore(Plant& plant, const SteeringController& controller, const Fea
 void LoopCore::BeginPeriod() {
   state_ = Observe();
   row_ = recorder_.BeginRow(state_, command_, values_);
+  row_.aids = plant_->aids();
   row_.measured = faults_.Measure(state_.pose);
   const bool at_rest = tick_ > 0 && Rests(state_);
   row_.tracking = FollowPlan(state_, at_rest);

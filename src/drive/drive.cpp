@@ -73,7 +73,8 @@ std::unique_ptr<Plant> PlantAtStart(const Scenario& scenario, const CarModel& ca
                           .world = scenario.world,
                           .start = start,
                           .tyre = scenario.vehicle.tyre,
-                          .steering = scenario.drive.steering});
+                          .steering = scenario.drive.steering,
+                          .aids = scenario.vehicle.aids.value_or(AidOptions{})});
 }
 
 }  // namespace

@@ -36,10 +36,31 @@ const char* ToString(DriveStatus status) {
   return "";
 }
 
+namespace {
+
+/// Appends the states of the driver aids, in the order of LogColumns.
+void AddAids(const AidState& aids, std::vector<double>& cells) {
+  if (aids.abs_active) {
+    for (const bool active : *aids.abs_active) {
+      cells.push_back(active ? 1.0 : 0.0);
+    }
+  }
+  if (aids.esc) {
+    cells.insert(cells.end(), aids.esc->brake_torque.begin(), aids.esc->brake_torque.end());
+    cells.insert(cells.end(), {aids.esc->yaw_rate_reference, aids.esc->drive_share});
+  }
+  if (aids.differential_torque) {
+    cells.push_back(*aids.differential_torque);
+  }
+}
+
+}  // namespace
+
 Table ToTable(const RunLog& log) {
   const bool tracked = !log.rows.empty() && log.rows.front().tracking.has_value();
   const bool obstacles = !log.rows.empty() && log.rows.front().clearance.has_value();
   const bool wheels = !log.rows.empty() && log.rows.front().state.wheels.has_value();
+  const AidState aids = log.rows.empty() ? AidState{} : log.rows.front().aids.value_or(AidState{});
   const bool noise = !log.rows.empty() && log.rows.front().measured.has_value();
   const bool gaps =
       std::any_of(log.rows.begin(), log.rows.end(), [](const LogRow& row) { return !row.valid; });
@@ -47,6 +68,9 @@ Table ToTable(const RunLog& log) {
                           .obstacles = obstacles,
                           .noise = noise,
                           .wheels = wheels,
+                          .abs = aids.abs_active.has_value(),
+                          .esc = aids.esc.has_value(),
+                          .differential = aids.differential_torque.has_value(),
                           .gaps = gaps,
                           .origin = log.origin != Vec2::Zero(),
                           .controller = log.controller_columns}));
@@ -83,6 +107,9 @@ Table ToTable(const RunLog& log) {
                      {wheel.normal_force, wheel.longitudinal_force, wheel.lateral_force,
                       wheel.slip_angle, wheel.slip_ratio, wheel.friction_use});
       }
+    }
+    if (row.aids) {
+      AddAids(*row.aids, cells);
     }
     if (gaps) {
       cells.push_back(row.valid ? 1.0 : 0.0);

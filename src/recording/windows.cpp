@@ -94,6 +94,7 @@ WindowPrediction Predict(const Replay& replay, const std::string& name, long fir
                                       .start = StartFrom(from, angle),
                                       .tyre = replay.options.tyre,
                                       .steering = replay.options.input,
+                                      .aids = replay.options.aids,
                                       .filter = steering.filter});
   window.states.push_back(StateAt(*plant, window.start));
   for (long k = 0; k < count; ++k) {

@@ -69,6 +69,32 @@ void CheckTyreFiles(Diagnostics& c) {
   }
 }
 
+void CheckAids(Diagnostics& c) {
+  const VehicleSpec& vehicle = c.scenario.vehicle;
+  if (!vehicle.aids) {
+    return;
+  }
+  const AidOptions& aids = *vehicle.aids;
+  for (const std::string& plant : c.scenario.drive.plants) {
+    const bool contact = plant == "mujoco" && vehicle.tyre == TyreLaw::kContact;
+    if (aids.any() && (contact || plant == "mujoco:contact") &&
+        c.CouldRead({"vehicle.tyre", "drive.plants"})) {
+      c.AddError("vehicle.aids",
+                 fmt::format("not on contact tyres, whose wheels hardly slip below the friction "
+                             "limit and bounce beyond it; remove this, or {}",
+                             contact ? "vehicle.tyre: contact" : "the plant mujoco:contact"));
+    }
+  }
+  const std::string differential = "vehicle.aids.differential";
+  for (const auto& [key, value] : {std::pair("_preload", aids.differential_preload),
+                                   std::pair("_ramp", aids.differential_ramp)}) {
+    if (value && aids.differential != Differential::kLimitedSlip && c.could_read(differential)) {
+      c.AddError(differential + key,
+                 "only for vehicle.aids.differential: limited_slip; remove this, or set that");
+    }
+  }
+}
+
 void CheckSteps(Diagnostics& c) {
   const DriveSpec& drive = c.scenario.drive;
   const double steps = drive.control_period / drive.timestep;
@@ -295,6 +321,7 @@ std::vector<std::pair<std::string, std::string>> CrossProblems(
   CheckSpeedOverTime(c);
   CheckController(c);
   CheckTyreFiles(c);
+  CheckAids(c);
   CheckSteps(c);
   CheckRows(c);
   CheckPicture(c);

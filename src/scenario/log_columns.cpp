@@ -43,6 +43,20 @@ std::vector<std::string> LogColumns(const LogContents& contents) {
       }
     }
   }
+  if (contents.abs) {
+    for (const char* wheel : kWheels) {
+      columns.push_back(fmt::format("abs_active_{}", wheel));
+    }
+  }
+  if (contents.esc) {
+    for (const char* wheel : kWheels) {
+      columns.push_back(fmt::format("esc_brake_torque_{}_Nm", wheel));
+    }
+    columns.insert(columns.end(), {"yaw_rate_reference_radps", "esc_drive_share"});
+  }
+  if (contents.differential) {
+    columns.emplace_back("differential_torque_Nm");
+  }
   if (contents.gaps) {
     columns.emplace_back("valid");
   }
@@ -57,10 +71,15 @@ std::vector<std::string> LogColumns(const Scenario& scenario, const std::string&
   const bool recorded = plant == kRecordedPlant;
   const MeasurementNoise& noise = scenario.disturb.noise;
   const ControllerOptions& steering = scenario.control.steering;
+  const bool wheels = !recorded && plant != "kinematic" && plant != "single_track";
+  const AidOptions aids = wheels && scenario.vehicle.aids ? *scenario.vehicle.aids : AidOptions{};
   return LogColumns({.path = scenario.plan.has_value(),
                      .obstacles = HasObstacles(scenario.world),
                      .noise = !recorded && (noise.position > 0.0 || noise.heading > 0.0),
-                     .wheels = !recorded && plant != "kinematic" && plant != "single_track",
+                     .wheels = wheels,
+                     .abs = aids.abs,
+                     .esc = aids.esc,
+                     .differential = aids.differential != Differential::kOpen,
                      .gaps = recorded,
                      .origin = OriginOf(scenario) != Vec2::Zero(),
                      .controller = recorded ? std::vector<std::string>{}

@@ -19,6 +19,23 @@ inline constexpr Key kExpectSection{
     "expect", "", "bounds that every plant must meet; only those given are checked"};
 inline constexpr Key kRenderSection{"render", "", "video settings"};
 
+inline void Visit(KeyVisitor& a, AidOptions& aids) {
+  a.Field({"abs", "", "anti-lock brakes"}, aids.abs, Need::kOptional);
+  a.Field({"esc", "", "electronic stability control"}, aids.esc, Need::kOptional);
+  static const EnumNames<Differential> differentials{{Differential::kOpen, "open"},
+                                                     {Differential::kLocked, "locked"},
+                                                     {Differential::kLimitedSlip, "limited_slip"}};
+  a.Field({"differential", "", "differential of the driven axle"}, aids.differential,
+          Need::kOptional, differentials);
+  a.Field({"differential_preload", "N m",
+           "largest torque difference between the wheels without drive torque, for limited_slip; "
+           "default: 0.02 m g R"},
+          aids.differential_preload, Range{.min = 0.0, .max = 1e5});
+  a.Field({"differential_ramp", "",
+           "increase of this difference per drive torque, for limited_slip; default: 0.25"},
+          aids.differential_ramp, Range{.min = 0.0, .max = 1.0});
+}
+
 inline void Visit(KeyVisitor& a, VehicleSpec& vehicle) {
   a.Field({"model", "", "name under models/, or path relative to this file"}, vehicle.model,
           Need::kOptional);
@@ -38,6 +55,8 @@ inline void Visit(KeyVisitor& a, VehicleSpec& vehicle) {
           vehicle.tyre_file_rear);
   a.Field({"steering_rate", "rad/s", "steering rate of the road wheels, overrides the model's"},
           vehicle.steering_rate, Range{.max = 10.0, .above = 0.0});
+  a.Section({"aids", "", "driver aids of the plant mujoco on Magic Formula tyres; default: none"},
+            vehicle.aids);
 }
 
 inline void Visit(KeyVisitor& a, StartSpec& start) {

@@ -1,19 +1,24 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "src/sim/contact_friction.h"
+#include "src/sim/differential.h"
+#include "src/sim/driver_aids.h"
 #include "src/sim/magic_formula_tyres.h"
 #include "src/sim/mujoco_compat.h"
 #include "src/sim/mujoco_plant.h"
 #include "src/sim/wheel_contacts.h"
+#include "trackbed/core/error.h"
 
 // Simulates a car with steered front wheels in MuJoCo. CarPlant implements three parts of a step:
 //   1. Act: the steering servo turns at a limited rate, or the steering angle is prescribed. The
 //      motor or the brakes apply the torque that yields the commanded acceleration despite the
 //      driving resistance.
 //   2. ApplyWheelForces: Magic Formula tyres (magic_formula_tyres.h) and dry friction act on the
-//      wheels.
+//      wheels. Driver aids (driver_aids.h) change the torques of brakes and differential.
 //   3. Finish: the front wheels are turned to the Ackermann angles of the rack angle or of the
 //      prescribed angle. The plant disables the polynomial joint coupling of the front wheels in
 //      the model.
@@ -55,12 +60,20 @@ class CarPlant final : public MujocoPlant {
     RollWheels(parts.spin_dof, setup.start);
     data().act[parts.steer_state] = setup.start.steering;
     Begin();
+    if (setup.aids.any()) {
+      RequireTyresForAids();
+      aids_.emplace(setup.aids, car(), model(), data());
+    }
     if (tyres_) {
       tyres_->Stand(data());
       if (setup.start.lateral_speed || setup.start.yaw_rate) {
         tyres_->TakeLateralSlip(model(), data());
       }
     }
+  }
+
+  [[nodiscard]] std::optional<AidState> aids() const override {
+    return aids_ ? std::optional(aids_->state()) : std::nullopt;
   }
 
   [[nodiscard]] std::unique_ptr<Plant> Clone() const override {
@@ -80,6 +93,9 @@ class CarPlant final : public MujocoPlant {
   void ApplyWheelForces(const Road& road) override {
     if (tyres_) {
       tyres_->Apply(model(), data(), road);
+      if (aids_) {
+        Help(road);
+      }
       HoldWheels();
     }
     if (linked_ && !prescribed_) {
@@ -96,11 +112,15 @@ class CarPlant final : public MujocoPlant {
   }
 
   [[nodiscard]] Wheels ObserveWheels() const override {
+    return {.actuator = data().act[car().parts().steer_state],
+            .steering = Steering(),
+            .forces = tyres_ ? tyres_->Observe() : ContactWheels()};
+  }
+
+  /// Returns the steering angle of the bicycle model at the front wheels [rad].
+  [[nodiscard]] double Steering() const {
     const auto& steer = car().parts().steer_qpos;
-    return {
-        .actuator = data().act[car().parts().steer_state],
-        .steering = BicycleAngle(car().params(), {data().qpos[steer[0]], data().qpos[steer[1]]}),
-        .forces = tyres_ ? tyres_->Observe() : ContactWheels()};
+    return BicycleAngle(car().params(), {data().qpos[steer[0]], data().qpos[steer[1]]});
   }
 
   void Steer(double wanted);
@@ -109,7 +129,11 @@ class CarPlant final : public MujocoPlant {
   void FollowRack();
   void Propel(const Command& command);
   void Brake(double torque, bool hold);
+  [[nodiscard]] double SpinTorque(std::size_t wheel) const;
   void HoldWheels();
+  void RequireTyresForAids() const;
+  void Help(const Road& road);
+  void CoupleWheels();
   [[nodiscard]] double DriveLimit() const;
   [[nodiscard]] double Resistance(int gear) const;
   [[nodiscard]] double Grade() const;
@@ -128,6 +152,7 @@ class CarPlant final : public MujocoPlant {
   std::array<double, 4> bearing_friction_{};  // Friction torque of the bearing of each wheel [N m].
   // Maximum dry friction torque of bearing and brake on each wheel in this step [N m].
   std::array<double, 4> dry_friction_{};
+  std::optional<DriverAids> aids_;  // nullopt if the car has no driver aids.
 };
 
 void CarPlant::Steer(double wanted) {
@@ -219,6 +244,9 @@ void CarPlant::Propel(const Command& command) {
   const double torque = along_gear * rolling_mass * radius + resistance;
   const bool drive = torque > 0.0 && !hold_;
   data().ctrl[parts.drive_actuator] = drive ? command.gear * std::min(torque, DriveLimit()) : 0.0;
+  if (aids_) {
+    data().ctrl[parts.drive_actuator] *= aids_->drive_share();
+  }
   Brake(drive ? 0.0 : -torque, hold_);
 }
 
@@ -243,19 +271,93 @@ void CarPlant::Brake(double torque, bool hold) {
   }
 }
 
+/// Returns the sum of the torques on a wheel about its spin axis, without dry friction [N m]. The
+/// sum contains the drive torque of the previous step, which is small while the brakes are applied.
+double CarPlant::SpinTorque(std::size_t wheel) const {
+  const int dof = car().parts().spin_dof[wheel];
+  return data().qfrc_applied[dof] + data().qfrc_passive[dof] - data().qfrc_bias[dof] +
+         data().qfrc_actuator[dof];
+}
+
 /// Applies the dry friction torques of bearings and brakes to the wheels. Each friction torque is
 /// the torque that would stop the wheel within the step, limited to the available friction.
 void CarPlant::HoldWheels() {
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const int dof = car().parts().spin_dof[w];
-    // The sum of the torques contains the drive torque of the previous step, which is small while
-    // the brakes are applied.
-    const double torque = data().qfrc_applied[dof] + data().qfrc_passive[dof] -
-                          data().qfrc_bias[dof] + data().qfrc_actuator[dof];
+    const double torque = SpinTorque(w);
     const double inertia = car().parts().spin_inertia[w] + model().dof_armature[dof];
     const double stop = -inertia * data().qvel[dof] / model().opt.timestep - torque;
     data().qfrc_applied[dof] += std::clamp(stop, -dry_friction_[w], dry_friction_[w]);
   }
+}
+
+/// Throws InputError if the car has no Magic Formula tyres.
+void CarPlant::RequireTyresForAids() const {
+  if (tyres_) {
+    return;
+  }
+  const std::string remedy =
+      car().parts().tyres
+          ? "use vehicle.tyre: magic_formula without the plant mujoco:contact"
+          : fmt::format("{} has no tyre coefficients, so add them, or a vehicle.tyre_file",
+                        car().file());
+  throw InputError(Problem{
+      .key = "vehicle.aids",
+      .message = fmt::format("not on contact tyres, whose wheels hardly slip below the friction "
+                             "limit and bounce beyond it; {}; or remove this",
+                             remedy)});
+}
+
+/// Lets the driver aids change the brake torques, and applies the torques of the differentials.
+void CarPlant::Help(const Road& road) {
+  const CarParts& parts = car().parts();
+  std::array<WheelMotion, 4> wheels;
+  std::array<double, 4> brakes{};
+  double loads = 0.0;
+  double carried = 0.0;  // Sum of the loads, each times the friction factor of the road.
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    wheels[w] = tyres_->Motion(w);
+    wheels[w].spin = data().qvel[parts.spin_dof[w]];
+    wheels[w].road = road[w];
+    brakes[w] = dry_friction_[w] - bearing_friction_[w];
+    loads += wheels[w].load;
+    carried += wheels[w].load * road[w];
+  }
+  const PlanarMotion motion = Motion();
+  aids_->Update({.speed = motion.speed,
+                 .yaw_rate = motion.yaw_rate,
+                 .sideslip = motion.sideslip,
+                 .steering = Steering(),
+                 .road = loads > 0.0 ? carried / loads : 1.0},
+                wheels, brakes, model().opt.timestep);
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    dry_friction_[w] = bearing_friction_[w] + aids_->brake_torque()[w];
+  }
+  CoupleWheels();
+}
+
+/// Applies the torques that locked or limited-slip differentials transmit between the wheels.
+void CarPlant::CoupleWheels() {
+  const CarParts& parts = car().parts();
+  double sum = 0.0;
+  for (const DriverAids::DrivenAxle& axle : aids_->coupled_axles()) {
+    std::array<AxleWheel, 2> pair;
+    for (std::size_t i = 0; i < pair.size(); ++i) {
+      const std::size_t w = axle.first + i;
+      const int dof = parts.spin_dof[w];
+      pair[i] = {.speed = data().qvel[dof],
+                 .inertia = parts.spin_inertia[w] + model().dof_armature[dof],
+                 .torque = SpinTorque(w),
+                 .friction = dry_friction_[w]};
+    }
+    const double drive = data().ctrl[parts.drive_actuator] * axle.drive_share;
+    const double torque =
+        CouplingTorque(pair[0], pair[1], aids_->LargestCoupling(drive), model().opt.timestep);
+    data().qfrc_applied[parts.spin_dof[axle.first]] += torque;
+    data().qfrc_applied[parts.spin_dof[axle.first + 1]] -= torque;
+    sum += torque;
+  }
+  aids_->SetCoupling(sum);
 }
 
 /// Returns the total driving resistance from bearings, tyres, air and slope in the direction of the

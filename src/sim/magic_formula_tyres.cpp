@@ -185,6 +185,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     state = {.normal_force = load};
     if (load <= 0.0) {
       slip = {};
+      contact_[w].rolling_speed = contact.rolling_speed;
       continue;
     }
 
@@ -225,7 +226,8 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
                            .shift = std::clamp(contact.rolling_speed / kWalkingPace, -1.0, 1.0)});
     state.longitudinal_force = force.longitudinal;
     state.lateral_force = side * force.lateral;
-    contact_[w] = {.road = road[w], .camber = side * camber};
+    contact_[w] = {
+        .road = road[w], .camber = side * camber, .rolling_speed = contact.rolling_speed};
 
     const double rolling = tyre.rolling_resistance * load * radius *
                            std::clamp(contact.spin * radius / kRollingSpeed, -1.0, 1.0);
@@ -251,6 +253,12 @@ std::array<WheelState, 4> MagicFormulaTyres::Observe() const {
         contact_[w].camber, {wheels[w].longitudinal_force, wheels[w].lateral_force});
   }
   return wheels;
+}
+
+WheelMotion MagicFormulaTyres::Motion(std::size_t wheel) const {
+  return {.rolling_speed = contact_[wheel].rolling_speed,
+          .load = states_[wheel].normal_force,
+          .longitudinal_force = states_[wheel].longitudinal_force};
 }
 
 double MagicFormulaTyres::RollingMoment() const {

@@ -2,6 +2,7 @@
 
 #include "src/sim/tyre_shape.h"
 #include "src/sim/wheel_contacts.h"
+#include "src/sim/wheel_slip_control.h"
 #include "trackbed/vehicle/magic_formula.h"
 
 namespace trackbed {
@@ -49,6 +50,10 @@ class MagicFormulaTyres {
   /// Returns the wheel states that the last call of Apply computed.
   [[nodiscard]] std::array<WheelState, 4> Observe() const;
 
+  /// Returns the rolling speed, the load and the longitudinal force of a wheel, as computed by the
+  /// last call of Apply.
+  [[nodiscard]] WheelMotion Motion(std::size_t wheel) const;
+
   /// Returns the sum of the rolling resistance moments of all four wheels at their present loads [N
   /// m].
   [[nodiscard]] double RollingMoment() const;
@@ -70,8 +75,9 @@ class MagicFormulaTyres {
   };
 
   struct Contact {
-    double road = 1.0;    // Friction factor of the road.
-    double camber = 0.0;  // Camber of the wheel [rad].
+    double road = 1.0;           // Friction factor of the road.
+    double camber = 0.0;         // Camber of the wheel [rad].
+    double rolling_speed = 0.0;  // Forward speed of the hub [m/s].
   };
 
   const CarModel& car_;

@@ -321,6 +321,18 @@ VehicleState MujocoPlant::Observe() const {
   return state;
 }
 
+MujocoPlant::PlanarMotion MujocoPlant::Motion() const {
+  const Matrix3d R_WV = ChassisRotation();
+  const Vector3d v_W = Vec(ChassisVelocity());
+  const Vector3d w_W = R_WV * Vec(ChassisVelocity() + 3);
+  const Vector3d v_cg_W = v_W + w_W.cross(R_WV * Vector3d(car_.params().cg_to_rear, 0.0, 0.0));
+  const Vec2 ahead = Ahead();
+  const Vec2 cg(ahead.dot(v_cg_W.head<2>()), LeftNormal(ahead).dot(v_cg_W.head<2>()));
+  return {.speed = ahead.dot(v_W.head<2>()),
+          .yaw_rate = w_W.z(),
+          .sideslip = cg.norm() < kAtRestSpeed ? 0.0 : std::atan(cg.y() / cg.x())};
+}
+
 Pose2 MujocoPlant::pose() const {
   const mjtNum* position = ChassisPosition();
   return {position[0], position[1], yaw_};

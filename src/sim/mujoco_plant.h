@@ -58,6 +58,13 @@ class MujocoPlant : public Plant, private MujocoSimulation {
     std::optional<std::array<WheelState, 4>> forces;
   };
 
+  /// Motion of the car along the ground, equal to the members of VehicleState.
+  struct PlanarMotion {
+    double speed = 0.0;     ///< [m/s]
+    double yaw_rate = 0.0;  ///< [rad/s]
+    double sideslip = 0.0;  ///< [rad]
+  };
+
   /// Initializes the car's position and velocity from `setup.start`, but not the spin of the
   /// wheels.
   explicit MujocoPlant(const PlantSetup& setup, TyreSupport support = TyreSupport::kContacts);
@@ -83,6 +90,8 @@ class MujocoPlant : public Plant, private MujocoSimulation {
   [[nodiscard]] const mjData& data() const { return *data_; }
   /// Returns the car's forward speed over the ground [m/s].
   [[nodiscard]] double Speed() const;
+  /// Returns the motion of the car along the ground.
+  [[nodiscard]] PlanarMotion Motion() const;
   /// Returns the aerodynamic drag of the car [N], which is positive if it opposes forward motion.
   [[nodiscard]] double Drag() const;
 

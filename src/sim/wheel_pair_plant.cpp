@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -115,6 +117,12 @@ class WheelPairPlant final : public MujocoPlant {
 }  // namespace
 
 std::unique_ptr<Plant> MakeWheelPairPlant(const PlantSetup& setup) {
+  if (setup.aids.any()) {
+    throw InputError(Problem{.key = "vehicle.aids",
+                             .message = fmt::format("{} has differential drive, whose motors turn "
+                                                    "each wheel at its own speed; remove this",
+                                                    setup.car.file())});
+  }
   if (setup.tyre == TyreLaw::kMagicFormula) {
     static_cast<void>(SteeredParts(setup.car, "tyre: magic_formula"));
   }

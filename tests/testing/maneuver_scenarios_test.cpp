@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tests/tolerance.h"
 #include "trackbed/testing/scenario_testing.h"
 
 // Tests the standard maneuvers on the BMW, as in docs/maneuvers.md.
@@ -50,6 +51,45 @@ TEST(SineWithDwellScenario, IsSteeringLimitedUnlessItsRateIsRaised) {
   const RunResult own = RunScenario(file, {"vehicle.steering_rate=0.4", "expect={}"});
   EXPECT_THAT(own.verdict.notes, testing::Contains(testing::MatchesRegex(
                                      "mujoco: steering limited \\([0-9]+ % of the time\\)")));
+}
+
+TEST(DriverAidScenarios, FailWithoutTheirAids) {
+  const RunResult braking =
+      RunScenario(Folder() / "abs_split_friction.yaml", {"vehicle.aids={}", "expect={}"});
+  EXPECT_GT(*braking.metrics[0].maneuver->Find("heading_deviation_max"), 1.0);
+  const RunResult steering =
+      RunScenario(Folder() / "esc_sine_with_dwell.yaml", {"vehicle.aids={}", "expect={}"});
+  EXPECT_EQ(steering.metrics[0].maneuver->passed, false);
+}
+
+TEST(DriverAidScenarios, LogTheStatesOfTheAids) {
+  const RunResult run = RunScenario(Folder() / "esc_sine_with_dwell.yaml",
+                                    {"drive.plants=[kinematic, mujoco]", "expect={}"});
+  EXPECT_THAT(run.verdict.notes,
+              testing::Contains("kinematic: ignores vehicle.aids; only the plants mujoco and "
+                                "mujoco:magic_formula have wheels that lock and spin"));
+  const Table log = ToTable(run.logs[1]);
+  double braked = 0.0;  // Time with a brake torque of stability control [s].
+  for (std::size_t row = 0; row + 1 < log.rows(); ++row) {
+    bool acts = false;
+    for (const char* wheel : {"fl", "fr", "rl", "rr"}) {
+      const int column = log.Find(std::string("esc_brake_torque_") + wheel + "_Nm");
+      ASSERT_GE(column, 0);
+      acts = acts || log.at(row, static_cast<std::size_t>(column)) > 0.0;
+    }
+    braked += acts ? 0.01 : 0.0;
+  }
+  const auto& measured = run.metrics[1].measured;
+  const auto metric = std::find_if(measured.begin(), measured.end(),
+                                   [](const auto& own) { return own.first == "aids.esc_time"; });
+  ASSERT_NE(metric, measured.end());
+  // The sum of the control periods of 0.01 s.
+  EXPECT_NEAR(std::get<double>(metric->second.value), braked, Tolerance(1e-9));
+  EXPECT_GT(braked, 0.5);
+  EXPECT_GE(log.Find("abs_active_rr"), 0);
+  EXPECT_GE(log.Find("yaw_rate_reference_radps"), 0);
+  EXPECT_LT(log.Find("differential_torque_Nm"), 0);
+  EXPECT_LT(ToTable(run.logs[0]).Find("abs_active_rr"), 0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "trackbed/core/table.h"
 #include "trackbed/path/path.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/sim/driver_aids.h"
 #include "trackbed/vehicle/state.h"
 
 namespace trackbed {
@@ -57,6 +58,8 @@ struct LogRow {
   std::optional<Pose2> measured;
   /// Diagnostic values of the controller's last update, in the order of RunLog::controller_columns.
   std::vector<double> controller;
+  /// States of the driver aids at the start of the control period; nullopt for a car without them.
+  std::optional<AidState> aids{};
   bool valid = true;  ///< False if the row lies in a gap of a recorded drive.
 };
 

@@ -6,6 +6,7 @@
 
 #include "trackbed/recording/recorded_drive.h"
 #include "trackbed/sim/car_model.h"
+#include "trackbed/sim/driver_aids.h"
 #include "trackbed/sim/plant_options.h"
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
@@ -24,6 +25,7 @@ struct ReplayOptions {
   double speed_gain = 20.0;
   TyreLaw tyre = TyreLaw::kAuto;  ///< Tyre model of the plant `mujoco`.
   SteeringInput input = SteeringInput::kActuator;
+  AidOptions aids{};  ///< Driver aids of the plant `mujoco`.
   World world{};
   /// Returns true to stop the prediction; called once per window.
   std::function<bool()> interrupted{};

@@ -20,6 +20,10 @@ struct LogContents {
   /// Whether the log has columns for the measured pose, which includes measurement noise.
   bool noise = false;
   bool wheels = false;  ///< Whether the log has tyre forces and slip.
+  bool abs = false;     ///< Whether the log has the states of anti-lock brakes.
+  bool esc = false;     ///< Whether the log has the states of stability control.
+  /// Whether the log has the torque of a locked or limited-slip differential.
+  bool differential = false;
   /// Whether the log has a column that states the validity of each row of a recorded drive.
   bool gaps = false;
   bool origin = false;  ///< Whether the log states the local origin of its coordinates.
@@ -31,8 +35,8 @@ struct LogContents {
 std::vector<std::string> LogColumns(const LogContents& contents);
 
 /// Returns the names of the columns that the log of a plant may have in the scenario. The names
-/// include the columns for the wheels, unless the plant is `kinematic`, `single_track` or
-/// `recorded`, which have no wheels.
+/// include the columns for the wheels and the driver aids, unless the plant is `kinematic`,
+/// `single_track` or `recorded`, which have no wheels.
 std::vector<std::string> LogColumns(const Scenario& scenario, const std::string& plant);
 
 }  // namespace trackbed

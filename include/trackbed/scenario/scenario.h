@@ -20,6 +20,7 @@
 #include "trackbed/scenario/maneuver.h"
 #include "trackbed/scenario/record.h"
 #include "trackbed/scenario/track_options.h"
+#include "trackbed/sim/driver_aids.h"
 #include "trackbed/sim/plant_options.h"
 #include "trackbed/world/world.h"
 
@@ -44,6 +45,7 @@ struct VehicleSpec {
   std::optional<std::string> tyre_file_rear{};
   /// Maximum steering rate of the road wheels [rad/s]; overrides the limit in the car model.
   std::optional<double> steering_rate;
+  std::optional<AidOptions> aids{};  ///< Driver aids of the plant `mujoco`; nullopt: none.
 };
 
 /// The initial state of the car. Values that are not set are derived from the mission.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "trackbed/sim/car_model.h"
+#include "trackbed/sim/driver_aids.h"
 #include "trackbed/sim/plant_options.h"
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/state.h"
@@ -38,6 +39,9 @@ class Plant {
   /// Returns the present state of the vehicle. In plants that simulate forces, the returned
   /// accelerations and wheel forces are those of the last step.
   [[nodiscard]] virtual VehicleState Observe() const = 0;
+
+  /// Returns the states of the driver aids; nullopt for a car without driver aids, as by default.
+  [[nodiscard]] virtual std::optional<AidState> aids() const { return std::nullopt; }
 
   /// Return only the pose and only the obstacle force of Observe(); unlike Observe(), these
   /// functions are fast enough to be called in every physics step.
@@ -74,6 +78,7 @@ struct PlantSetup {
   StartState start;
   TyreLaw tyre = TyreLaw::kAuto;
   SteeringInput steering = SteeringInput::kActuator;
+  AidOptions aids{};  ///< Driver aids, which only the MuJoCo plant simulates.
   /// State of the car's steering response after earlier commands. The filter must have the same
   /// timestep as the car. If `filter` is nullopt, the steering response starts in its steady state
   /// at the initial wheel angle.
@@ -123,6 +128,10 @@ inline constexpr const char* kRecordedPlant = "recorded";
 /// to their largest brake torques in the model. Drive and brake torques are clamped to the model's
 /// limits. The torques are computed from the car's mass without payload. The angle of the steering
 /// actuator is updated in every physics step, and changes at most at the model's rate limit.
+///
+/// Driver aids (PlantSetup::aids) act in the MuJoCo plant on Magic Formula tyres. `kinematic` and
+/// `single_track` ignore driver aids, because their wheels neither lock nor spin. MakePlant throws
+/// InputError for driver aids of a car on contact tyres, and of a vehicle with differential drive.
 ///
 /// A vehicle with differential drive can only be simulated by the plants `kinematic` and `mujoco`,
 /// the latter with the tyre law kContact. For a vehicle with differential drive, MakePlant throws

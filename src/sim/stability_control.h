@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+
+#include "trackbed/sim/car_model.h"
+#include "trackbed/sim/driver_aids.h"
+
+namespace trackbed {
+
+/// The motion of a car that stability control measures.
+struct CarMotion {
+  double speed = 0.0;     ///< Speed of the rear axle along x [m/s].
+  double yaw_rate = 0.0;  ///< Yaw rate [rad/s].
+  double sideslip = 0.0;  ///< Sideslip angle at the center of gravity [rad].
+  double steering = 0.0;  ///< Steering angle of the bicycle model at the front wheels [rad].
+  double road = 1.0;      ///< Friction factor of the road, the mean over the wheels' loads.
+};
+
+/// Electronic stability control (Rajamani 2012, ch. 8; van Zanten 2000).
+///
+/// The driver asks for the yaw rate of the linear single-track model in a steady turn,
+///   r_s = v tan(delta)/(L + K v^2),  limited to |r_s| <= 0.85 mu g/v,
+/// with the understeer gradient K of the unladen car, and mu = friction_lateral times the road's
+/// factor. The reference r follows r_s with a lag equal to the delay of the linear single-track
+/// model at low frequencies.
+/// The control acts if the yaw rate leaves the band of 0.05 mu g/v about the reference, or if the
+/// sideslip angle exceeds atan(0.02 s^2/m mu g) while the car turns out of its course. The excess e
+/// asks for the yaw moment I_z e/0.02 s. Against oversteer, the moment comes from the outer front
+/// wheel, against understeer from the inner rear wheel. While a wheel brakes, the drive torque is
+/// cut. The control does not act below the speed sqrt(g L), nor in reverse.
+class StabilityControl {
+ public:
+  StabilityControl(const CarModel& car, double gravity);
+
+  /// Updates the brake torques for a step of `timestep` [s].
+  void Update(const CarMotion& motion, double timestep);
+
+  /// Returns the state of the control. The brake torques are those that the control commands.
+  [[nodiscard]] const EscState& state() const { return state_; }
+
+ private:
+  /// Returns the yaw moment that the control asks for [N m], positive to the left.
+  [[nodiscard]] double Moment(const CarMotion& motion) const;
+
+  const VehicleParams& params_;
+  std::array<double, 2> largest_;  // Largest brake torque of a front and a rear wheel [N m].
+  double gravity_;
+  double understeer_;  // K [rad s^2/m]
+  EscState state_;
+  bool runs_ = false;  // Whether the reference has a value of the step before.
+};
+
+}  // namespace trackbed

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "trackbed/vehicle/magic_formula.h"
+
+namespace trackbed {
+
+/// The motion of a wheel and the forces on its tyre in the present step.
+struct WheelMotion {
+  double rolling_speed = 0.0;       ///< Forward speed v of the hub [m/s].
+  double spin = 0.0;                ///< Angular speed omega about the spin axis [rad/s].
+  double load = 0.0;                ///< Normal force F_z [N], >= 0.
+  double longitudinal_force = 0.0;  ///< Force F_x on the car along the wheel's heading [N].
+  double road = 1.0;                ///< Friction factor of the road under the wheel.
+};
+
+/// The constants of a wheel that its slip control knows.
+struct BrakedWheel {
+  double radius = 0.0;   ///< Radius R [m].
+  double inertia = 0.0;  ///< Moment of inertia I about the spin axis [kg m^2].
+  double largest = 0.0;  ///< Largest brake torque [N m].
+  /// Brake slip with the largest force on a dry road, and this force divided by the load.
+  double peak_slip = 0.0;
+  double peak_friction = 0.0;
+  double slowest = 0.0;  ///< Speed below which the control does not act [m/s].
+};
+
+/// Returns the constants of a wheel whose tyre carries `load` [N] at rest. The peak is searched up
+/// to a brake slip of 0.3.
+BrakedWheel MakeBrakedWheel(const MagicFormula& tyre, double load, double radius, double inertia,
+                            double largest);
+
+/// Controls the brake slip of one wheel (van Zanten 2000).
+///
+/// The target of the brake slip is kappa* = kappa_p (0.1 + 0.9 u), with the slip kappa_p of the
+/// largest force on a dry road, and u the used friction |F_x|/F_z divided by the largest one on a
+/// dry road. A road with the friction factor lambda scales the curve u(kappa) of the tyre by lambda
+/// along both axes. Below the peak of this curve, the target exceeds the slip, and beyond the peak,
+/// the slip exceeds the target. The control therefore finds the peak without knowing lambda. In a
+/// turn, the lateral slip lowers F_x and with it the target, which keeps side force.
+///
+/// With the torque T = |F_x| R - I omega', the slip approaches its target with the time constant of
+/// 20 ms. T is a limit on the driver's torque. The limit rises and falls at the rates of a
+/// hydraulic unit.
+class WheelSlipControl {
+ public:
+  explicit WheelSlipControl(const BrakedWheel& wheel) : wheel_(wheel) {}
+
+  /// Updates the limit for a step of `timestep` [s] in which the brake torque `wanted` [N m] is
+  /// commanded. `acceleration` is the car's acceleration along x [m/s^2]. The used friction counts
+  /// as at least `least_use`, from 0 to 1.
+  void Update(const WheelMotion& motion, double wanted, double acceleration, double least_use,
+              double timestep);
+  /// Ends the control of the wheel.
+  void Release() { active_ = false; }
+
+  /// Whether the control limits the brake torque.
+  [[nodiscard]] bool active() const { return active_; }
+  /// Returns the largest permitted brake torque [N m]; infinite if the control is not active.
+  [[nodiscard]] double limit() const;
+
+ private:
+  BrakedWheel wheel_;
+  bool active_ = false;
+  double limit_ = 0.0;  // [N m]
+};
+
+/// Moves the torque `from` [N m] toward `to` at the rates of a hydraulic unit, which raises the
+/// brake torque from 0 to `largest` in 0.1 s and lowers it in 0.05 s.
+double MoveBrakeTorque(double from, double to, double largest, double timestep);
+
+}  // namespace trackbed
