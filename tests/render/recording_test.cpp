@@ -43,6 +43,23 @@ TEST_F(RecordingTest, PosesTheCarBetweenRows) {
   EXPECT_NEAR(recording.plants[0].Heading(time), 0.6 * time, Tolerance(1e-12));
 }
 
+TEST_F(RecordingTest, ReadsTheDriverAidsThatIntervene) {
+  WritePlant(folder_.path(), "mujoco", 1.0, [](double) { return CarPlace{}; });
+  EXPECT_FALSE(ReadRecording(folder_.path()).ReadingsAt(0.5).aids.has_value());
+  for (const std::string wheel : {"fl", "fr", "rl", "rr"}) {
+    SetLogColumn(folder_.path(), "mujoco", "abs_active_" + wheel, [&](double time) {
+      return wheel == "fr" && time > 0.39 && time < 0.81 ? 1.0 : 0.0;
+    });
+    SetLogColumn(folder_.path(), "mujoco", "esc_brake_torque_" + wheel + "_Nm",
+                 [&](double time) { return wheel == "rl" && time > 0.59 ? 30.0 : 0.0; });
+  }
+  const Recording recording = ReadRecording(folder_.path());
+  EXPECT_EQ(recording.ReadingsAt(0.3).aids, "-");
+  EXPECT_EQ(recording.ReadingsAt(0.5).aids, "ABS");
+  EXPECT_EQ(recording.ReadingsAt(0.7).aids, "ABS ESC");
+  EXPECT_EQ(recording.ReadingsAt(0.9).aids, "ESC");
+}
+
 TEST_F(RecordingTest, TurnsTheShortWayWhenTheQuaternionChangesSign) {
   // The half angle of the rotation passes pi between 0.5 s and 1 s. The cosine and the sine of the
   // half angle are continuous, so the quaternion q does not jump. Negating the second row makes q
