@@ -90,11 +90,13 @@ NumericName ParseNumeric(const std::string& name) {
                                            : NumericName{name};
 }
 
+/// Returns the numbers of a <numeric> element; empty if the model has no such element. Every car
+/// has a steering offset, which is 0 if the model has no such element.
 std::vector<double> NumericData(const CarModel& car, const std::string& name) {
   const mjModel& model = *car.get();
   const int id = mj_name2id(&model, mjOBJ_NUMERIC, name.c_str());
   if (id < 0) {
-    return {};
+    return name == kSteeringOffset ? std::vector<double>{0.0} : std::vector<double>{};
   }
   const mjtNum* data = model.numeric_data + model.numeric_adr[id];
   return {data, data + model.numeric_size[id]};
@@ -126,6 +128,7 @@ std::string NumericInModel(const CarModel& car, const std::string& name) {
   for (const auto& [own, range] : Ranges()) {
     known.push_back(own);
   }
+  known.emplace_back(kSteeringOffset);
   Fail(car, name,
        "no such number in the model: " + UnknownName(name, known) +
            "; a numeric must stand under <custom> with its value of now");

@@ -51,11 +51,38 @@ std::vector<Vec2> ReadCurve(const Numerics& numerics) {
   return curve;
 }
 
+/// Adds the numeric steering_offset to the angles of the curve. Without a curve, the offset is
+/// added to the commanded angles up to the limit.
+void AddOffset(const Numerics& numerics, double limit, std::vector<Vec2>& curve) {
+  const std::string name = "steering_offset";
+  double offset = 0.0;
+  numerics.Read(name, offset);
+  if (!(std::abs(offset) < std::abs(limit))) {
+    numerics.AddError(name, fmt::format("must be less than the steering limit of {:.4g} rad to "
+                                        "either side, found {:.4g}",
+                                        std::abs(limit), offset));
+    return;
+  }
+  if (offset == 0.0) {
+    return;
+  }
+  if (curve.empty()) {
+    // The monotone curve through points of a line is this line.
+    for (const double part : {-1.0, -1.0 / 3.0, 1.0 / 3.0, 1.0}) {
+      curve.emplace_back(part * std::abs(limit), part * std::abs(limit));
+    }
+  }
+  for (Vec2& point : curve) {
+    point.y() += offset;
+  }
+}
+
 }  // namespace
 
 SteeringResponse ReadSteeringResponse(const Numerics& numerics, double limit) {
   SteeringResponse response;
   response.curve = ReadCurve(numerics);
+  AddOffset(numerics, limit, response.curve);
   ReadWithin(numerics, "steering_dead_time", kMaxResponseTime, "s", response.dead_time);
   ReadWithin(numerics, "steering_time_constant", kMaxResponseTime, "s", response.time_constant);
   ReadWithin(numerics, "steering_backlash", 2.0 * std::abs(limit), "rad", response.backlash);

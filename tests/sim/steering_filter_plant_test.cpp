@@ -98,6 +98,24 @@ std::string Problems(const Numerics& numerics, const std::string& curve = kCurve
   return "accepted";
 }
 
+TEST(SteeringFilterPlant, AddsTheOffsetOfTheFile) {
+  const SteeringResponse without =
+      CarWith("bmw320i", {{"steering_offset", 0.0}}).params().steering_response;
+  EXPECT_TRUE(without.ideal());
+  const CarModel car = CarWith("bmw320i", {{"steering_offset", 0.012}});
+  const MonotoneCurve curve(car.params().steering_response.curve);
+  for (const double command : {-1.0, -0.3, 0.0, 0.1, 0.9}) {
+    EXPECT_NEAR(curve.At(command), command + 0.012, Tolerance(1e-15)) << command;
+  }
+  Scene scene = Responding().scene();
+  scene.xml.insert(scene.xml.find("</custom>"),
+                   "<numeric name=\"steering_offset\" data=\"-0.02\"/>");
+  const CarModel both(scene, "bmw320i");
+  const SteeringResponse response = both.params().steering_response;
+  EXPECT_NEAR(response.curve[1].x(), -0.1, Tolerance(1e-15));
+  EXPECT_NEAR(response.curve[1].y(), -0.11, Tolerance(1e-15));
+}
+
 TEST(SteeringFilterPlant, RefusesNumbersOutOfRange) {
   EXPECT_EQ(Problems({}), "accepted");
   EXPECT_THAT(Problems({{"steering_dead_time", -0.1}}),
@@ -106,6 +124,9 @@ TEST(SteeringFilterPlant, RefusesNumbersOutOfRange) {
               testing::HasSubstr("steering_time_constant: must be between 0 and 10 s, found 11"));
   EXPECT_THAT(Problems({{"steering_backlash", 9.0}}),
               testing::HasSubstr("steering_backlash: must be between 0 and 2.132 rad, found 9"));
+  EXPECT_THAT(Problems({{"steering_offset", -1.1}}),
+              testing::HasSubstr("steering_offset: must be less than the steering limit of 1.066 "
+                                 "rad to either side, found -1.1"));
   EXPECT_THAT(
       Problems({}, "0 0 1 1 2 2"),
       testing::HasSubstr("steering_curve: has 6 numbers; must be pairs of commanded angle"));

@@ -19,10 +19,16 @@
 ///   steering_rate   rate limit of the actuator `steer` [rad/s]
 ///   steering_limit  angle limit of the actuator `steer` [rad]
 ///   drive_torque    largest drive torque on all driven wheels together [N m]
+///   steering_offset constant angle of the road wheels that is added to the commanded angle, or to
+///                   the angles of `steering_curve` [rad], positive to the left; 0 if the model has
+///                   no such number
 ///
 /// The name `p_ky1_front` is also valid if the model has only the parameter `p_ky1`, which applies
 /// to both axles.
 namespace trackbed {
+
+/// Name of the parameter steering_offset.
+inline constexpr const char* kSteeringOffset = "steering_offset";
 
 struct CarParameter {
   std::string name;
