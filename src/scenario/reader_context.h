@@ -2,6 +2,8 @@
 
 #include <yaml-cpp/mark.h>
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,10 @@ struct ReaderContext {
   std::vector<Problem> problems;
   // Dotted keys whose values could not be read, because the file has a problem there.
   std::vector<std::string> unread;
+  // Returns the factor on default lengths that follow from the size of the car (car_lengths.h); not
+  // called if the file gives all of these lengths.
+  std::function<double()> car_length_scale{};
+  std::optional<double> length_scale{};  // the result of the first call
 
   /// Adds a problem of a key whose value is at position `mark` of the file. If the option --set has
   /// set the key, the problem refers to --set instead of the file position.

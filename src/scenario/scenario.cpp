@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "src/scenario/car_lengths.h"
 #include "src/scenario/check_requirements.h"
 #include "src/scenario/commonroad_yaml.h"
 #include "src/scenario/cross_check.h"
@@ -112,6 +113,8 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   Scenario scenario;
   scenario.folder = folder;
   scenario.asset_folders = asset_folders;
+  // The section `vehicle` is visited before the section `plan`.
+  context.car_length_scale = [&] { return CarLengthScale(scenario); };
   YamlReader reader(context, root, "");
   Visit(reader, scenario);
   reader.Finish();

@@ -18,7 +18,11 @@ struct PlanLayers {
   std::optional<double>& max_waypoint_miss;
 };
 
-inline constexpr Key kPlan{"plan", "", "planner; without it there is no path to follow"};
+inline constexpr Key kPlan{"plan", "",
+                           "planner; without it there is no path to follow. Default distances "
+                           "from obstacles, cells, margins and costs in meters are those of cars "
+                           "with a length of 4 m or more; for smaller cars they are in "
+                           "proportion to the length"};
 inline constexpr Key kAvoid{"avoid", "",
                             "local planner: reroutes the path around static obstacles"};
 inline constexpr Key kReplan{"replan", "", "replanning during the run"};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "src/scenario/car_lengths.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/classic_locale.h"
 #include "trackbed/core/file_name.h"
@@ -205,9 +206,26 @@ bool YamlReader::ReadNumber(const YAML::Node& node, const std::string& dotted, R
   return true;
 }
 
+double YamlReader::DefaultOf(const Key& key, Range range, double value) const {
+  const bool is_in_plan = key_ == "plan" || key_.starts_with("plan.");
+  if (!context_.car_length_scale || !is_in_plan) {
+    return value;
+  }
+  const YAML::Node method = static_cast<const YAML::Node&>(node_)[kMethod.name];
+  if (!FollowsCarSize(key, method && method.IsScalar() ? method.Scalar() : "")) {
+    return value;
+  }
+  if (!context_.length_scale) {
+    context_.length_scale = context_.car_length_scale();
+  }
+  return std::clamp(value * *context_.length_scale, range.min, range.max);
+}
+
 void YamlReader::Field(const Key& key, double& value, Need need, Range range) {
   if (const auto node = Take(key.name, need)) {
     ReadNumber(*node, Dotted(key.name), WithinReason(key, range), value);
+  } else {
+    value = DefaultOf(key, WithinReason(key, range), value);
   }
 }
 

@@ -73,6 +73,8 @@ class YamlReader final : public KeyVisitor {
   [[nodiscard]] std::string Dotted(const char* key) const;
   std::optional<YAML::Node> Take(const char* key, Need need);
   bool CheckMap(const YAML::Node& node, const std::string& dotted);
+  /// Returns the default of a number that the file does not have.
+  [[nodiscard]] double DefaultOf(const Key& key, Range range, double value) const;
   bool ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value);
   bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);
   void AddError(const YAML::Node& node, const std::string& dotted, std::string message);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "trackbed/options/key_visitor.h"
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed {
+
+/// Length of the smallest car for which the default lengths of planners are meant [m].
+inline constexpr double kFullSizeCar = 4.0;
+
+/// Returns whether the default of a key of the section `plan` is a length that follows from the
+/// size of the car: distances from obstacles, cells and margins of searches, and costs as a path
+/// length. `method` is the method of the key's section. Lengths that describe the route, the file
+/// of a path or a standard maneuver do not follow from the size of the car.
+bool FollowsCarSize(const Key& key, const std::string& method);
+
+/// Returns the factor on these default lengths: min(1, length/kFullSizeCar). Returns 1 if
+/// the car cannot be loaded, which later causes its own error. Cost: the compilation of the model,
+/// except for the default car.
+double CarLengthScale(const Scenario& scenario);
+
+}  // namespace trackbed
