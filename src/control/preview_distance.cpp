@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "src/control/tracking.h"
+#include "src/control/turn_round.h"
 
 namespace trackbed {
 namespace {
@@ -158,7 +159,11 @@ double ReturnDistance(const VehicleParams& vehicle, double speed, double offset)
   const double slowest = kMinSpeed * vehicle.wheelbase * vehicle.steering_rate;
   const double curvature_rate =
       vehicle.steering_rate / (vehicle.wheelbase * std::max(std::abs(speed), slowest));
-  return kShare * std::cbrt(std::abs(offset) / curvature_rate);
+  const double turning = kShare * std::cbrt(std::abs(offset) / curvature_rate);
+  // The arc to a point at the distance R has the curvature 2 e/R^2.
+  const double gripping = std::abs(speed) * std::sqrt(2.0 * std::abs(offset) /
+                                                      (kReturnGripShare * LateralGrip(vehicle)));
+  return std::max(turning, gripping);
 }
 
 double ReturnDistance(const ControlInput& input) {

@@ -56,10 +56,12 @@ double ResponseTime(const VehicleParams& vehicle, double speed, double period);
 double PreviewDistance(const ControlInput& input, double delay = 0.0);
 
 /// Returns the shortest preview distance [m] with which a rate-limited car at `speed` returns from
-/// `offset` [m] to its path without oscillation. At the maximum steering rate, the curvature of the
-/// car's track changes by c = omega/(L v) per meter. Returning from an offset e takes a distance
-/// proportional to cbrt(e/c). If `speed` is below 5/4 L omega, the function uses 5/4 L omega
-/// instead.
+/// `offset` [m] to its path without oscillation and without sliding. At the maximum steering rate,
+/// the curvature of the car's track changes by c = omega/(L v) per meter. Returning from an offset
+/// e takes a distance proportional to cbrt(e/c). If `speed` is below 5/4 L omega, the function uses
+/// 5/4 L omega instead. The result is at least v sqrt(2 e/a): a car that steers on an arc toward a
+/// point at the distance R has the lateral acceleration 2 e v^2/R^2, which must not exceed a, the
+/// fraction kReturnGripShare of LateralGrip (turn_round.h).
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset);
 
 /// Computes ReturnDistance (see above) for the car's present speed and its present offset from the

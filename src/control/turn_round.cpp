@@ -12,11 +12,20 @@
 namespace trackbed {
 namespace {
 
-/// Fraction of the lateral grip that a car uses in the steady turn.
-constexpr double kGripShare = 0.5;
+/// Returns the steering angle [rad] of the steady turn in which the car uses the fraction `share`
+/// of its lateral grip, but at most the steering limit.
+double SteeringAtShare(const VehicleParams& vehicle, double speed, double share) {
+  const double tightest = CurvatureForSteering(vehicle, vehicle.steering_limit);
+  const double allowed = share * LateralGrip(vehicle);
+  if (vehicle.kind != VehicleKind::kSteered || !(speed * speed * tightest > allowed)) {
+    return vehicle.steering_limit;
+  }
+  const double steering = SteadyTurnOn(vehicle, allowed / (speed * speed), speed).steering;
+  return std::clamp(std::abs(steering), 0.0, vehicle.steering_limit);
+}
 
-/// Returns the lateral acceleration [m/s^2] at which the car slides or its inner wheels lift;
-/// infinite if unknown.
+}  // namespace
+
 double LateralGrip(const VehicleParams& vehicle) {
   double grip = std::numeric_limits<double>::infinity();
   if (vehicle.friction_lateral > 0.0) {
@@ -32,26 +41,12 @@ double LateralGrip(const VehicleParams& vehicle) {
   return grip;
 }
 
-/// Returns the steering angle [rad] of the steady turn in which the car uses the fraction `share`
-/// of its lateral grip, but at most the steering limit.
-double SteeringAtShare(const VehicleParams& vehicle, double speed, double share) {
-  const double tightest = CurvatureForSteering(vehicle, vehicle.steering_limit);
-  const double allowed = share * LateralGrip(vehicle);
-  if (vehicle.kind != VehicleKind::kSteered || !(speed * speed * tightest > allowed)) {
-    return vehicle.steering_limit;
-  }
-  const double steering = SteadyTurnOn(vehicle, allowed / (speed * speed), speed).steering;
-  return std::clamp(std::abs(steering), 0.0, vehicle.steering_limit);
-}
-
-}  // namespace
-
 double SteeringAtGrip(const VehicleParams& vehicle, double speed) {
   return SteeringAtShare(vehicle, speed, 1.0);
 }
 
 double TurnRoundLimit(const VehicleParams& vehicle, double speed) {
-  return SteeringAtShare(vehicle, speed, kGripShare);
+  return SteeringAtShare(vehicle, speed, kReturnGripShare);
 }
 
 std::optional<double> TurnRound::Steer(const ControlInput& input, double u) {

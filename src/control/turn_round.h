@@ -6,6 +6,15 @@
 
 namespace trackbed {
 
+/// Returns the lateral acceleration [m/s^2] at which the car slides or its inner wheels lift, on a
+/// road with the friction factor 1: the smaller one of mu_y g and g b/(2 h), where b is the mean
+/// track and h the height of the center of gravity. Infinite if unknown.
+double LateralGrip(const VehicleParams& vehicle);
+
+/// Fraction of the lateral grip that a car uses while it returns to its path. A step of the
+/// steering angle makes an undamped car overshoot the steady lateral acceleration by a factor of 2.
+inline constexpr double kReturnGripShare = 0.5;
+
 /// Returns the largest steering angle [rad] that a geometric control law commands at `speed`: the
 /// steering limit, or the angle of the steady turn that uses the whole lateral grip of
 /// TurnRoundLimit. Beyond this angle, the tyres slide without more lateral force, and a tall car
@@ -14,10 +23,7 @@ double SteeringAtGrip(const VehicleParams& vehicle, double speed);
 
 /// Returns the largest steering angle [rad] with which a car may turn round at `speed` [m/s]: the
 /// steering limit, or the angle of the steady turn in which the car uses half of its lateral grip.
-/// The lateral grip is the smaller one of mu_y g and g b/(2 h), at which the inner wheels lift;
-/// b is the mean track and h the height of the center of gravity. A step of the steering angle
-/// makes an undamped car overshoot the steady lateral acceleration by a factor of 2, hence half. A
-/// car of unknown grip uses its steering limit.
+/// The fraction is kReturnGripShare of LateralGrip. A car of unknown grip uses its steering limit.
 double TurnRoundLimit(const VehicleParams& vehicle, double speed);
 
 /// Turns a car round whose target lies behind it.

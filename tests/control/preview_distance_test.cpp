@@ -187,5 +187,19 @@ TEST(PreviewDistance, KeepsTheCarInASharpSlowTurn) {
             1.4 * fast);
 }
 
+TEST(ReturnDistance, KeepsTheArcToThePathWithinHalfOfTheGrip) {
+  // The wheels turn so fast that only the grip limits the return. From the offset e, the arc to a
+  // point of the path at the distance R has the curvature 2 e/R^2.
+  VehicleParams car = ReferenceCar();
+  car.steering_rate = 1e6;
+  EXPECT_LT(ReturnDistance(car, 16.0, 2.0), 5.0);  // unknown grip
+  car.friction_lateral = 0.9;
+  for (const double offset : {0.1, -0.5, 3.0}) {
+    const double distance = ReturnDistance(car, 16.0, offset);
+    const double curvature = 2.0 * std::abs(offset) / (distance * distance);
+    EXPECT_NEAR(16.0 * 16.0 * curvature, 0.45 * kGravity, Tolerance(1e-9));
+  }
+}
+
 }  // namespace preview_distance_test
 }  // namespace trackbed
