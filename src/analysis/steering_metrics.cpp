@@ -42,6 +42,25 @@ std::vector<double> PathCurvatures(const RunLog& log, const Plan& plan, std::siz
   return curvatures;
 }
 
+/// Removes the jumps of a signal at changes of plan: shifts the values from each such row on so
+/// that the first of them equals the value before. A new plan every half second makes a wave of
+/// jumps, which does not pass through the loop of controller and car.
+void RemoveJumps(const RunLog& log, std::vector<double>& values) {
+  auto next = log.changes.begin();
+  double shift = 0.0;
+  double before = 0.0;  // value of the previous row, as given
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double given = values[i];
+    bool is_new = false;
+    for (; next != log.changes.end() && next->time <= log.rows[i].state.time; ++next) {
+      is_new = i > 0;
+    }
+    shift += is_new ? before - given : 0.0;
+    values[i] += shift;
+    before = given;
+  }
+}
+
 /// Returns the means of each `count` consecutive values. Values that are left at the end are
 /// ignored.
 std::vector<double> Means(const std::vector<double>& values, std::size_t count) {
@@ -88,6 +107,9 @@ SteeringSignals MakeSignals(const RunLog& log, const Plan& plan, const VehiclePa
     const Vec2 error = measured.position() - pose.position();
     aside.push_back(std::cos(pose.yaw) * error.y() - std::sin(pose.yaw) * error.x());
     turned.push_back(AngleDifference(measured.yaw, pose.yaw));
+  }
+  for (std::vector<double>* signal : {&command, &path, &lateral, &cubic}) {
+    RemoveJumps(log, *signal);
   }
   SteeringSignals signals;
   const double period = rows > 1 ? (log.rows[rows - 1].state.time - log.rows[0].state.time) /

@@ -16,7 +16,8 @@ double SteeringReversals(const RunLog& log, const VehicleParams& vehicle);
 /// Finds the largest sustained oscillation of the steering command that neither the path nor the
 /// measurement noise explains (src/analysis/oscillation.h). The amplitude is 0 if the command does
 /// not oscillate, or oscillates within the tolerance of ToleratedAmplitude. Returns nullopt for a
-/// run without path. The log after the first contact with an obstacle is ignored.
+/// run without path. Jumps of the command at changes of plan do not count. The log after the first
+/// contact with an obstacle is ignored.
 std::optional<OscillationMetrics> MeasureOscillation(const RunLog& log, const Plan& plan,
                                                      const VehicleParams& vehicle);
 

@@ -217,6 +217,20 @@ TEST(MeasureOscillation, EndsAtTheFirstContact) {
   EXPECT_EQ(MeasureOscillation(log, Plan{}, Car())->amplitude, 0.0);
 }
 
+// A replanner makes a new plan every half second, and the command jumps at each change.
+TEST(MeasureOscillation, IgnoresJumpsAtChangesOfPlan) {
+  RunLog log = Straight(5.0, [](double t) { return 0.1 * (2.0 * t - std::floor(2.0 * t + 1e-9)); });
+  RunLog sine = Straight(5.0, Sine(0.1, 1.3));
+  EXPECT_GT(MeasureOscillation(log, Plan{}, Car())->amplitude, 0.0);
+  for (int i = 1; i < 60; ++i) {
+    log.changes.push_back({0.5 * i - 1e-9, 0.0, Plan{}});
+    sine.changes.push_back({0.5 * i - 1e-9, 0.0, Plan{}});
+  }
+  EXPECT_EQ(MeasureOscillation(log, Plan{}, Car())->amplitude, 0.0);
+  // One of 25 steps of the sine is missing, which changes its amplitude by 4 % at most.
+  EXPECT_NEAR(MeasureOscillation(sine, Plan{}, Car())->amplitude, 0.1, Tolerance(0.014));
+}
+
 TEST(MeasureOscillation, IsOnlyOfRunsWithAPathAndOfCarsThatMove) {
   EXPECT_EQ(MeasureOscillation(Straight(0.0, Sine(0.1, 1.0)), Plan{}, Car())->amplitude, 0.0);
   RunLog log = Straight(5.0, Sine(0.1, 1.0));
