@@ -154,10 +154,7 @@ const std::vector<PathProperty>& PathProperties() {
          return path.plan.reference.path.length();
        }},
       {"duration_s", "Duration of the plan", "s",
-       [](const PlannedPath& path) -> std::optional<double> {
-         const Reference& reference = path.plan.reference;
-         return reference.speed.TimeAt(reference.path.length());
-       }},
+       [](const PlannedPath& path) -> std::optional<double> { return path.plan.Duration(); }},
       {"curvature_max_radpm", "Maximum curvature of the plan", "rad/m",
        [](const PlannedPath& path) -> std::optional<double> {
          return MaxCurvature(SegmentsOf(path));

@@ -47,8 +47,8 @@ int RunPlanVerb(const PlanOptions& options) {
   }
   if (!options.scenario.quiet) {
     const double length = plan.reference.path.length();
-    Print("{}: planned {:.3f} m in {:.2f} s, in {}\n", scenario.name, length,
-          plan.reference.speed.TimeAt(length), out.string());
+    Print("{}: planned {:.3f} m in {:.2f} s, in {}\n", scenario.name, length, plan.Duration(),
+          out.string());
     Print("{}", Lines{DiagnosticsText(plan)});
     if (const auto miss = LargestWaypointMiss(plan.reference.path, plan.waypoints)) {
       Print("  largest distance from a waypoint: {:.4g} m ({})\n", miss->distance,

@@ -116,7 +116,7 @@ std::optional<Projection> LoopCore::FollowPlan(const VehicleState& state, bool a
   if (at_rest && sequencer_.Advance(state)) {
     tracking = sequencer_.Project(state);
   }
-  sequencer_.stationary_steer().Update(state.steering_actuator);
+  sequencer_.stationary_steer().Update(state.steering_actuator, state.time);
   if (!sequencer_.stationary_steer().InProgress()) {
     command_.gear = PlanGear(sequencer_.plan());
   }
@@ -160,7 +160,7 @@ ControlInput LoopCore::Input() const {
                      .state = state_,
                      .station = sequencer_.StationFor(state_),
                      .period = config_.control_period,
-                     .plan_time = state_.time - sequencer_.start_time(),
+                     .plan_time = std::max(0.0, state_.time - sequencer_.start_time()),
                      .speed_gain = config_.speed.gain};
   if (row_.measured) {
     input.state.pose = *row_.measured;

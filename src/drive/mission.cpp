@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -35,6 +36,22 @@ void NoteSlowTurns(FeasiblePlan& plan, double speed) {
     plan.AddNote(fmt::format("speed reduced to {:.3g} m/s in a turn at s = {:.4g} m",
                              slowest->speed, slowest->from));
   }
+}
+
+/// Adds a note if plans that are made on the way would lose stops of the plan.
+void NoteStops(FeasiblePlan& plan, const Scenario& scenario) {
+  std::vector<double> stations = plan->stops;
+  for (const PlannedWait& wait : plan->waits) {
+    stations.push_back(wait.s);
+  }
+  if (stations.empty() || (!scenario.plan->avoid && !scenario.plan->replan)) {
+    return;
+  }
+  std::sort(stations.begin(), stations.end());
+  stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
+  plan.AddNote(
+      fmt::format("plans that {} makes around obstacles do not stop or wait at s = {:.4g} m",
+                  scenario.plan->avoid ? "plan.avoid" : "plan.replan", fmt::join(stations, ", ")));
 }
 
 /// Adds the notes on the file of the track or of the roads to the plan.
@@ -238,6 +255,7 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
   }
   NoteSlowTurns(plan, request.speed.speed);
   NoteTurnRound(plan, vehicle, start, scenario.control.speed, known);
+  NoteStops(plan, scenario);
   if (!scenario.plan->avoid) {
     if (!scenario.plan->replan) {
       NoteObstacle(plan, vehicle, known);

@@ -12,6 +12,32 @@
 
 namespace trackbed {
 
+namespace {
+
+/// Returns the waits between two stations, counted from the first.
+std::vector<PlannedWait> WaitsWithin(const Plan& plan, const Stations& stretch) {
+  // Tolerance between the station of a wait and that of its stop, as in SplitIntoLegs [m].
+  constexpr double kSameStation = 1e-9;
+  std::vector<PlannedWait> waits;
+  for (const PlannedWait& wait : plan.waits) {
+    if (std::abs(wait.s - stretch.from) <= kSameStation) {
+      waits.push_back({0.0, wait.duration});
+    }
+  }
+  return waits;
+}
+
+/// Returns how long the car waits at the start of the plan [s].
+double WaitAtStart(const Plan& plan) {
+  double duration = 0.0;
+  for (const PlannedWait& wait : WaitsWithin(plan, {0.0, 0.0})) {
+    duration += wait.duration;
+  }
+  return duration;
+}
+
+}  // namespace
+
 std::deque<Plan> SplitIntoSegments(const Plan& plan) {
   const std::vector<Stations> stretches = SplitIntoLegs(plan.reference.path, plan.stops);
   if (stretches.size() == 1) {
@@ -21,6 +47,7 @@ std::deque<Plan> SplitIntoSegments(const Plan& plan) {
   for (const Stations& stretch : stretches) {
     Plan& own = segments.emplace_back(plan);
     own.stops.clear();
+    own.waits = WaitsWithin(plan, stretch);
     own.reference = Excerpt(plan.reference, stretch);
     own.schedule_speed = Excerpt(plan.schedule_speed, stretch);
     own.schedule = plan.schedule.From(stretch.from);
@@ -32,15 +59,17 @@ int PlanGear(const Plan& plan) {
   return plan.reference.path.At(0.0).direction;
 }
 
-void StationarySteer::Begin() {
+void StationarySteer::Begin(double until) {
   in_progress_ = true;
+  until_ = until;
   last_steering_ = std::numeric_limits<double>::infinity();
 }
 
-void StationarySteer::Update(double steering) {
+void StationarySteer::Update(double steering, double time) {
   // Limit of the steering change in a control period below which the wheels count as still [rad].
   constexpr double kMaxSteeringChange = 1e-4;
-  in_progress_ = in_progress_ && !(std::abs(steering - last_steering_) < kMaxSteeringChange);
+  const bool is_still = std::abs(steering - last_steering_) < kMaxSteeringChange;
+  in_progress_ = in_progress_ && (!is_still || time < until_);
   last_steering_ = steering;
 }
 
@@ -52,8 +81,10 @@ SegmentSequencer::SegmentSequencer(const FeasiblePlan& plan, const VehicleState&
       plan_(std::move(remaining_.front())),
       start_distance_(start.distance) {
   remaining_.pop_front();
-  if (has_path_ && start.speed == 0.0 && plan_.reference.path.At(0.0).curvature != 0.0) {
-    stationary_steer_.Begin();
+  const double wait = WaitAtStart(plan_);
+  if (has_path_ && start.speed == 0.0 &&
+      (wait > 0.0 || plan_.reference.path.At(0.0).curvature != 0.0)) {
+    BeginStandstill(start.time, wait);
   }
 }
 
@@ -118,8 +149,13 @@ bool SegmentSequencer::Advance(const VehicleState& state) {
   Plan next = std::move(remaining_.front());
   remaining_.pop_front();
   Begin(std::move(next), offset_ + length, state);
-  stationary_steer_.Begin();
+  BeginStandstill(state.time, WaitAtStart(plan_));
   return true;
+}
+
+void SegmentSequencer::BeginStandstill(double time, double wait) {
+  start_time_ = time + wait;
+  stationary_steer_.Begin(start_time_);
 }
 
 void SegmentSequencer::Begin(Plan plan, double offset, const VehicleState& state) {

@@ -21,20 +21,22 @@ std::deque<Plan> SplitIntoSegments(const Plan& plan);
 /// Returns the gear at the start of a plan: +1 forward, -1 reverse.
 int PlanGear(const Plan& plan);
 
-/// At a cusp, or at a start on a bend, keeps the car at standstill until the wheels have reached
-/// the target angle. The gear changes after the wheels have reached the target angle.
+/// At a cusp, a stop, or a start on a bend, keeps the car at standstill until the wheels have
+/// reached the target angle and a planned wait is over. Then the gear changes.
 class StationarySteer {
  public:
-  void Begin();
+  /// Begins a standstill that lasts at least until the time `until` [s].
+  void Begin(double until);
 
-  /// Ends the steering at standstill when the actuator's angle `steering` [rad] stops changing.
-  /// Call Update once per control period.
-  void Update(double steering);
+  /// Ends the standstill when the actuator's angle `steering` [rad] stops changing, but not before
+  /// the end of the wait. `time` is the time of the run [s]. Call Update once per control period.
+  void Update(double steering, double time);
 
   [[nodiscard]] bool InProgress() const { return in_progress_; }
 
  private:
   bool in_progress_ = false;
+  double until_ = 0.0;  // Time at which the wait ends [s].
   // Steering angle of the actuator at the last update [rad].
   double last_steering_ = std::numeric_limits<double>::infinity();
 };
@@ -54,7 +56,7 @@ class SegmentSequencer {
   };
 
   /// `start` is the initial state of the car. A car that starts at rest on a bend steers before it
-  /// moves.
+  /// moves. A car that starts at rest waits if the plan begins with a wait.
   SegmentSequencer(const FeasiblePlan& plan, const VehicleState& start, const Options& options);
 
   [[nodiscard]] const Plan& plan() const { return plan_; }  ///< The plan of the present segment.
@@ -64,7 +66,7 @@ class SegmentSequencer {
   [[nodiscard]] double station() const { return station_; }
   /// Returns the station of the log at which the segment begins [m].
   [[nodiscard]] double offset() const { return offset_; }
-  /// Returns the time at which the segment began [s].
+  /// Returns the time at which the segment began, or at which the wait at its start ends [s].
   [[nodiscard]] double start_time() const { return start_time_; }
   /// Returns the speed profile of the present segment, a function of the station that StationFor
   /// returns.
@@ -100,6 +102,9 @@ class SegmentSequencer {
 
  private:
   void Begin(Plan plan, double offset, const VehicleState& state);
+  /// Keeps the car at standstill for `wait` [s] from `time` [s] on, and until its wheels have
+  /// turned.
+  void BeginStandstill(double time, double wait);
 
   Options options_;
   bool has_path_;

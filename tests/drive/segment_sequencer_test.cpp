@@ -71,18 +71,56 @@ TEST(Segments, AreCutAtStopsToo) {
 
 TEST(StationarySteer, IsOverWhenTheWheelsRest) {
   StationarySteer steer;
-  steer.Update(0.0);
+  steer.Update(0.0, 0.0);
   EXPECT_FALSE(steer.InProgress());  // never begun
-  steer.Begin();
+  steer.Begin(0.0);
   EXPECT_TRUE(steer.InProgress());
-  steer.Update(0.0);  // rest needs two angles that hardly differ
+  steer.Update(0.0, 0.1);  // rest needs two angles that hardly differ
   EXPECT_TRUE(steer.InProgress());
-  steer.Update(0.003);
+  steer.Update(0.003, 0.2);
   EXPECT_TRUE(steer.InProgress());
-  steer.Update(0.00309);  // less than 1e-4 rad
+  steer.Update(0.00309, 0.3);  // less than 1e-4 rad
   EXPECT_FALSE(steer.InProgress());
-  steer.Update(0.1);
+  steer.Update(0.1, 0.4);
   EXPECT_FALSE(steer.InProgress());
+}
+
+TEST(StationarySteer, LastsUntilTheEndOfTheWait) {
+  StationarySteer steer;
+  steer.Begin(5.0);
+  steer.Update(0.0, 0.0);
+  steer.Update(0.0, 4.99);  // the wheels rest, the wait is not over
+  EXPECT_TRUE(steer.InProgress());
+  steer.Update(0.2, 5.0);  // the wait is over, the wheels turn
+  EXPECT_TRUE(steer.InProgress());
+  steer.Update(0.2, 5.01);
+  EXPECT_FALSE(steer.InProgress());
+}
+
+TEST(SegmentSequencer, WaitsAtTheStopsOfThePlan) {
+  Plan plan = PlanAlongRoute({{.length = 10.0}}, 0.0);
+  plan.stops = {4.0, 7.0};
+  plan.waits = {{0.0, 2.0}, {7.0, 3.0}};
+  const std::deque<Plan> segments = SplitIntoSegments(plan);
+  ASSERT_EQ(segments.size(), 3U);
+  const double waits[] = {2.0, 0.0, 3.0};
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    ASSERT_EQ(segments[i].waits.size(), waits[i] > 0.0 ? 1U : 0U) << i;
+    EXPECT_EQ(waits[i] > 0.0 ? segments[i].waits[0].duration : 0.0, waits[i]) << i;
+  }
+  SegmentSequencer sequencer(Drivable(plan), StateAt(0.0, 0.0), Options());
+  EXPECT_TRUE(sequencer.stationary_steer().InProgress());
+  EXPECT_EQ(sequencer.start_time(), 2.0);
+  for (double x = 1.0; x <= 4.0; x += 1.0) {
+    sequencer.Project(StateAt(x, x));
+  }
+  ASSERT_TRUE(sequencer.Advance(StateAt(4.0, 4.0, 5.0)));
+  EXPECT_EQ(sequencer.start_time(), 5.0);
+  for (double x = 5.0; x <= 7.0; x += 1.0) {
+    sequencer.Project(StateAt(x, x));
+  }
+  ASSERT_TRUE(sequencer.Advance(StateAt(7.0, 7.0, 8.0)));
+  EXPECT_EQ(sequencer.start_time(), 11.0);
 }
 
 TEST(SegmentSequencer, CountsStationsOnOverSegments) {

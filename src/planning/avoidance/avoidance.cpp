@@ -118,6 +118,8 @@ class AroundObstacles {
   }
 
   void SetSpeed(double start_speed, double open_loop_end) {
+    plan_.stops.clear();  // the new speeds have no stops
+    plan_.waits.clear();
     plan_.reference.speed = StopAtEnd(path().length(), start_speed, request_.speed, plan_.caps);
     plan_.schedule_speed = StopAtEnd(open_loop_end, start_speed, request_.speed, plan_.caps);
   }

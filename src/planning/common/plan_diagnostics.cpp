@@ -101,6 +101,11 @@ void Visit(DiagnosticsVisitor& out, const RoundCorner& corner) {
   out.Number("to_s_m", corner.to);
 }
 
+void Visit(DiagnosticsVisitor& out, const PlannedWait& wait) {
+  out.Number("s_m", wait.s);
+  out.Number("duration_s", wait.duration);
+}
+
 void Visit(DiagnosticsVisitor& out, const Plan& plan) {
   const PlanDiagnostics& own = plan.diagnostics;
   Visit(out, own.planner);
@@ -115,6 +120,9 @@ void Visit(DiagnosticsVisitor& out, const Plan& plan) {
   }
   if (!plan.stops.empty()) {
     out.Numbers("stops_m", plan.stops);
+  }
+  if (!plan.waits.empty()) {
+    out.List("waits", plan.waits);
   }
   if (own.stop_distance) {
     out.Number("stop_distance_m", *own.stop_distance);

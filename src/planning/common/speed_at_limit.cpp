@@ -164,7 +164,7 @@ Timed SpeedsOver(const std::vector<Stations>& legs, const Path& path, const Plan
 LimitProfileFindings Describe(const Plan& plan, double share) {
   const Path& path = plan.reference.path;
   const SpeedProfile& speed = plan.reference.speed;
-  LimitProfileFindings findings{.share = share, .predicted_time = speed.TimeAt(path.length())};
+  LimitProfileFindings findings{.share = share, .predicted_time = plan.Duration()};
   const std::vector<SpeedProfile::Knot>& knots = speed.knots();
   double before = 0.0;
   for (std::size_t i = 0; i < knots.size(); ++i) {

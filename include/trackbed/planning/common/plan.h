@@ -55,6 +55,12 @@ struct Gate {
   OrientedBox lane;  ///< Rectangle between the cones, with its x axis along the course.
 };
 
+/// A place at which a plan keeps the car at rest.
+struct PlannedWait {
+  double s = 0.0;         ///< Station [m]: 0, a cusp of the path or one of Plan::stops.
+  double duration = 0.0;  ///< Time from coming to rest to starting again [s], > 0.
+};
+
 /// A node of a search tree. The first node of a tree is the start, which is its own parent.
 struct TreeNode {
   Vec2 position{0.0, 0.0};  ///< Position of the node [m].
@@ -129,6 +135,9 @@ struct Plan {
   std::vector<SpeedCap> caps;  ///< Sections of the path on which the car drives at a lower speed.
   /// Stations at which the car stops to turn its wheels, in addition to the path's cusps [m].
   std::vector<double> stops;
+  /// Places at which the car waits, in the order of their stations; at all other stops, the car
+  /// starts again as soon as its wheels have turned.
+  std::vector<PlannedWait> waits{};
   /// Waypoints of the request, whose first is the start of the route; empty if the mission has no
   /// waypoints.
   std::vector<Vec2> waypoints;
@@ -155,6 +164,16 @@ struct Plan {
   std::vector<TreeNode> tree;  ///< Nodes of all RRT and RRT* trees, one tree after the other.
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
+
+  /// Returns the time from the start to the end of the path at the planned speeds, with all waits
+  /// [s].
+  [[nodiscard]] double Duration() const {
+    double time = reference.speed.TimeAt(reference.path.length());
+    for (const PlannedWait& wait : waits) {
+      time += wait.duration;
+    }
+    return time;
+  }
 };
 
 }  // namespace trackbed

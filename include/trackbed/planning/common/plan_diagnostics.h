@@ -13,6 +13,7 @@
 namespace trackbed {
 
 struct Plan;
+struct PlannedWait;
 
 /// The side on which a path passes an obstacle: the inner side is the side toward the center of the
 /// turn, the outer side is the opposite side. On a straight, the inner side is the left side.
@@ -64,6 +65,8 @@ struct PlanDiagnostics {
   MethodDiagnostics replan;  ///< ReplanDiagnostics, if the plan was made during a run.
   long samples = 0;  ///< Number of random samples that the planner drew for all search trees.
 };
+
+void Visit(DiagnosticsVisitor& out, const PlannedWait& wait);
 
 /// Visits the fields of a plan's diagnostics.
 void Visit(DiagnosticsVisitor& out, const Plan& plan);
