@@ -52,6 +52,9 @@ GlobeFile ReadGeoJsonLines(const std::filesystem::path& file, const nlohmann::js
 PathFile PathOfGlobeFile(const std::filesystem::path& file, GlobeFile lines, const PathMap& map);
 /// Returns the origin that the map specifies for the projection, if any.
 std::optional<GlobePosition> OriginOf(const PathMap& map);
+/// Reads the centers of the lanelets of a route on a Lanelet2 map, with their speed limits.
+PathFile ReadLanelet2(const std::filesystem::path& file, const std::string& text,
+                      const PathMap& map);
 PathFile ReadCommonRoad(const std::filesystem::path& file, const std::string& text);
 
 /// Returns the ending of a file's name in lower case, such as ".gpx".

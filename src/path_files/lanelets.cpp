@@ -8,6 +8,7 @@
 #include <queue>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "src/path_files/formats.h"
 #include "trackbed/core/angle.h"
@@ -107,32 +108,43 @@ bool Lanelet::Contains(const Vec2& point) const {
   return inside;
 }
 
+std::optional<Lanelet> LaneletBetween(std::vector<Vec2> left, std::vector<Vec2> right) {
+  Lanelet lanelet;
+  lanelet.left = std::move(left);
+  lanelet.right = std::move(right);
+  if (lanelet.left.size() != lanelet.right.size()) {
+    const std::size_t count = std::max(lanelet.left.size(), lanelet.right.size());
+    lanelet.left = Resampled(lanelet.left, count);
+    lanelet.right = Resampled(lanelet.right, count);
+  }
+  lanelet.low = lanelet.left.front();
+  lanelet.high = lanelet.low;
+  for (std::size_t i = 0; i < lanelet.left.size(); ++i) {
+    lanelet.center.emplace_back(0.5 * (lanelet.left[i] + lanelet.right[i]));
+    lanelet.low = lanelet.low.cwiseMin(lanelet.left[i]).cwiseMin(lanelet.right[i]);
+    lanelet.high = lanelet.high.cwiseMax(lanelet.left[i]).cwiseMax(lanelet.right[i]);
+  }
+  constexpr double kShortest = 0.01;  // [m]
+  const Vec2& start = lanelet.center.front();
+  if (std::all_of(lanelet.center.begin(), lanelet.center.end(),
+                  [&](const Vec2& point) { return (point - start).norm() < kShortest; })) {
+    return std::nullopt;
+  }
+  return lanelet;
+}
+
 Lanelets ReadLanelets(const XMLElement& root, const CommonRoadReading& reading) {
   Lanelets lanelets;
   for (const XMLElement* element = root.FirstChildElement("lanelet"); element != nullptr;
        element = element->NextSiblingElement("lanelet")) {
-    Lanelet lanelet;
-    lanelet.line = element->GetLineNum();
-    lanelet.left = ReadBound(*element, "leftBound", reading);
-    lanelet.right = ReadBound(*element, "rightBound", reading);
-    if (lanelet.left.size() != lanelet.right.size()) {
-      const std::size_t count = std::max(lanelet.left.size(), lanelet.right.size());
-      lanelet.left = Resampled(lanelet.left, count);
-      lanelet.right = Resampled(lanelet.right, count);
-    }
-    lanelet.low = lanelet.left.front();
-    lanelet.high = lanelet.low;
-    for (std::size_t i = 0; i < lanelet.left.size(); ++i) {
-      lanelet.center.emplace_back(0.5 * (lanelet.left[i] + lanelet.right[i]));
-      lanelet.low = lanelet.low.cwiseMin(lanelet.left[i]).cwiseMin(lanelet.right[i]);
-      lanelet.high = lanelet.high.cwiseMax(lanelet.left[i]).cwiseMax(lanelet.right[i]);
-    }
-    constexpr double kShortest = 0.01;  // [m]
-    const Vec2& start = lanelet.center.front();
-    if (std::all_of(lanelet.center.begin(), lanelet.center.end(),
-                    [&](const Vec2& point) { return (point - start).norm() < kShortest; })) {
+    std::vector<Vec2> left = ReadBound(*element, "leftBound", reading);
+    std::vector<Vec2> right = ReadBound(*element, "rightBound", reading);
+    std::optional<Lanelet> between = LaneletBetween(std::move(left), std::move(right));
+    if (!between) {
       continue;
     }
+    Lanelet& lanelet = *between;
+    lanelet.line = element->GetLineNum();
     for (const XMLElement* child = element->FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {
       const std::string_view name = child->Name();

@@ -32,6 +32,10 @@ struct Lanelet {
 
 using Lanelets = std::map<std::string, Lanelet>;
 
+/// Returns a lanelet between two bounds of at least two points in the direction of driving; bounds
+/// with different numbers of points are resampled. Returns nullopt if the center line is a point.
+std::optional<Lanelet> LaneletBetween(std::vector<Vec2> left, std::vector<Vec2> right);
+
 /// Reads all lanelets of a scenario. Leaves out lanelets without a length, and ignores links to
 /// lanelets that are not in the file.
 Lanelets ReadLanelets(const tinyxml2::XMLElement& root, const CommonRoadReading& reading);

@@ -121,6 +121,14 @@ const std::vector<PathFormatEntry>& PathFormats() {
        .description = "rosbag2",
        .endings = {".mcap", ".db3", ".zstd"},
        .read = ReadPathBag},
+      {.format = PathFormat::kLanelet2,
+       .name = "lanelet2",
+       .description = "Lanelet2",
+       .endings = {".osm"},
+       .read =
+           [](const fs::path& file, const PathMap& map) {
+             return ReadLanelet2(file, ReadFile(file, kMaxTextBytes), map);
+           }},
   };
   return formats;
 }

@@ -150,6 +150,11 @@ void Visit(KeyVisitor& keys, PathMap& map) {
               "topic of a bag; default: the only topic of nav_msgs/Path, whose first message is "
               "read; other topics: the position of each message"},
              map.topic);
+  keys.Field(
+      {"lanelets", "",
+       "ids of the lanelets of a Lanelet2 map that the route visits, in this order: from the "
+       "start of the first to the end of the last"},
+      map.lanelets, Need::kOptional, {});
 }
 
 std::vector<std::pair<std::string, std::string>> PathMapProblems(const PathMap& map) {

@@ -60,6 +60,9 @@ class YamlWriter final : public KeyVisitor {
     Field(key, value, Need::kRequired);
   }
   void Field(const Key& key, std::vector<std::string>& value, Need, const Names&) override {
+    if (value.empty()) {
+      return;
+    }
     out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << value;
   }
   void Field(const Key& key, std::vector<Vec2>& value, Need, const PairShape& = kPoint) override {

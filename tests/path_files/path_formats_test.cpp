@@ -62,7 +62,8 @@ TEST(PathFormats, AreThoseOfTheMapWhateverTheEnding) {
 
 TEST(PathFormats, AreListedForUsers) {
   EXPECT_EQ(PathFormatList(),
-            "CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution, GeoJSON, GPX, KML or rosbag2");
+            "CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution, GeoJSON, GPX, KML, rosbag2 or "
+            "Lanelet2");
 }
 
 }  // namespace

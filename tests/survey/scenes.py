@@ -94,8 +94,3 @@ def bag(program, file, _, __):
         result.accepted = outcome.accepted
     return result
 
-
-def lanelet2(_, __, ___, ____):
-    result = Result("Lanelet2")
-    result.note("not read by the program")
-    return result

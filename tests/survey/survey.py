@@ -9,6 +9,7 @@ import traceback
 import zlib
 
 import kinds
+import lanelet2
 import maps
 import models
 import paths
@@ -20,7 +21,7 @@ from result import Result
 SURVEYS = {
     "road network": roads.survey, "CommonRoad scenario": scenes.commonroad, "vehicle model": models.survey,
     "track": paths.track, "path": paths.path, "positions": paths.positions, "recording": paths.recording,
-    "bag": scenes.bag, "tyre": scenes.tyre, "map": maps.survey, "Lanelet2": scenes.lanelet2,
+    "bag": scenes.bag, "tyre": scenes.tyre, "map": maps.survey, "Lanelet2": lanelet2.survey,
 }
 
 

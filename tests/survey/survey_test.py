@@ -116,6 +116,7 @@ class Survey(unittest.TestCase):
         self.assertIn("4 of 4 routes, 0.", text)
         self.assertIn("adapted, 3.5 kg", text)
         self.assertIn("1536 cells of 1 m", text)
+        self.assertIn("3 of 3 routes", text)
         self.assertRegex(text, r"\| positions \| 4 \| 4 \| 0 ")
 
     def test_finds_paths_beside_their_lanes_and_points(self):

@@ -21,10 +21,11 @@ enum class PathFormat {
   kGpx,         ///< A track or route of GPX 1.0 or 1.1.
   kBag,         ///< A message nav_msgs/Path in a bag of ROS 2 (MCAP, SQLite).
   kKml,         ///< A LineString or gx:Track of KML 2.2 or 2.3.
+  kLanelet2,    ///< A route along the lanelets of a Lanelet2 map (OSM XML).
 };
 
 /// Returns the list of formats as text for users: "CSV, nav_msgs/Path (YAML, JSON), CommonRoad
-/// solution, GeoJSON, GPX, KML or rosbag2".
+/// solution, GeoJSON, GPX, KML, rosbag2 or Lanelet2".
 std::string PathFormatList();
 
 /// The names of the columns of a CSV file. If the name of a column is not set, the reader looks for
@@ -75,6 +76,8 @@ struct PathMap {
   int line = 0;
   /// Topic of a bag; default: the only topic of the type nav_msgs/Path.
   std::optional<std::string> topic;
+  /// Lanelets of a Lanelet2 map that the route visits, by their ids, in this order.
+  std::vector<std::string> lanelets;
 };
 void Visit(KeyVisitor& keys, PathMap& map);
 
