@@ -31,24 +31,16 @@ struct Bound {
 };
 
 /// Bounds of the numbers under <custom>, in SI units.
-constexpr std::array kCustomBounds{Bound{"steering_ratio", 1e3},
-                                   Bound{"steering_wheel_rate", 1e3},
-                                   Bound{"steering_rate", 1e3},
-                                   Bound{"turning_radius", 1e3},
-                                   Bound{"brake_torque", 1e5},
-                                   Bound{"brake_torque_front", 1e5},
-                                   Bound{"brake_torque_rear", 1e5},
-                                   Bound{"drive_power", 1e7},
-                                   Bound{"drag_area", 1e2},
-                                   Bound{"side_area", 1e2},
-                                   Bound{"center_of_pressure", 1e2},
-                                   Bound{"F_z0", 1e6},
-                                   Bound{"tyre_vertical_stiffness", 1e8},
-                                   Bound{"tyre_vertical_damping", 1e6},
-                                   Bound{"relaxation_length", 1e1},
-                                   Bound{"rolling_resistance", 1.0},
-                                   Bound{"camber_gain_front", 1e1},
-                                   Bound{"camber_gain_rear", 1e1}};
+constexpr std::array kCustomBounds{
+    Bound{"steering_ratio", 1e3}, Bound{"steering_wheel_rate", 1e3}, Bound{"steering_rate", 1e3},
+    Bound{"turning_radius", 1e3}, Bound{"brake_torque", 1e5}, Bound{"brake_torque_front", 1e5},
+    Bound{"brake_torque_rear", 1e5}, Bound{"drive_power", 1e7}, Bound{"drag_area", 1e2},
+    Bound{"side_area", 1e2}, Bound{"center_of_pressure", 1e2}, Bound{"F_z0", 1e6},
+    Bound{"tyre_vertical_stiffness", 1e8}, Bound{"tyre_vertical_damping", 1e6},
+    Bound{"relaxation_length", 1e1}, Bound{"rolling_resistance", 1.0},
+    // These multiply the square of the camber, at most 0.1.
+    Bound{"r_bx3", 1e6}, Bound{"r_by4", 1e6}, Bound{"camber_gain_front", 1e1},
+    Bound{"camber_gain_rear", 1e1}};
 // bound of a tyre's Magic Formula coefficients, such as "p_cx1"
 constexpr double kMaxCoefficient = 1e3;
 

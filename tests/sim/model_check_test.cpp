@@ -13,6 +13,7 @@ namespace trackbed {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// The error for the Prius with every match of a regular expression replaced.
 std::string ErrorWith(const std::string& find, const std::string& replace) {
@@ -38,6 +39,15 @@ TEST(CheckModel, RefusesNumbersThatNoVehicleHas) {
   EXPECT_EQ(ErrorWithNumber("drag_area", "nan"),
             "car.xml: drag_area: is nan; must be within 100 of 0");
   EXPECT_EQ(ErrorWithNumber("p_cx1", "-inf"), "car.xml: p_cx1: is -inf; must be within 1000 of 0");
+  // Public tyres of MF6.1 have an r_by4 of 1747 and an r_bx3 of 3247.
+  const auto with = [](const std::string& name, const std::string& value) {
+    return ErrorWith(
+        "<numeric name=\"p_cx1\"",
+        fmt::format("<numeric name=\"{}\" data=\"{}\"/><numeric name=\"p_cx1\"", name, value));
+  };
+  EXPECT_THAT(with("r_by4", "1747.4"), Not(HasSubstr("must be within")));
+  EXPECT_THAT(with("r_bx3", "-3247"), Not(HasSubstr("must be within")));
+  EXPECT_THAT(with("r_by4", "2e6"), HasSubstr("r_by4: is 2e+06; must be within 1e+06 of 0"));
   EXPECT_EQ(ErrorWithNumber("rolling_resistance", "1e9"),
             "car.xml: rolling_resistance: is 1e+09; must be within 1 of 0");
   EXPECT_EQ(ErrorWithNumber("center_of_pressure", "1.68 1e9"),
