@@ -15,8 +15,7 @@ namespace trackbed::python {
 /// Value of a quantity that is not defined, for example without a path.
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// What a controller receives in a control period, with the tracking errors of the pose that it
-/// receives.
+/// The input of a controller in a control period, with the tracking errors of the received pose.
 struct Observation {
   VehicleState state;
   double station = 0.0;

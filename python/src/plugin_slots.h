@@ -9,7 +9,7 @@
 
 /// Numbered places for the plug-ins of a kind. The registries of planners and controllers
 /// distinguish methods by the types of their options, and call functions without a context.
-/// Therefore each place has an options type and functions of its own.
+/// Therefore each place has a separate options type and separate functions.
 namespace trackbed::python {
 
 /// Largest number of planners, and of controllers, that Python code can register.

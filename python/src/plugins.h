@@ -91,7 +91,7 @@ struct Plugin {
 };
 
 /// The values of the keys of a plug-in. The options refer to the version of the plug-in with which
-/// they were made, also if the plug-in is replaced later.
+/// they were made, even if the plug-in is replaced later.
 struct PluginOptions {
   std::shared_ptr<const Plugin> plugin{};
   std::vector<PluginValue> values{};

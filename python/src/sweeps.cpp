@@ -19,8 +19,8 @@
 #include "trackbed/core/error.h"
 #include "trackbed/scenario/scenario_files.h"
 
-// Studies that run on threads of their own, while Python waits and shows the rows that are
-// finished. The rows are made as RunRows makes them.
+// Runs studies on separate threads, while Python waits and shows the finished rows. The rows are
+// the same as those of RunRows.
 namespace trackbed::python {
 namespace {
 

@@ -158,7 +158,7 @@ def _end() -> None:
     while True:
         waited = time.monotonic() - start
         finished = all([_has_finished(job) for job in jobs])
-        # A plug-in gets a second to return by itself.
+        # A plug-in has one second to return before it is interrupted.
         inside = _trackbed.interrupt_plugins() if waited > 1.0 or finished else 0
         if finished and not inside:
             return

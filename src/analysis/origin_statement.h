@@ -12,10 +12,11 @@
 #include "trackbed/scenario/log_columns.h"
 #include "trackbed/scenario/scenario.h"
 
-/// How the results of a run state its local origin (docs/conventions.md).
+/// States the local origin of a run in its results (docs/conventions.md).
 namespace trackbed {
 
-/// Returns the table with columns that state the local origin of its positions, if there is one.
+/// Returns the table with two more columns for the local origin of its positions. Returns the table
+/// unchanged if the origin is (0, 0).
 inline Table WithOrigin(const Table& table, const Vec2& origin) {
   if (origin == Vec2::Zero()) {
     return table;
@@ -35,7 +36,7 @@ inline Table WithOrigin(const Table& table, const Vec2& origin) {
   return stated;
 }
 
-/// Adds a note to the verdict that states the local origin, if there is one.
+/// Adds a note to the verdict that states the scenario's local origin, unless it is (0, 0).
 inline void NoteOrigin(const Scenario& scenario, Verdict& verdict) {
   if (const Vec2 origin = OriginOf(scenario); origin != Vec2::Zero()) {
     verdict.notes.push_back(

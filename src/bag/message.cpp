@@ -247,7 +247,8 @@ class MessageReader {
           }
           continue;
         }
-        // Messages without fields take a byte of their own in ROS 2.
+        // In ROS 2, a message without fields takes one byte, so the number of bytes bounds the
+        // number of elements.
         if (++steps_ > 64 * (size_ + kMaxFields)) {
           Fail("it has more elements than its bytes");
         }

@@ -21,8 +21,8 @@ void ReadMcap(const std::filesystem::path& file, BagContent& content, const Take
 void ReadSqlite(const std::filesystem::path& file, BagContent& content, const std::string& wanted,
                 const TakeTopicMessage& take);
 
-/// Returns the topic of `content` with this name; adds it if there is none. Throws InputError if
-/// the topic has another type, or if there are too many topics.
+/// Returns the topic of `content` that has the name of `topic`; adds `topic` if the name is new.
+/// Throws InputError if the topic has another type, or if there are too many topics.
 BagTopic& TopicOf(BagContent& content, const BagTopic& topic, const std::filesystem::path& file);
 
 /// Decompresses a frame of lz4 or zstd to at most `largest` bytes. Throws InputError if the frame

@@ -28,7 +28,8 @@ class Timestamp {
     return number;
   }
 
-  /// Skips one of the given characters; returns the skipped character, or 0 if there is none.
+  /// Skips the next character if it is one of the given characters. Returns the skipped character,
+  /// or 0.
   char Skip(std::string_view characters) {
     if (rest_.empty() || characters.find(rest_.front()) == std::string_view::npos) {
       return '\0';

@@ -7,7 +7,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/timestamp.h"
 
-// Reads line strings from GeoJSON (RFC 7946): alone, in features or in collections of features.
+// Reads line strings from GeoJSON (RFC 7946), alone, in features or in collections of features.
 // Times are read from the members `coordTimes` or `coordinateProperties.times` of a feature, as
 // converters of GPX files write them.
 namespace trackbed {
@@ -27,7 +27,7 @@ std::string TypeOf(const json& value) {
              : "";
 }
 
-/// Returns the list of times in the properties of a feature; null if there is none.
+/// Returns the list of times in the properties of a feature; null if the feature has no times.
 const json* TimesOf(const json& feature) {
   if (!feature.contains("properties") || !feature["properties"].is_object()) {
     return nullptr;

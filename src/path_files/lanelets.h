@@ -63,8 +63,10 @@ std::optional<std::vector<LaneletLane>> FindLaneletRoute(const Lanelets& lanelet
                                                          const std::vector<std::string>& starts,
                                                          const std::vector<std::string>& goals);
 
-/// Returns the lanelets that contain the point of a pose and whose direction there differs least
-/// from the pose's heading; otherwise the nearest lanelet within 5 m; empty if there is none.
+/// Returns the lanelets that contain the point of a pose, first the lanelet whose direction differs
+/// least from the pose's heading. If no lanelet contains the point, returns the nearest lanelet
+/// within 5 m; empty if all lanelets are farther away. Ignores lanelets whose direction differs by
+/// more than a right angle.
 std::vector<std::string> LaneletsAt(const Lanelets& lanelets, const Pose2& pose);
 
 }  // namespace trackbed

@@ -13,12 +13,13 @@ namespace trackbed {
 void ProjectRows(const std::filesystem::path& log, const LogPosition& map, std::vector<int>& lines,
                  LogRows& rows);
 
-/// Refuses a CSV file that has letters for south or west in a column of their own beside positive
-/// numbers, because the numbers would be read as north or east. Throws InputError with the lines.
+/// Refuses a CSV file that marks south or west by letters in a separate column while its numbers
+/// are positive, because the numbers would be read as north or east. Throws InputError with the
+/// lines.
 void CheckHemispheres(const std::filesystem::path& log, const LogPosition& map, char delimiter);
 
-/// Takes the direction of motion as the yaw; below 0.5 m/s, the last yaw. Adds a note. Throws
-/// InputError if the position never moves faster.
+/// Sets the yaw of each row to the direction of motion. Below 0.5 m/s, repeats the last yaw. Adds a
+/// note. Throws InputError if the speed is below 0.5 m/s in all rows.
 void TakeHeadings(const std::filesystem::path& log, const LogMap& map, LogRows& rows);
 
 }  // namespace trackbed

@@ -197,7 +197,8 @@ class BagProposal {
   [[nodiscard]] const std::string& topic() const { return topic_; }
 
  private:
-  /// Returns the topic of a type that has the most messages, at least two; null if there is none.
+  /// Returns the topic with the most messages among the CDR topics of a type that have at least two
+  /// messages; null if the log has no such topic.
   [[nodiscard]] const BagTopic* Find(const std::string& type) const {
     const BagTopic* found = nullptr;
     for (const BagTopic& topic : topics_) {

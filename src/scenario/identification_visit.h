@@ -21,7 +21,7 @@ inline void Visit(KeyVisitor& a, IdentifiedParameter& parameter) {
   a.Field({"from", "", "lower bound, in the parameter's unit"}, parameter.from, Need::kRequired);
   a.Field({"to", "", "upper bound, in the parameter's unit"}, parameter.to, Need::kRequired);
   a.Field({"start", "", "where the search begins; default: the model's value"}, parameter.start);
-  a.Section({"prior", "", "what is known beforehand, a normal distribution"}, parameter.prior);
+  a.Section({"prior", "", "normal distribution of the parameter before the fit"}, parameter.prior);
 }
 
 inline void Visit(KeyVisitor& a, ResidualDeviations& residuals) {

@@ -94,7 +94,7 @@ std::vector<Site> SitesOfKeys(Scenario& scenario) {
   Visit(visitor, scenario);
   std::vector<Site> found;
   for (const auto& [place, bounds] : sites) {
-    // The start is a site of its own, because it has default values.
+    // SitesOfFiles adds the start with the default values of its missing coordinates.
     if (place != "mission.start") {
       found.push_back({place, place, bounds});
     }

@@ -25,7 +25,7 @@ inline constexpr double kOriginReach = 1e5;
 /// problem if the places are in different coordinates.
 std::optional<std::pair<std::string, std::string>> MoveToLocalOrigin(Scenario& scenario);
 
-/// Returns the scenario with the coordinates of its own file: the inverse of MoveToLocalOrigin,
+/// Returns the scenario in the coordinates of the scenario file: the inverse of MoveToLocalOrigin,
 /// apart from the start. The contents of its files are moved only if `with_files` is true.
 Scenario InFileCoordinates(const Scenario& scenario, bool with_files);
 

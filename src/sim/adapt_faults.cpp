@@ -136,7 +136,7 @@ void NoteFaults(const FoundModel& found, const FoundVehicle& vehicle, Findings& 
   NoteLocked(found, vehicle, findings);
   std::set<std::pair<int, int>> rubbing;  // wheels, and geoms that they touch
   NoteRubbing(found, vehicle, *found.data, "at rest", rubbing, findings);
-  // The same with the front wheels at the ends of their ranges.
+  // Repeat the search with the front wheels at both ends of their steering ranges.
   const mjModel& m = *found.model;
   for (const int side : {0, 1}) {
     const MujocoData data = MakeMujocoData(m);

@@ -36,7 +36,7 @@ std::optional<RoundGeom> RoundAbout(const mjModel& model, const mjData& data, in
                                     const Vector& anchor, const Vector& axis);
 
 /// Returns the axis about which a cylinder or an ellipsoid with two equal axes is round; nullopt
-/// for other geoms. A ball has no axis of its own.
+/// for other geoms. Returns nullopt for a ball, which is round about every axis.
 std::optional<Vector> OwnAxis(const mjModel& model, const mjData& data, int geom);
 
 }  // namespace trackbed::adapt

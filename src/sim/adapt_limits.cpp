@@ -170,7 +170,7 @@ std::optional<double> LargestForce(const mjModel& m, int actuator) {
   return force;
 }
 
-/// What the actuators of the model do to the wheels.
+/// The actuators that drive the wheels of the model.
 struct Motors {
   std::vector<std::string> names;
   double torque = 0.0;  // Largest torque on all wheels together [N m].

@@ -40,7 +40,8 @@ constexpr int kMaxUrdfLinks = 2000;
   throw InputError(Problem{.file = file.string(), .line = line, .message = std::move(message)});
 }
 
-/// Returns the first element below `parent` that xacro would replace; null if there is none.
+/// Returns the first element, `parent` or an element inside it, that xacro would replace; null if
+/// xacro would replace no element.
 const XMLElement* FindXacro(const XMLElement& parent) {
   if (std::string_view(parent.Name()).starts_with("xacro:")) {
     return &parent;

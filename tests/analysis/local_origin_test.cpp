@@ -46,7 +46,7 @@ void AddDifferences(const nlohmann::json& a, const nlohmann::json& b, const std:
   }
 }
 
-/// The metrics of a run, without what names the origin.
+/// The metrics of a run without the entries that state the origin.
 nlohmann::json MetricsOf(const RunResult& run) {
   nlohmann::json metrics = MetricsJson(run);
   metrics.erase("origin");
@@ -54,8 +54,8 @@ nlohmann::json MetricsOf(const RunResult& run) {
   return metrics;
 }
 
-/// A scenario that drives on patches, bumps and grades, in wind, beside an obstacle, along
-/// waypoints or a path file.
+/// A scenario with patches, bumps, grades, wind and an obstacle. The car follows waypoints if
+/// `seed` is even, otherwise a path file.
 std::string Course(unsigned seed, const Vec2& offset, const TempFolder& folder) {
   std::mt19937 random(seed);
   const auto number = [&](double from, double to) {

@@ -120,8 +120,8 @@ class Recorder final : public SteeringController {
 };
 
 TEST(ActuatorModel, PredictsACircleInClosedForm) {
-  // Long after the last change of the command, the car drives on a circle with the curvature
-  // tan(delta)/L. At the end of the dead time, it is T_d v farther along this circle.
+  // Long after the last change of the command, the car follows a circle with the curvature
+  // tan(delta)/L. During the dead time T_d, the car moves by T_d v along this circle.
   VehicleParams car = SmallCar();
   car.steering_response.backlash = 0.0;
   std::vector<VehicleState> seen;

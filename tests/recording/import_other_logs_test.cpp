@@ -111,8 +111,8 @@ TEST(ReadPathFile, ReadsAPathOfABag) {
   EXPECT_THROW(ReadPathFile(kBags / "odometry.mcap", map), InputError);
 }
 
-/// A drive on a circle around the origin of a plane at latitude 48.1, longitude 11.5, at 5 m/s:
-/// rows of GPS at 1 Hz. The degrees are found by Newton's method on the projection.
+/// Returns GPS rows at 1 Hz for a drive at 5 m/s along a circle through the origin of a plane at
+/// latitude 48.1, longitude 11.5. Newton's method on the projection computes the degrees.
 std::string Fixes(const char* row) {
   const LocalPlane plane({48.1, 11.5});
   std::string rows;

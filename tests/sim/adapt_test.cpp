@@ -267,7 +267,7 @@ TEST(Adapt, NotesFaultsThatARunWouldHaveHad) {
       "axis='0 1 0'/><joint name='yaw' axis='0 0 1'/>";
   car.base_geom = "<geom name='belly' type='box' size='0.2 0.09 0.02' pos='0.15 0 0.07' mass='0'/>";
   car.more = "<equality><joint name='both' joint1='turn0' joint2='turn1'/></equality>";
-  // MuJoCo does not test a wheel against its parent, so the belly is a body of its own.
+  // MuJoCo does not test a wheel against its parent body, so the belly is a separate body.
   std::string xml = ForeignXml(car);
   xml.replace(xml.find("<geom name='belly'"), 0, "<body name='shell'>");
   xml.insert(xml.find("/>", xml.find("<geom name='belly'")) + 2,

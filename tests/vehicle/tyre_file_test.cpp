@@ -39,7 +39,7 @@ TyreFile ParseWith(const std::string& name, const std::string& from, const std::
   return ParseTyreFile(TextWith(name, from, to), "x.tir");
 }
 
-/// The message of the error for a text; empty if there is none.
+/// The message of the error that ParseTyreFile throws for a text; empty if it throws no error.
 std::string ErrorOf(const std::string& text) {
   try {
     static_cast<void>(ParseTyreFile(text, "x.tir"));

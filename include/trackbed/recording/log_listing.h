@@ -24,7 +24,7 @@ struct LogListing {
   std::vector<LogTopic> topics;
   /// A map that reads the log, if its columns have usual names.
   std::optional<LogMap> map;
-  std::string problem;             ///< What the log lacks for a map; empty if `map` is set.
+  std::string problem;  ///< Why the log has no map, such as missing columns; empty if `map` is set.
   std::vector<std::string> notes;  ///< Damaged parts of the log.
 };
 

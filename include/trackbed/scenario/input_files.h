@@ -17,8 +17,8 @@ std::vector<InputFile> InputFiles(const Scenario& scenario);
 /// Returns all file names that InputFiles may return, for all registered controllers and planners.
 std::vector<std::string> InputFileNames();
 
-/// Whether a run folder contains the vehicle's model (kVehicleXml), because the scenario names a
-/// model file or tyre files of its own.
+/// Whether a run folder contains the vehicle's model (kVehicleXml): true if the scenario names a
+/// model file or tyre files.
 bool HasOwnVehicle(const VehicleSpec& vehicle);
 
 /// Returns the scenario like ResolvedYaml, but without the members of the start and the duration

@@ -99,7 +99,7 @@ struct PlanSpec {
 struct ControlSpec {
   ControllerOptions steering = DefaultController();
   SpeedControlOptions speed;
-  /// What path-following controllers assume about the car's steering actuator.
+  /// The model of the car's steering actuator that path-following controllers use.
   ActuatorKnowledge actuator = ActuatorKnowledge::kModel;
 };
 

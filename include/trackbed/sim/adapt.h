@@ -29,8 +29,9 @@ struct AdaptOptions {
 struct AdaptGuess {
   std::string what;   ///< Part or parameter of the car, such as "wheel fl" or "steering limit".
   std::string value;  ///< The proposed value, with its unit.
-  std::string
-      evidence;  ///< What in the model supports the value; begins with "assumed" if nothing.
+  /// The parts of the model from which the value follows. Begins with "assumed" if nothing in the
+  /// model determines the value.
+  std::string evidence;
 };
 
 /// A car file that AdaptModel proposes.
