@@ -78,9 +78,9 @@ TEST(CompareTraces, KnowsHowFarShiftedLinesAreApart) {
 }
 
 TEST(CompareTraces, IntegratesOverArcLengthAndNotOverRows) {
-  // The difference is 0 up to s = 6 m and grows linearly to 0.9 m at s = 9 m. Its mean square is
-  // 0.81/3 over the last 3 m, and a third of this, 0.81/3/3, over all 9 m. Rows are dense where the
-  // runs agree.
+  // The difference is 0 up to s = 6 m and grows linearly to 0.9 m at s = 9 m. The mean square of
+  // the difference is 0.81/3 m^2 over the last 3 m, and therefore 0.81/9 m^2 over all 9 m. The
+  // second trace has dense rows where the traces agree.
   Trace bent = Line("b", {0, 1, 2, 3, 4, 5, 6, 9}, 0.0);
   bent.pose.back().y = 0.9;
   const PlantComparison c = CompareTraces(Line("a", {0, 9}, 0.0), bent);

@@ -152,8 +152,9 @@ TEST(StepSteer, OfFirstOrder) {
       row.state.sideslip = -side * 0.02 * share;
     });
     const ManeuverMetrics metrics = Evaluated(StepSteerOptions{}, log);
-    // Linear interpolation between rows errs by the fraction h^2/(8 tau^2) of the remaining 0.1.
-    // Divided by the slope 0.1/tau, this is a time of 6e-5 s.
+    // Between rows h apart, linear interpolation of the decaying part 0.1 of the response errs by
+    // the fraction h^2/(8 tau^2). Divided by the slope 0.1/tau of the response, this error becomes
+    // an error of 6e-5 s in the response time.
     const double response = kTau * std::log(10.0);
     EXPECT_NEAR(Of(metrics, "yaw_rate_response_time"), response, Tolerance(7e-5));
     EXPECT_NEAR(Of(metrics, "lateral_acceleration_response_time"), response, Tolerance(7e-5));
@@ -162,7 +163,7 @@ TEST(StepSteer, OfFirstOrder) {
     EXPECT_NEAR(Of(metrics, "yaw_rate_gain"), 6.0, Tolerance(1e-7));
     EXPECT_NEAR(Of(metrics, "yaw_rate_overshoot"), 0.0, Tolerance(1e-8));
     EXPECT_EQ(Of(metrics, "speed"), 25.0);
-    // The actuator turns at its full rate in 10 control periods of the evaluated 4.99 s.
+    // The actuator turns at its full rate in 10 of the 500 control periods in 4.99 s.
     EXPECT_NEAR(metrics.steering_saturated_fraction, 10.0 / 500.0, Tolerance(1.1 / 500.0));
   }
 }
@@ -250,7 +251,7 @@ TEST(EveryManeuver, FailsACarThatTurnsOver) {
     row.state.roll = t < 2.0 ? 0.7 : -0.8;  // pi/4 is in between
   });
   RunLog rolled = log;
-  rolled.status = DriveStatus::kRolledOver;  // the run ended there, at its last row
+  rolled.status = DriveStatus::kRolledOver;  // the run ended in its last row
   const std::string end = fmt::format("the car rolls over at {:.2f} s", log.rows.back().state.time);
   for (const ManeuverEntry& entry : Maneuvers()) {
     const ManeuverMetrics metrics = Evaluated(entry.defaults, log);
@@ -328,8 +329,8 @@ TEST(Braking, GivesDistanceAndMeanDeceleration) {
   for (const double curvature : {0.0, 0.01, -0.02}) {
     const ManeuverMetrics metrics = Evaluated(BrakingTestOptions{}, BrakingLog(curvature, 0.02));
     EXPECT_EQ(Of(metrics, "initial_speed"), 24.0);
-    // Braking is measured down to 0.05 m/s, which omits 0.05^2/16 m. Linear interpolation deviates
-    // by a h^2/8.
+    // Braking is measured down to 0.05 m/s. The distance after this speed, 0.05^2/16 m, is missing.
+    // Linear interpolation deviates by a h^2/8.
     EXPECT_NEAR(Of(metrics, "distance"), 24.0 * 24.0 / 16.0, Tolerance(3e-4));
     EXPECT_NEAR(Of(metrics, "mean_fully_developed_deceleration"), 8.0, Tolerance(1e-4));
     EXPECT_NEAR(Of(metrics, "lateral_deviation_max"), 0.0, Tolerance(1e-8));

@@ -82,7 +82,7 @@ TEST(Metrics, StandInTheFileByTheirPath) {
   EXPECT_EQ(json.begin().key(), "status");
 }
 
-/// Half of the distance driven, located at half of that distance.
+/// The metric is half of the distance driven, and its station is half of that distance.
 std::optional<MetricReading> HalfWay(const MetricInput& input) {
   return MetricReading{0.5 * input.log.rows.back().state.distance,
                        {.span = MetricSpan::kMoment, .s = 1.5, .t = 0.5}};

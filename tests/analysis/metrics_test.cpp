@@ -41,7 +41,7 @@ std::optional<double> Ratio(double speed, double amplitude, double gradient) {
 }
 
 TEST(YawRateRatio, IsThatOfTheUndersteerGradient) {
-  // Rounding of sums of some hundred products.
+  // The tolerance covers rounding in sums of some hundred products.
   EXPECT_NEAR(*Ratio(10.0, 0.1, 0.0), 1.0, Tolerance(1e-12));
   EXPECT_NEAR(*Ratio(10.0, 0.1, 0.0025), 1.0 / 1.1, Tolerance(1e-12));
   EXPECT_NEAR(*Ratio(20.0, -0.05, -0.001), 1.0 / (1.0 - 0.001 * 400.0 / 2.5), Tolerance(1e-12));
@@ -326,7 +326,7 @@ TEST(Status, IsOfTheContactAndNotOfTheEnd) {
   EXPECT_DOUBLE_EQ(measured()["status_t"].get<double>(), 8.0);
   EXPECT_DOUBLE_EQ(measured()["status_s"].get<double>(), 24.0);
   log.status = DriveStatus::kCollided;
-  log.contact_time = 7.005;  // between rows: the station is that of the next one
+  log.contact_time = 7.005;  // between two rows: the station is that of the later row
   EXPECT_DOUBLE_EQ(measured()["status_t"].get<double>(), 7.005);
   EXPECT_DOUBLE_EQ(measured()["status_s"].get<double>(), 0.06 * 351);
   EXPECT_DOUBLE_EQ(measured()["time"].get<double>(), 8.0);

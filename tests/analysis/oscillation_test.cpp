@@ -83,8 +83,8 @@ TEST(FindWaves, FindsALimitCycleAmongRandomInputs) {
 }
 
 TEST(FindWaves, FindsNothingInTheResponseOfDampedLoopsToNoise) {
-  // A loop with a damping ratio of 0.2 keeps exp(-2 pi 0.2 4) = 0.7 % of its amplitude over the
-  // four cycles. Each of the 20 runs lasts for 60 cycles.
+  // After four cycles, an oscillation with a damping ratio of 0.2 has exp(-2 pi 0.2 4) = 0.7 % of
+  // its amplitude. Each of the 20 runs lasts for 60 cycles.
   std::mt19937 random(1);
   std::normal_distribution<double> noise;
   for (int run = 0; run < 20; ++run) {
@@ -114,8 +114,9 @@ TEST(UnexplainedCommand, RemovesASlalomOfThePath) {
                             .command = Foreseen(path),
                             .foreseen = {Sampled(60.0, path)},
                             .unforeseen = {}};
-  // The command is a wave of 0.1 rad. Two filters of different phases make any amplitude and
-  // phase of one frequency; the rest is the start of the lag.
+  // The steering command is a wave with an amplitude of 0.1 rad. The sum of two filters with
+  // different phases can have any amplitude and phase at one frequency. The remaining error is the
+  // transient at the start of the lag.
   ASSERT_FALSE(Waves(signals.command).empty());
   for (const Wave& wave : FindWaves(UnexplainedCommand(signals), signals.command, kPeriod, false)) {
     EXPECT_LT(wave.amplitude, Tolerance(1e-3));
@@ -157,8 +158,8 @@ TEST(UnexplainedCommand, RemovesTheResponseToKnownNoise) {
     rest += unexplained[i] * unexplained[i];
     all += command[i] * command[i];
   }
-  // The lag of 0.2 s lies between the filters of 0.16 s and 0.32 s. Their best sum leaves less than
-  // 2 % of the amplitude.
+  // The lag of 0.2 s lies between the filters of 0.16 s and 0.32 s. The best sum of these two
+  // filters leaves less than 2 % of the amplitude unexplained.
   EXPECT_LT(std::sqrt(rest / all), Tolerance(0.02));
 }
 
@@ -190,8 +191,8 @@ std::function<double(double)> Sine(double amplitude, double frequency) {
 }
 
 TEST(ToleratedAmplitude, IsTheSmallerOfRateAndSway) {
-  // A fifth of 0.4 rad/s at 1 Hz; at 20 m/s and 0.2 Hz, 0.1 m of sway, for which a kinematic car
-  // steers by 0.1 m L omega^2/v^2.
+  // At 1 Hz, the amplitude limit is a fifth of a yaw rate of 0.4 rad/s. At 0.2 Hz and 20 m/s, the
+  // limit is a lateral motion of 0.1 m, for which a kinematic car steers by 0.1 m L omega^2/v^2.
   EXPECT_NEAR(ToleratedAmplitude(Car(), 1.0, 5.0), 0.08 / (2.0 * kPi), Tolerance(1e-12));
   const double omega = 2.0 * kPi * 0.2;
   EXPECT_NEAR(ToleratedAmplitude(Car(), 0.2, 20.0), 0.1 * 2.5 * omega * omega / 400.0,

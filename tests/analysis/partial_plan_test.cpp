@@ -46,7 +46,8 @@ TEST(PartialPlan, IsDrivenToItsEndAndNotPassed) {
     // The car rests at the end of its path.
     const Vec2 stands = run.logs[i].rows.back().state.pose.position();
     EXPECT_LE((stands - end).norm(), 0.2);
-    // goal_distance is measured from the mission's goal.
+    // The metric goal_distance is the distance to the goal of the mission, not to the end of the
+    // partial plan.
     EXPECT_NEAR(metrics.tracking->goal_distance, (stands - Vec2(50.0, 0.0)).norm(),
                 Tolerance(1e-9));
     EXPECT_THAT(run.verdict.failures.at(i), HasSubstr("did not reach the goal: partial at"));

@@ -181,8 +181,8 @@ TEST(RecordedRuns, AreReplayedExactlyByThePlantThatTheyAreOf) {
   EXPECT_TRUE(result.verdict.passed) << testing::PrintToString(result.verdict.failures);
   // The angle measured at the end of a period is the command of the actuator at the beginning of
   // the period. The actuator turns at its full rate and then waits, so it reaches the angle up to a
-  // period early. At 0.5 rad/s over 20 ms, the steering errs by at most 0.01 rad and by 0.005 rad
-  // on average, with an amplitude of 0.2 rad.
+  // period early. The steering angle errs by at most 0.5 rad/s x 20 ms = 0.01 rad, and by 0.005 rad
+  // on average. The amplitude of the steering is 0.2 rad.
   EXPECT_LT(Number(result.metrics[1], "recorded.yaw_rate.relative_rms"), Tolerance(0.05));
   EXPECT_GT(Number(result.metrics[2], "recorded.yaw_rate.relative_rms"),
             2.0 * Number(result.metrics[1], "recorded.yaw_rate.relative_rms"));
@@ -233,8 +233,8 @@ TEST(ImportedLogs, HaveTheMotionThatTheyWereMadeOf) {
   // The numbers in autoware.csv are rounded to 1e-6, and derivatives are fitted over 0.1 s. Fitting
   // a parabola causes an error of the yaw rate of psi''' h^2/6 with psi''' = 1.5 * 1.2^2 rad/s^3.
   // The f1tenth log has a position noise of 3 mm, which causes a standard deviation of 0.03 m/s in
-  // the speed. Its heading noise causes a standard deviation of 0.004 rad/s in the yaw rate. The
-  // tolerances for f1tenth are at least four standard deviations.
+  // the speed. The heading noise of the f1tenth log causes a standard deviation of 0.004 rad/s in
+  // the yaw rate. The tolerances for f1tenth are at least four standard deviations.
   for (const Case& own : {Case{"autoware.csv", "autoware", 0.0, 1e-3, 0.01},
                           Case{"f1tenth/pfPoseData.csv", "f1tenth", 0.3, 0.15, 0.03}}) {
     const RecordedDrive drive =

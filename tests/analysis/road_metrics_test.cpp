@@ -72,8 +72,8 @@ TEST(RoadMargin, FollowsACurve) {
   curve.geometry =
       "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><arc curvature=\"0.02\"/>"
       "</geometry>";
-  // At the radius 50 m + 1.75 m around (0, 50), on the right lane. The front right corner is
-  // farthest outside.
+  // The car is on the right lane of a bend around (0, 50), at the radius 50 m + 1.75 m. The front
+  // right corner is farthest outside.
   const double radius = 51.75;
   const Pose2 pose{radius * std::sin(1.0), 50.0 - radius * std::cos(1.0), 1.0};
   const auto margin = MarginOf(ParseNetwork(curve.Xml()), {pose});

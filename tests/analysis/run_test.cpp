@@ -79,9 +79,9 @@ TEST_P(Routes, StopWhereTheSchedulePredicts) {
                           "drive.timestep=0.001", fmt::format("drive.control_period={}", period)}));
     const TrackingMetrics& tracking = *Of(result, "kinematic").tracking;
     // The tolerance covers the printed digits and the stopping point. The speed follows the profile
-    // in periods T of constant acceleration. If braking at a begins within a period, the speed errs
-    // by at most a T/2. Together with the last period before the stop, the stopping point errs by
-    // at most 1.5 a T^2, which is 0.9 mm at 20 ms.
+    // in periods T of constant acceleration. If braking with the deceleration a begins within a
+    // control period T, the speed errs by at most a T/2. The last period before the stop adds as
+    // much again, so the stopping point errs by at most 1.5 a T^2, which is 0.9 mm for T = 20 ms.
     EXPECT_NEAR(tracking.goal_distance, converged, Tolerance(0.0001 + 1.5 * 1.5 * period * period))
         << "period " << period;
   }
@@ -91,8 +91,9 @@ TEST(OpenLoop, MujocoStaysNearTheKinematicCarOnContacts) {
   for (const char* route : {"three_turns", "winding"}) {
     const RunResult result = RunScenario(
         Load(route, {"control={method: schedule}", "expect={}", "vehicle.tyre=contact"}));
-    // The physical servo lags by 10 to 15 ms, which is 4 cm of road at each end of a ramp. The
-    // errors of both ends mostly cancel. A remaining heading error of 1e-3 rad is 8 cm after 80 m.
+    // The physical steering servo lags by 10 to 15 ms, in which the car moves by 4 cm. The lags at
+    // the two ends of a steering ramp cause opposite errors, which mostly cancel. A remaining
+    // heading error of 1e-3 rad is 8 cm after 80 m.
     EXPECT_NEAR(Of(result, "mujoco").tracking->goal_distance,
                 Of(result, "kinematic").tracking->goal_distance, Tolerance(0.08))
         << route;
@@ -142,10 +143,9 @@ TEST(Run, TurnedStartGivesTheTurnedRun) {
       yaw_apart = std::max(yaw_apart, std::abs(expected.yaw - actual.yaw));
       apart = std::max(apart, (expected.position() - actual.position()).norm());
     }
-    // The kinematic run deviates by rounding over a route of 140 m: 1e-14 m in each of 23 000
-    // steps. MuJoCo's contact solver stops at a relative tolerance of 1e-10, with results that
-    // depend on the direction. The resulting deviations of micrometers do not grow in the closed
-    // loop.
+    // In the kinematic run, rounding adds 1e-14 m in each of 23 000 steps on a route of 140 m.
+    // MuJoCo's contact solver stops at a relative tolerance of 1e-10, with results that depend on
+    // the direction. The resulting deviations of micrometers do not grow in the closed loop.
     EXPECT_LE(apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
     EXPECT_LE(yaw_apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
   }

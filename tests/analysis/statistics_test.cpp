@@ -167,23 +167,24 @@ TEST(FirstOrderIndices, AreThoseOfIshigamisFunction) {
     for (std::size_t i = 0; i < truth.size(); ++i) {
       ASSERT_TRUE(indices[i]);
       const double half = 0.5 * (indices[i]->interval.high - indices[i]->interval.low);
-      // With 64 classes of width 0.098 the index is too small by 0.098^2 / 12 E[f'^2] / V: 0.0014
-      // for x2, where f' = a sin 2 x2. Half an interval is 1.96 standard deviations; a fixed sample
-      // lies within four of them with a probability of 1 - 1/16 000.
+      // With 64 classes of width 0.098, the sensitivity index is too small by 0.098^2/12 E[f'^2]/V.
+      // For x2, f' = a sin(2 x2), and the index is too small by 0.0014. Half a confidence interval
+      // is 1.96 standard deviations. A fixed sample lies within four standard deviations with a
+      // probability of 1 - 1/16 000.
       EXPECT_NEAR(indices[i]->index, truth[i], 0.0014 + 4.0 / 1.96 * half) << i;
       // The standard deviation of the index of 16384 samples is about sqrt(1 / 16384) = 0.008, and
-      // less than twice as much for these outputs. Half an interval is 1.96 standard deviations,
-      // which is below 0.03.
+      // less than twice as much for these outputs. Half a confidence interval is 1.96 standard
+      // deviations, which is below 0.03.
       EXPECT_LT(half, 0.03) << i;
       EXPECT_GT(half, 0.001) << i;
     }
   }
 }
 
-// About 95 % of the intervals of 200 samples must contain the true value. Their number is binomial
-// with the mean 190 and the standard deviation 3.1, so 178 is four standard deviations below the
-// mean. The output y = x1 + x2 / 2 + noise, with uniform variables, has the variance shares 1 : 1/4
-// : 1/4.
+// About 95 % of the intervals of 200 samples must contain the true value. The number of intervals
+// that contain the true value is binomial with the mean 190 and the standard deviation 3.1, so 178
+// is four standard deviations below the mean. The output y = x1 + x2 / 2 + noise, with uniform
+// variables, has the variance shares 1 : 1/4 : 1/4.
 TEST(FirstOrderIndices, HaveIntervalsThatHaveTheTruth) {
   constexpr int kSamples = 200;
   const std::vector<double> truth{1.0 / 1.5, 0.25 / 1.5, 0.0};
@@ -205,8 +206,8 @@ TEST(FirstOrderIndices, HaveIntervalsThatHaveTheTruth) {
   }
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_GE(held[i], 178) << i;
-    // With ten classes, the index of a linear effect is too small by 1 %. The mean of 200 samples
-    // is accurate to 1/14 of half an interval, and half an interval is below 0.1.
+    // With ten classes, the index of a linear effect is too small by 1 %. The mean of 200 indices
+    // has an error of 1/14 of half a confidence interval, and half an interval is below 0.1.
     EXPECT_NEAR(sum[i], 0.99 * truth[i], 0.01) << i;
   }
 }
@@ -216,7 +217,7 @@ TEST(FirstOrderIndices, AreNoneOfWhatDoesNotVary) {
   EXPECT_FALSE(FirstOrderIndices({classes}, {0.1, 0.1, 0.1, 0.1})[0].has_value());
   EXPECT_FALSE(FirstOrderIndices({Classify({"a", "b", "c", "d"}, 4)}, {1, 2, 3, 4})[0].has_value());
   EXPECT_FALSE(FirstOrderIndices({Classify({}, 4)}, {})[0].has_value());
-  // The classes explain all of the variance.
+  // The output takes one value in each class, so the classes explain all of its variance.
   EXPECT_EQ(FirstOrderIndices({classes}, {1.0, 2.0, 1.0, 2.0})[0]->index, 1.0);
   EXPECT_THROW(FirstOrderIndices({classes}, {1.0}), PreconditionError);
 }

@@ -198,8 +198,8 @@ TEST(DriveOnce, ComesToWhatARunOfTheScenarioComesTo) {
   }
 }
 
-/// Keys of every section that affects the physics. Sections of the world come first, so that a
-/// model compiled for one of them would show in the later points if it were reused by mistake.
+/// Keys of every section that affects the physics. The keys of the world come first: if a model
+/// compiled for one of them were reused by mistake, the results of the later points would show it.
 const std::string kEveryKind = R"(set: {drive.time_limit: 1, expect: {}}
 list:
   - {world.ground.grade.x: 0.05}
@@ -313,11 +313,12 @@ TEST(PreviewDistance, TooFarAheadCutsTheCorners) {
   EXPECT_EQ(rows[1][1], "passed");
   EXPECT_EQ(rows[2][1], "failed");
   // With the preview distance L, the cross-track error e obeys e'' + 2/L e' + 2/L^2 e = f, to first
-  // order. Over the distance L before an arc of radius R, f grows as x^2/(L^2 R); on the arc, f is
-  // 0. The error e therefore rises to 0.104 L^2/R, 0.57 L after the beginning of the arc. With a
-  // preview of 2.5 m the car is back on the path before the arc of 16.83 m ends. Terms of higher
-  // order change this error by (L/R)^2 = 2 %. Commands are held for 20 ms and the servo lags by 15
-  // ms, together 4 % of L. The tolerance of 10 % covers all of these effects.
+  // order. On the distance L before an arc of radius R, f grows as x^2/(L^2 R), where x is the
+  // distance from the start of this stretch. On the arc, f vanishes. The error e therefore rises to
+  // 0.104 L^2/R. This maximum is 0.57 L after the beginning of the arc. With a preview of 2.5 m the
+  // car is back on the path before the arc of 16.83 m ends. Terms of higher order change this
+  // maximum by (L/R)^2 = 2 %. Commands are held for 20 ms and the servo lags by 15 ms, together 4 %
+  // of L. The tolerance of 10 % covers all of these effects.
   const double expected = 0.104 * 2.5 * 2.5 / 16.83;
   for (const std::size_t cross_track : {2U, 3U}) {  // on both plants
     EXPECT_NEAR(std::stod(rows[1][cross_track]), expected, Tolerance(0.1 * expected));

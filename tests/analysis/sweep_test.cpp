@@ -79,7 +79,8 @@ TEST(Sweep, CountsTheSeedUpWhereItRepeats) {
 
 TEST(Sweep, BisectsAtEveryPoint) {
   const TempFolder folder;
-  // The limits 20, 15 and 8 lie above, between and below the ends.
+  // The highest passing speeds 20, 15 and 8 m/s are above, between and below the ends of the
+  // bisected range.
   const SweepResult sweep = SweepStudy(folder, R"(vary: {seed: [0, 5, 12]}
 bisect: {key: mission.speed, from: 10, to: 18, tolerance: 0.5}
 outputs: [metrics.kinematic.distance]
@@ -115,7 +116,8 @@ TEST(Sweep, SaysWhatFailsAboveTheHighestValueThatPasses) {
 bisect: {key: mission.speed, from: 10, to: 18, tolerance: 0.5}
 )",
                                        run);
-  // The limits 20, 15 and 8 lie above, between and below the ends.
+  // The highest passing speeds 20, 15 and 8 m/s are above, between and below the ends of the
+  // bisected range.
   EXPECT_EQ(sweep.table.ToCsv(),
             "seed,mission.speed,status,runs,reason\n"
             "0,18,passes_at_to,2,\n"

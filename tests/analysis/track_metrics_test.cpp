@@ -141,16 +141,16 @@ TEST(TrackMargin, IsThatOfBruteForce) {
 }
 
 TEST(TrackMargin, FindsTheInnerEdgeBetweenTheCorners) {
-  // The inner edge bulges toward the middle of the car's side: the car's corners are 4^2/(8 x 46) =
-  // 43 mm farther from it.
+  // The inner edge bulges toward the middle of the car's side, so the car's corners are 4^2/(8 x
+  // 46) m = 43 mm farther from this edge than the middle.
   const Track track(RingPoints(kRadius, 63, 4.0, 4.0));
   const OrientedBox box{{kRadius - 3.0, 0.0, 0.5 * kPi}, 4.0, 1.8};
   EXPECT_NEAR(TrackMargin(track, box, 0.0), (kRadius - 3.9) - (kRadius - 4.0), Tolerance(1.1e-3));
 }
 
 TEST(TrackLimits, TellHowFarHowLongAndWhere) {
-  // The car drives 3.5 m outside of the center line. Half of its width is 0.9 m, and its front
-  // corners, 3 m ahead of the rear axle, are even farther outside.
+  // The car drives 3.5 m outside of the center line. Half of the car's width is 0.9 m. The car's
+  // front corners, 3 m ahead of the rear axle, are even farther outside.
   const Plan plan = RingPlan(1);
   const VehicleParams car = Car();
   RunLog log = Circle(kRadius + 3.5, 0.1, kSpeed, 4.0);

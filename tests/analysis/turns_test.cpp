@@ -27,9 +27,9 @@ TEST(Turns, OfTheKinematicCarAreAsPredicted) {
         RunScenario(Load(name, {"control.method=schedule", "drive.plants=[kinematic]"}));
     ASSERT_EQ(run.metrics[0].turns.size(), 3U);
     for (const TurnMetrics& turn : run.metrics[0].turns) {
-      // Between rows 0.06 m apart the yaw deviates from a line by kappa' ds^2/8 = 0.0056 * 0.0036/8
-      // = 2.5e-6 rad at either end; the schedule's corners lie within a period, which adds the same
-      // amount.
+      // Between rows 0.06 m apart, the yaw deviates from a straight line by kappa' ds^2/8 = 0.0056
+      // x 0.0036/8 = 2.5e-6 rad at either end of the turn. The corners of the steering schedule are
+      // known to a control period, which adds the same error.
       EXPECT_NEAR(turn.measured.heading_deficit, turn.predicted.heading_deficit, Tolerance(1e-5));
       EXPECT_NEAR(turn.measured.lateral_offset, turn.predicted.lateral_offset, Tolerance(1e-4));
     }
@@ -43,8 +43,8 @@ TEST(Turns, SayWhereAndWhenTheyWereMeasured) {
   ASSERT_EQ(turns.size(), planned.size());
   for (std::size_t i = 0; i < turns.size(); ++i) {
     EXPECT_EQ(turns[i].s, planned[i].middle);
-    // The car drives at 3 m/s from the first row on. In a bend of radius 16.8 m, it runs up to 1 cm
-    // inside its path, which shortens the distance by 0.1 %.
+    // The car drives at 3 m/s from the first row on. In a bend of radius 16.8 m, the car drives up
+    // to 1 cm inside its path, which shortens the distance by 0.1 %.
     EXPECT_NEAR(turns[i].t, planned[i].middle / 3.0, Tolerance(1e-3 * turns[i].t));
   }
 }
@@ -54,8 +54,8 @@ TEST(Turns, OnContactsLagByTheServo) {
       Load("three_turns", {"control.method=schedule", "drive.plants=['mujoco:contact']"}));
   ASSERT_EQ(run.metrics[0].turns.size(), 3U);
   for (const TurnMetrics& turn : run.metrics[0].turns) {
-    // Tyre contacts slip at a velocity proportional to the force, which changes the heading of pi/4
-    // by 0.1 %.
+    // The contacts of the tyres slip at a velocity proportional to the force, which changes the
+    // heading of pi/4 by 0.1 %.
     EXPECT_NEAR(turn.measured.heading_deficit, turn.predicted.heading_deficit,
                 Tolerance(1e-3 * 0.785));
   }

@@ -257,8 +257,8 @@ TEST(Verdict, TellsOfSlowTurnsAndOfObstaclesOnThePath) {
       "mission: {speed: 3, waypoints: [[0, 0], [20, 0], [40, 0]]}\nplan: {method: fillet}\n"
       "world: {obstacles: [{box: {x: 30, y: 0, length: 2, width: 2}}]}\n"
       "drive: {plants: [kinematic]}\n");
-  // The car's front is 3.625 m ahead of the rear axle, the box begins at 29 m; the plan's hit is
-  // located to 2 cm.
+  // The car's front is 3.625 m ahead of the rear axle, and the box begins at 29 m. The station at
+  // which the plan hits the box has an error of up to 2 cm.
   EXPECT_THAT(blocked.verdict.notes,
               Contains(HasSubstr("plan: the path hits an obstacle at s = 25.3")));
 }

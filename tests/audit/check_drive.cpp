@@ -279,9 +279,10 @@ class DriveCheck {
              fmt::format("overlaps obstacle {} by {:.4g} m at {:.5g} s; it says {}{}", which,
                          -nearest.gap, nearest.t, status_, record_.passed ? ", passed" : ""));
     }
-    // The smallest distance may occur between two steps. Distances at the steps exceed it by at
-    // most half of the relative motion in a step. The footprint of a leaning car here differs from
-    // the program's footprint, which does not lean, by up to `leans` at a corner.
+    // The smallest distance may occur between two steps. The distances at the steps are larger than
+    // the smallest distance by at most half of the relative motion in a step. The program's
+    // footprint does not lean. The footprint of a leaning car here differs from it by up to `leans`
+    // at a corner.
     const double leans = SameYaw() * record_.car.footprint().reach();
     const double missed = 0.5 * nearest.step + 1e-6 + leans;
     missed_ = missed;
@@ -429,7 +430,7 @@ class DriveCheck {
   }
 
   /// Returns the goal of the mission, or the end of the first plan if the mission has no goal.
-  /// Later plans may end millimeters beside it.
+  /// Later plans may end millimeters beside this end.
   [[nodiscard]] Point Goal() const {
     const Driven first = DrivenFrom(record_.plan, 0.0, 0.0);
     return record_.mission.goal.value_or(Point{first.end.x, first.end.y});

@@ -83,7 +83,8 @@ class RefusalCheck {
       CheckBudget();
     } else if (planner_.name == "fillet") {
       CheckFillet();
-    } else if (!IsTooSteep()) {  // a car that cannot climb has no plan, whatever is wrong first
+    } else if (!IsTooSteep()) {  // on slopes that the car cannot climb, every reason of a refusal
+                                 // counts as true
       Report("untrue");
     }
     return findings_;
@@ -251,7 +252,7 @@ std::vector<Finding> CheckRoutePlan(const Record& record, const RoutePlanner& pl
   const check_route::Rows rows(record.plan);
   // A chord of 0.1 m lies up to 0.1^2/(8 r) m beside an arc of radius r; r is 5 m or more.
   constexpr double kChord = 0.1 * 0.1 / (8.0 * 5.0);
-  // Clothoids are integrated over a kilometer.
+  // The tolerance covers the integration of clothoids over a kilometer.
   constexpr double kExact = kChord + 1e-4;
   const std::vector<Point>& points = record.mission.waypoints;
   for (std::size_t i = 1; i < points.size(); ++i) {

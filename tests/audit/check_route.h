@@ -7,14 +7,17 @@
 #include "tests/audit/checker.h"
 
 /// Checks the plan of an ordinary route (ordinary_routes.h), or the reason why there is none. The
-/// checks measure the mission and the rows of the plan by themselves.
+/// checks compute all quantities from the mission and the rows of the plan, without the program's
+/// code.
 namespace audit {
 
 /// Properties of a planner that the checks need.
 struct RoutePlanner {
   std::string name;
-  bool meets_waypoints = false;  ///< Passes through every waypoint, not only near it.
-  bool bounds_misses = false;    ///< Passes every waypoint within a car's length.
+  /// Whether paths of the planner pass exactly through every waypoint.
+  bool meets_waypoints = false;
+  /// Whether paths of the planner pass within a car's length of every waypoint.
+  bool bounds_misses = false;
 };
 
 /// Checks a plan against the route: its limits (CheckPlan), its distance from every waypoint, and

@@ -23,7 +23,7 @@ struct Tolerances {
   /// [rad].
   double goal_heading = 0.2;
   double at_rest = 0.02;  ///< [m/s]; twice the program's threshold of standstill
-  /// Plans are computed, not measured: they begin at the car's state except for rounding.
+  /// A plan begins at the car's state, up to rounding, because the state is computed, not measured.
   double plan_position = 1e-6;  ///< [m]
   double plan_heading = 1e-6;   ///< [rad]
   double plan_speed = 1e-6;     ///< [m/s]
@@ -32,26 +32,27 @@ struct Tolerances {
   /// between steps, with an error of v^2 kappa dt^2/8 (0.14 mm at 15 m/s, 0.2 /m and 5 ms), and
   /// SweptGap has a resolution of 1 mm.
   double contact = 1e-3;
-  /// Fractions by which a plan may exceed a limit. Its columns are sampled every 0.1 m, so checks
-  /// use means over such an interval instead of values.
+  /// Fractions by which a plan may exceed a limit. The columns of a plan are sampled every 0.1 m,
+  /// so the checks use means over this interval instead of values.
   double plan_limit = 0.02;
   double plan_rate = 0.05;  ///< for the steering rate, a difference of curvatures
-  /// Fraction by which the actuator may exceed its rate limit: rounding.
+  /// Fraction by which the actuator may exceed its rate limit. The fraction allows for rounding.
   double actuator_rate = 1e-6;
-  /// As above for measured wheels, whose tie rods yield a little under load. In 34 passed runs on
-  /// MuJoCo, with three cars and either tyre law, the maximum was 0.43 %.
+  /// Fraction by which measured wheel angles may exceed the rate limit, because tie rods yield a
+  /// little under load. In 34 passed runs on MuJoCo, with three cars and both tyre laws, the
+  /// largest excess was 0.43 %.
   double wheel_rate = 0.03;
-  /// By how much measured wheels may exceed the angle limit [rad]: toe and the same compliance at
-  /// full lock, where the maximum was 0.007.
+  /// Largest excess of measured wheel angles over the steering limit [rad]. Toe angles and
+  /// compliant tie rods cause this excess, which was at most 0.007 rad.
   double wheel_angle = 0.02;
 };
 
 /// All findings, in the order of the checks; empty if the run is consistent.
 std::vector<Finding> Check(const Record& record, const Tolerances& tolerances = {});
 
-/// Checks one plan. `rows`: as in plan.csv. `taken_up_in`: the run that adopted this replan; null
-/// for the mission's own plan. `kept`: whether a note of the plan says that it exceeds a limit. The
-/// limits of the car and the road are then not checked.
+/// Checks one plan. `rows`: as in plan.csv. `taken_up_in`: the run that adopted this plan as a
+/// replan; null for the mission's initial plan. `kept`: whether a note says that the plan was kept
+/// although it exceeds a limit. If so, the limits of the car and the road are not checked.
 std::vector<Finding> CheckPlan(const trackbed::Table& rows, const Record& record,
                                const Drive* taken_up_in, bool kept, const Tolerances& tolerances);
 

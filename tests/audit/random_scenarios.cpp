@@ -266,7 +266,7 @@ struct Generator {
         obstacle.velocity = size * dice.Between(0.2, 4.0) * direction;
         at -= obstacle.velocity * dice.Between(0.0, 8.0);
       } else if (chance < 0.4) {
-        // Thin and fast enough to cross the car between two control periods.
+        // The obstacle is so thin and fast that it can cross the car between two control periods.
         obstacle.footprint.length = size * 0.05;
         obstacle.footprint.center.yaw = heading;
         obstacle.velocity = size * dice.Between(20.0, 80.0) * direction;

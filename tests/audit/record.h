@@ -9,7 +9,7 @@
 #include "trackbed/core/table.h"
 
 /// Recorded results of a run as plain numbers: the tables of its folder and data of its scenario
-/// and its car's file. The checker uses nothing else.
+/// and its car's file. The checker uses only these results.
 namespace audit {
 
 /// Parameters of the car, from its file.
@@ -52,7 +52,7 @@ struct Mission {
   std::optional<double> min_clearance{};    ///< expectation [m]
   std::optional<double> max_time{};         ///< expectation [s]
   /// A payload beside the center line rolls the car, by at most 0.05 rad. On a slope of 0.1, the
-  /// yaw of a rolled car seen from above differs from the plan's.
+  /// heading of a rolled car, projected on the ground, differs from the plan's heading.
   bool leans_on_slope = false;
   double road_friction = 1.0;    ///< factor on the tyre friction outside the patches
   std::vector<Patch> patches{};  ///< later ones override earlier ones

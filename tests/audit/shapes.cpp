@@ -68,7 +68,7 @@ double Gap(const Quad& a, const Quad& b) {
   if (along <= 0.0) {
     return along;
   }
-  // Disjoint convex polygons are nearest at a corner of one of them.
+  // The smallest distance between two disjoint convex polygons is at a corner of one of them.
   return std::min(NearestCorner(a, b), NearestCorner(b, a));
 }
 
@@ -92,8 +92,9 @@ Nearest SweptGap(const Rectangle& footprint, const std::vector<TimedPose>& poses
     }
     return gap;
   };
-  // The gap changes by at most the relative motion: within an interval of relative motion `moved`
-  // it is at least (g0 + g1 - moved)/2.
+  // While the body moves by `moved` relative to the obstacle, the gap changes by at most `moved`.
+  // With the gaps g0 and g1 at the two ends, the gap in between is therefore at least (g0 + g1 -
+  // moved)/2.
   const std::function<void(const TimedPose&, double, const TimedPose&, double, double)> look =
       [&](const TimedPose& from, double g0, const TimedPose& to, double g1, double moved) {
         if (!(moved > resolution) || 0.5 * (g0 + g1 - moved) >= nearest.gap) {

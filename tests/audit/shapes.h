@@ -36,8 +36,9 @@ using Quad = std::array<Point, 4>;
 
 Quad CornersAt(const Rectangle& rectangle, const TimedPose& pose);
 
-/// Distance between two convex quads with counter-clockwise corners [m]. If they overlap, minus the
-/// penetration depth: the smallest translation that separates them.
+/// Distance between two convex quads with counter-clockwise corners [m]. If the quads overlap,
+/// returns minus the penetration depth, which is the length of the smallest translation that
+/// separates them.
 double Gap(const Quad& a, const Quad& b);
 
 /// A box that moves at a constant velocity without turning.
@@ -57,9 +58,9 @@ struct Nearest {
   double step = 0.0;  ///< largest relative motion in one step there [m]
 };
 
-/// The smallest gap over a motion linear in position and yaw between the poses, to within
-/// `resolution` [m]: near the minimum, no point of the body moves farther between two evaluations.
-/// Exact at the poses.
+/// Returns the smallest gap [m], with an error of up to `resolution` [m], for a motion that is
+/// linear in position and yaw between the poses. Near the smallest gap, no point of the body moves
+/// by more than `resolution` between two evaluations. Exact at the poses.
 Nearest SweptGap(const Rectangle& footprint, const std::vector<TimedPose>& poses, const Box& box,
                  double resolution);
 
@@ -74,8 +75,8 @@ class Polyline {
   /// Distance to the nearest segment [m], by a search over all segments.
   [[nodiscard]] double DistanceTo(const Point& p) const;
 
-  /// Distance to the nearest of a few segments around the last call's result: an upper bound of
-  /// DistanceTo.
+  /// Returns the distance to the nearest of a few segments around the result of the last call. This
+  /// distance is an upper bound of DistanceTo.
   double LocalDistanceTo(const Point& p);
 
  private:

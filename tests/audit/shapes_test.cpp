@@ -60,7 +60,7 @@ TEST(SweptGap, FindsABoxThatIsPassedBetweenTwoPoses) {
   const std::vector<TimedPose> poses{{0.0, 0.0, 0.0, 0.0}, {0.1, 10.0, 0.0, 0.0}};
   const Rectangle car{-0.5, 1.0, 1.0};
   EXPECT_LT(SweptGap(car, poses, wall, 1e-3).gap, -0.09);
-  // A fast box that passes the car at 0.25 m and is gone when the car arrives.
+  // A fast box passes the car at a distance of 0.25 m, and has left when the car arrives.
   const Box gone{{0.0, 5.0, 0.0, 0.0}, 0.1, 1.0, {0.0, 400.0}};
   EXPECT_GT(SweptGap(car, poses, gone, 1e-3).gap, 0.0);
 }

@@ -82,7 +82,8 @@ TEST(Bag, ReadsThePosesThatWereWritten) {
       EXPECT_EQ(numbers[column("header.stamp.sec")], static_cast<double>(stamp / 1'000'000'000));
       EXPECT_EQ(numbers[column("header.stamp.nanosec")],
                 static_cast<double>(stamp % 1'000'000'000));
-      // Python and C++ compute sines that differ by a unit in the last place, 20 m times 2.2e-16.
+      // Python and C++ compute sines that differ by up to one unit in the last place: 20 m x
+      // 2.2e-16.
       EXPECT_NEAR(numbers[column(std::string(prefix) + "position.x")], 20.0 * std::sin(angle),
                   Tolerance(1e-14));
       EXPECT_NEAR(numbers[column(std::string(prefix) + "position.y")],
@@ -131,7 +132,8 @@ TEST(Bag, ReadsNothingElseFromChangedBytes) {
     changed[i] = static_cast<char>(changed[i] ^ 0x10);
     const fs::path file = folder.Write("a.mcap", changed);
     try {
-      // Chunks have checksums. Other records are not needed, or their changed length ends the file.
+      // Chunks have checksums. Changed bytes in other records have no effect, or change a length so
+      // that the file seems to end.
       EXPECT_TRUE(!ReadBagTopics(file).notes.empty() || Everything(file) == whole) << i;
     } catch (const InputError&) {
     }

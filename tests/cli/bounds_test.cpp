@@ -217,7 +217,8 @@ TEST(WrongNumber, OfRoadsEndsInTime) {
 
 // --- signals -------------------------------------------------------------------------------------
 
-/// Sends a signal a second after the start. Returns the outcome, and the time until the end [s].
+/// Sends a signal to the program one second after its start. Returns the outcome, and the time
+/// until the end [s].
 std::pair<Outcome, double> Ended(const TempFolder& folder, const std::string& arguments,
                                  const std::string& signal) {
   const Outcome outcome = Shell(

@@ -75,7 +75,8 @@ TEST(Experiment, OfAnotherMotionHasNoPublishedAngles) {
 }
 
 TEST(Experiment, ListsSearchesThatMissTheAngle) {
-  // A simplex search descends from straight wheels. At 2.5 m/s, the search ends on the bound.
+  // A simplex search descends from straight wheels. A simplex search descends from the steering
+  // angle 0. At 2.5 m/s, the search ends on the bound of the steering angle.
   const TempFolder folder;
   const Outcome outcome =
       Trackbed(folder, "experiment optimal_steering --searches direct,nelder_mead");

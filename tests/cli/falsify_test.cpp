@@ -143,7 +143,7 @@ TEST(FalsifyVerb, TellsOfBadInputBeforeAnythingIsRun) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   folder.Write("study.yaml", SearchText("0.3", "search: {}\n"));
   EXPECT_EQ(Trackbed(folder, "check study.yaml").code, 0);
-  // The points of a search are not a sample.
+  // The points of a search are not a sample, so `sweep` refuses the study of a search.
   const Outcome sweep = Trackbed(folder, "sweep study.yaml");
   EXPECT_EQ(sweep.code, 2);
   EXPECT_THAT(sweep.output, HasSubstr("sample: missing; keys of vary have distributions"));

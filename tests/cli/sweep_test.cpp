@@ -72,8 +72,9 @@ TEST(Sweep, WritesTheSameBytesForAnyNumberOfJobs) {
 
 TEST(Sweep, LeavesCellsEmptyThatARunHasNoValueFor) {
   const TempFolder folder;
-  // At the turn of 56 degrees, half of the shorter leg is 18.03 m. A radius R needs R tan(28 deg),
-  // so 40 m do not fit. The second point has no plant mujoco.
+  // At the turn of 56 degrees, half of the shorter leg is 18.03 m. A turn by 56 degrees with the
+  // radius R needs the length R tan(28 deg) of each leg, so a radius of 40 m does not fit. The
+  // second point has no plant mujoco.
   folder.Write("study.yaml",
                StudyText("set: {drive.time_limit: 1, expect: {}}\n"
                          "list:\n"
@@ -220,7 +221,7 @@ TEST(Sweep, ShardsMergeToTheBytesOfOneProcess) {
   const TempFolder folder;
   folder.Write("study.yaml", StudyText(kShort));
   ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o whole").code, 0);
-  for (const int shards : {3, 7}) {  // with seven shards, one has no row
+  for (const int shards : {3, 7}) {  // with seven shards, one shard has no row
     const std::string out = "of" + std::to_string(shards);
     for (int shard = shards; shard >= 1; --shard) {
       const std::string part = std::to_string(shard) + "/" + std::to_string(shards);
@@ -426,7 +427,8 @@ TEST(Sweep, RestartLeavesTheUsersFilesInKeptRows) {
 
 TEST(Sweep, StopsWhenThePassRateIsKnown) {
   const TempFolder folder;
-  // Half of the rows pass: in 0.1 s a car at 2.5 m/s drives 0.25 m.
+  // The study varies speeds around 2.5 m/s, at which a car drives 0.25 m in 0.1 s. Half of the rows
+  // pass.
   folder.Write("study.yaml",
                "schema: 1\nname: study\nscenario: " + ScenarioFile("steering_circle") +
                    "\nset: {drive.plants: [kinematic], mission.duration: 0.1, expect: {metrics: "
@@ -438,8 +440,8 @@ TEST(Sweep, StopsWhenThePassRateIsKnown) {
                                                          "-j ") +
                                                  jobs + " -o r" + jobs);
     EXPECT_EQ(outcome.code, 0);
-    // The interval is +-0.05 after about (1.96 / 0.05)^2 / 4 = 384 rows; it is checked every 100
-    // rows.
+    // The half width of the confidence interval is 0.05 after about (1.96/0.05)^2/4 = 384 rows. The
+    // program checks the interval every 100 rows.
     EXPECT_THAT(outcome.output, testing::MatchesRegex("study: stopped after 400 of 2000 rows, "
                                                       "[0-9]+ passed: all pass rates are known to "
                                                       "..0.05 .95 %., in r./sweep.csv\n"));

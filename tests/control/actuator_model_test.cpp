@@ -139,10 +139,10 @@ TEST(ActuatorModel, PredictsACircleInClosedForm) {
 }
 
 TEST(ActuatorModel, PredictsWhereTheCarWillBe) {
-  // The state predicted in period k is the simulated state of the period k + 3, at the end of the
-  // dead time. The car drives a weave through lag and play. The predicted and the simulated car
-  // take the same steps of 2 ms, so only rounding differs. Until the rear axle first slips, in the
-  // period 4, the predicted car is kinematic.
+  // At the end of the dead time of three periods, the simulated state must equal the state that the
+  // controller predicted three periods earlier. The car weaves, through the lag and the backlash of
+  // its steering. The predicted and the simulated car take the same steps of 2 ms, so only rounding
+  // differs. Until the rear axle first slips, in period 4, the car in the prediction is kinematic.
   for (VehicleParams car : {SmallCar(), SmallCarWithTyres()}) {
     SCOPED_TRACE(car.mass);
     car.steering_response.dead_time = 3.0 * kPeriod;
@@ -165,9 +165,9 @@ TEST(ActuatorModel, PredictsWhereTheCarWillBe) {
 class WithDeadTime : public ::testing::TestWithParam<ControllerEntry> {};
 
 TEST_P(WithDeadTime, DrivesAsWithoutItButLater) {
-  // With an exact model, a Smith predictor moves the dead time out of the loop: the car at t + T_d
-  // is where a car without dead time is at t, which starts at the place of the first car at T_d.
-  // Rounding and the projections onto the path leave less than 1e-6 m and rad.
+  // With an exact model, a Smith predictor removes the dead time T_d from the loop. The delayed car
+  // then follows a car without dead time, later by T_d. Rounding and the projections onto the path
+  // cause differences below 1e-6 m and 1e-6 rad.
   const Path bend{{}, {{30.0, 0.0, 1}, {15.0, 0.05, 1}, {60.0, 0.0, 1}}};
   VehicleParams late = ReferenceCar();
   late.steering_response.dead_time = 3.0 * kPeriod;
@@ -193,7 +193,7 @@ std::vector<ControllerEntry> Followers() {
   return all;
 }
 
-/// The controllers without the tolerance of a search.
+/// The controllers that compute the steering exactly, not by a search with a tolerance.
 std::vector<ControllerEntry> ExactFollowers() {
   std::vector<ControllerEntry> all = Followers();
   std::erase_if(all, [](const ControllerEntry& entry) {
@@ -210,9 +210,10 @@ INSTANTIATE_TEST_SUITE_P(ExactFollowers, WithDeadTime, ::testing::ValuesIn(Exact
 class OnASmallCar : public ::testing::TestWithParam<ControllerEntry> {};
 
 TEST_P(OnASmallCar, IsCalmOnAStraight) {
-  // At most one change of sign per second, and 10 mm at 2 m/s, on both car models. stanley ignores
-  // that tyres respond late, and may change the sign twice as often. optimal_steering accepts
-  // the offset of the start, which is within its deviation_limit.
+  // The steering may reverse at most once per second, and the car may be at most 10 mm beside its
+  // path at 2 m/s, in both car models. stanley ignores that tyres respond late, so its steering may
+  // reverse twice as often. optimal_steering accepts the initial offset, because this offset is
+  // within its deviation_limit.
   const std::string name = GetParam().name;
   for (const VehicleParams& car : {SmallCar(), SmallCarWithTyres()}) {
     const std::vector<Row> rows =
@@ -243,7 +244,7 @@ TEST_P(OnASmallCar, IsCopiedWithItsQueue) {
 
 INSTANTIATE_TEST_SUITE_P(Followers, OnASmallCar, ::testing::ValuesIn(Followers()), kName);
 
-/// lqr on a straight in a loop with the dead time of kDelay control periods.
+/// Number of control periods of the dead time in a loop with the controller lqr on a straight path.
 constexpr int kDelay = 5;
 
 struct SampledLoop {
@@ -255,8 +256,9 @@ double SpectralRadius(const Eigen::MatrixXd& matrix) {
   return matrix.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-/// The linear sampled loop: w = -K (e, psi, delta, delta_w), c_k = c_(k-1) + w T; the car turns by
-/// the angle c_(k-n) in period k.
+/// The linear sampled loop: the steering rate is w = -K (e, psi, delta, delta_w), and the command
+/// of period k is c_k = c_(k-1) + w T. In period k, the car turns by the angle c_(k-n), the command
+/// n periods earlier.
 SampledLoop SampledLoopOf(const VehicleParams& car, const LqrOptions& options, double speed) {
   const Path path = Straight(100.0);
   const Reference reference{path, SpeedProfile({{0.0, speed}})};
@@ -303,8 +305,8 @@ TEST(ActuatorModel, StabilizesTheSampledLoop) {
   // Without compensation, the sampled loop with a dead time of 0.1 s has an eigenvalue outside of
   // the unit circle. With compensation, the loop has the eigenvalues of the loop without dead time,
   // and the simulated offset follows the powers of its matrix, delayed. The linear loop neglects
-  // terms of third order: with angles of 1e-3 rad, less than 1e-6 of the offset of 1 mm, and the
-  // time of a step of the wheels, 1e-3 rad over 1e6 rad/s.
+  // terms of third order. With angles of 1e-3 rad, these terms are less than 1e-6 of the offset of
+  // 1 mm. A step of the wheels by 1e-3 rad at 1e6 rad/s takes 1e-9 s.
   VehicleParams car = SmallCar();
   car.steering_response = {};
   car.steering_rate = 1e6;
@@ -327,7 +329,7 @@ TEST(ActuatorModel, StabilizesTheSampledLoop) {
 
   const auto ignorant =
       WithActuatorModel(ControllerFor(options).make(options), ActuatorKnowledge::kIgnore);
-  // From 1e-6 m, the offset grows by a factor of about 100 in 30 periods. The angles stay below
+  // The offset grows from 1e-6 m by a factor of about 100 within 30 periods. The angles stay below
   // 1e-2 rad, so the terms of third order are less than 1e-4 of the offset.
   const double small = 1e-6;
   const std::vector<Row> growing =
@@ -342,8 +344,9 @@ TEST(ActuatorModel, StabilizesTheSampledLoop) {
 }
 
 TEST(ActuatorModel, CommandsWhatRestsAtTheWantedAngle) {
-  // Beside a straight, pursuit without delay wants the same angle as with an ideal actuator. The
-  // dead zone, a quarter of the backlash, moves the angle toward that of the straight.
+  // Beside a straight path and without delay, pure pursuit commands the steering angle that an
+  // ideal actuator would need. The dead zone, which is a quarter of the backlash, moves this angle
+  // toward the steering angle of the straight path.
   VehicleParams car = ReferenceCar();
   car.steering_response.curve = {{-0.5, -0.45}, {-0.2, -0.2}, {0.1, 0.05}, {0.5, 0.4}};
   car.steering_response.backlash = 0.02;

@@ -86,9 +86,9 @@ class EveryFollower : public testing::TestWithParam<ControllerEntry> {};
 
 INSTANTIATE_TEST_SUITE_P(Table, EveryFollower, testing::ValuesIn(Followers()), CaseName);
 
-// Tolerance of steering angles [rad]. Rounding of sines and cosines of paths and poses within 200 m
-// is 1e-14 m per meter, and the control laws divide by at least 0.1 m. mpc solves its quadratic
-// program to 1e-9 rad/s over 0.02 s.
+// Tolerance of steering angles [rad]. Sines and cosines of paths and poses within 200 m have
+// rounding errors of 1e-14 per meter, and the control laws divide by at least 0.1 m. mpc solves its
+// quadratic program to 1e-9 rad/s over 0.02 s.
 constexpr double kRounding = 1e-9;
 
 TEST_P(EveryFollower, MirroredWorldMirrorsTheSteering) {
@@ -159,7 +159,7 @@ TEST_P(EveryFollower, KeepsTheKinematicCarOnItsCircle) {
 
 TEST_P(EveryFollower, ComesBackToItsPath) {
   // Simulates the kinematic car with its rate limit. After 40 m, at most a tenth of the offset is
-  // left. The car never overshoots by more than its initial offset.
+  // left. The car overshoots the path by at most its initial offset.
   for (const double offset : {0.3, -0.3}) {
     for (const int direction : {1, -1}) {
       SCOPED_TRACE(fmt::format("offset {}, direction {}", offset, direction));
@@ -220,7 +220,8 @@ TEST_P(EveryFollower, TurnsItsWheelsNoFasterThanTheyCan) {
       EXPECT_LE(std::abs(rows[i].wanted - rows[i - 1].wanted), most);
     }
   }
-  EXPECT_GT(fastest, 0.9 * most);  // the bend needs more than the wheels' rate
+  // The curvature of the bend changes faster than the wheels can turn.
+  EXPECT_GT(fastest, 0.9 * most);
 }
 
 TEST_P(EveryFollower, GoesOnAlongTheEndTangent) {

@@ -258,7 +258,7 @@ TEST(OperateOn, MovesTheLoadWhenTheCarBrakes) {
   const AxleStiffness coasting{car.cornering_stiffness_front, car.cornering_stiffness_rear};
   EXPECT_LT(FastestGrowth(car, coasting, 45.0), 0.0);
   EXPECT_GT(FastestGrowth(car, both, 45.0), 0.5);
-  // In reverse, braking instead loads the axle at the rear of the car.
+  // When a reversing car brakes, the load moves to its rear axle, which leads.
   const Motion backward{.speed = -5.0, .acceleration = -6.5};
   EXPECT_GT(OperateOn(car, TyreForces::kBrush, backward).stiffness.rear, rear);
 }

@@ -99,7 +99,7 @@ TEST(PredictPose, IsWhereTheKinematicCarGets) {
 
 struct PaperRow {
   double speed;      ///< [m/s]
-  double by_time;    ///< exact minimum of eqs. (1)-(2) at equal time [degrees]
+  double by_time;    ///< minimum of eqs. (1)-(2) at equal time, solved exactly [degrees]
   double published;  ///< [degrees]
 };
 constexpr PaperRow kPaper[] = {
@@ -182,9 +182,9 @@ class EverySearch : public testing::TestWithParam<SearchEntry> {};
 INSTANTIATE_TEST_SUITE_P(Table, EverySearch, testing::ValuesIn(Searches()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// Largest distance of one update's angle from the optimum [rad]. Deterministic searches converge
-/// to the optimum. Random searches get as close as 600 evaluations allow. esch is the least
-/// accurate, because it takes the largest steps.
+/// Largest error of the steering angle of one update [rad]. Deterministic searches converge to the
+/// optimum. Random searches get as close as 600 evaluations allow. esch is the least accurate,
+/// because it takes the largest steps.
 double Accuracy(const SearchEntry& search) {
   return search.method == SearchMethod::kEsch ? 0.04 : search.random ? 0.003 : 1e-4;
 }
@@ -194,8 +194,8 @@ TEST_P(EverySearch, FindsTheAngleThatLeadsToThePose) {
   Random random(73);
   for (int i = 0; i < 50; ++i) {
     const double steering = random.Uniform(-0.3, 0.3);
-    // The wheels can turn by 0.15 rad within the horizon. A simplex that steps onto this bound may
-    // stay there if the optimum is more than half of 0.15 rad away.
+    // The wheels can turn by 0.15 rad within the horizon. A simplex search that steps onto this
+    // bound may stay there if the optimum is more than 0.075 rad away.
     const double answer = steering + random.Uniform(-0.06, 0.06);
     SCOPED_TRACE(fmt::format("case {}: from {} to {}", i, steering, answer));
     const SteeringMatch match =

@@ -86,8 +86,8 @@ TEST(PreviewDistance, ReachesAStepOfCurvatureAsFarAsTheRampAsks) {
 
 TEST(PreviewDistance, AddsStepsThatTheWheelsHaveNotTheTimeFor) {
   // The path turns left and then right, with a straight of length `gap` between. The straight is
-  // too short for the wheels to turn from one side to the other. The rule samples stations whose
-  // spacing is up to 0.3 of their distance, so the result may ignore the gap.
+  // too short for the wheels to turn from one side to the other. The rule samples stations at
+  // intervals of up to 0.3 of their distance from the car, so the result may ignore the gap.
   const VehicleParams car = ReferenceCar();
   const double speed = 5.0;
   const double one = Ramp(car, 0.0, 0.1, speed);

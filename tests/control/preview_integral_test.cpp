@@ -50,10 +50,10 @@ TEST(PreviewIntegral, ConstantCurvatureGivesTheKinematicAngle) {
 TEST(PreviewIntegral, BesideAStraightIsTheIntegralInClosedForm) {
   // At a small offset e from a straight, with heading psi, f = -e - x psi and A = x^2/(2 L). The
   // integral of (-e - x psi) x^2 over that of x^4/(2 L), from 0 to R, is -2 L (5/(3 R^2) e + 5/(4
-  // R) psi). With the weight W = 1 - x/R, the result is -2 L (5/(2 R^2) e + 3/(2 R) psi). The chord
-  // differs from x by a relative error of (e/x)^2. With e = 1e-5 m and psi = 1e-5 rad, this error
-  // is about 1e-9 where x is large compared with e. Smaller x hardly contribute, because A is small
-  // there.
+  // R) psi). With the weight W = 1 - x/R, the result is -2 L (5/(2 R^2) e + 3/(2 R) psi). Measured
+  // along the path, the chord to a point at the distance x is too long by the fraction (e/x)^2.
+  // With e = 1e-5 m and psi = 1e-5 rad, this error is about 1e-9 where x is large compared with e.
+  // Small distances x have little influence, because A is small at them.
   const double R = 5.0;
   const Path straight({}, {{100.0, 0.0, 1}});
   const double e = 1e-5;

@@ -64,8 +64,8 @@ TEST_P(RearAxleFeedback, LyapunovFunctionDoesNotGrowFromLargeErrors) {
 }
 
 TEST_P(RearAxleFeedback, ParallelCurveIsAnEquilibriumOfTheHeading) {
-  // At offset e from a circle and parallel to it, the first term alone keeps the car on the
-  // parallel circle.
+  // At an offset e from a circle, with the heading of the circle, the first term alone keeps the
+  // car on the parallel circle.
   const VehicleParams car = ReferenceCar();
   const Reference reference{
       Path({}, {{.length = 30.0, .curvature = 0.05, .direction = GetParam()}}), {}};

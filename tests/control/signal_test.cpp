@@ -31,8 +31,8 @@ TEST(Signal, IsHeldOutsideItsKnots) {
 }
 
 TEST(Signal, MeanIsTheAreaByTheWidth) {
-  // The areas under the signal are 2 before the first knot, 3 up to the second, 0.75 up to the
-  // third, and -1 after it.
+  // The area under the signal is 2 before the first knot, 3 between the first and the second, 0.75
+  // between the second and the third, and -1 behind the third knot.
   EXPECT_NEAR(kSawtooth.Mean(0.0, 3.5), (2.0 + 3.0 + 0.75 - 1.0) / 3.5, Tolerance(1e-15));
   EXPECT_NEAR(kSawtooth.Mean(1.5, 2.25), (1.75 + 0.6875) / 0.75, Tolerance(1e-15));
   EXPECT_EQ(kSawtooth.Mean(5.0, 6.0), -1.0);

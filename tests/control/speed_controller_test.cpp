@@ -28,9 +28,11 @@ TEST(SpeedControl, OnTheProfileIsItsOwnAcceleration) {
 }
 
 TEST(SpeedControl, IsOnTheProfileAtTheEndOfEveryPeriod) {
-  // The car also ends on the profile in periods that contain a knot: the speed begins to rise at 40
-  // m, is constant from 42.5 m and falls from 97 m on. Each of three iterations multiplies the
-  // speed error by a T/v = 0.015. From a T = 0.03 m/s, an error of about 1e-7 m/s remains.
+  // The speed of the car also matches the profile in periods that contain a knot of the profile:
+  // its speed begins to rise at 40 m, is constant from 42.5 m and falls from 97 m on. Each of the
+  // three iterations multiplies the speed error by a T/v = 0.015, with the acceleration a, the
+  // period T and the speed v. An initial error of a T = 0.03 m/s is therefore reduced to about 1e-7
+  // m/s.
   const SpeedProfile profile = StopAtEnd(100.0, 2.0, kLimits, {{20.0, 40.0, 2.0}});
   for (double s = 38.0; s < 99.9; s += 0.013) {
     const double v = profile.SpeedAt(s);
@@ -104,10 +106,10 @@ TEST(SpeedControl, StopsTheCarAtTheEndOfItsProfile) {
   // The car obeys the commanded acceleration exactly. If the acceleration of the profile changes
   // inside a period T, the midpoint rule uses the wrong acceleration for at most T/2. Where braking
   // with the deceleration b begins, the speed error is therefore at most b T/2, and the error w of
-  // v^2 is at most v b T. The speed feedback only reduces w during the braking, so w moves the
+  // v^2 is at most v b T. During braking, the speed feedback can only reduce w, so w moves the
   // stopping point by at most w/(2 b) = v T/2. In the last period, the midpoint may lie past the
-  // end, where the profile commands no acceleration. The car is then less than b T^2/2 before the
-  // end, slower than b T, and moves by at most b T * T.
+  // end, where the profile commands no acceleration. The car is then less than b T^2/2 from the end
+  // and slower than b T, so it moves by at most b T^2 in this period.
   for (const double period : {0.005, 0.01, 0.02, 0.05}) {
     for (const double length : {1.0, 5.0, 37.123, 100.0}) {
       for (const double start : {0.0, 1.0}) {
@@ -194,9 +196,9 @@ TEST(TimedSpeedControl, FollowsASpeedThatTheLimitsWouldCut) {
 }
 
 TEST(SpeedControl, DrivesOnACarThatRollsBack) {
-  // The profile leaves s = 0 at 1 m/s^2 and reaches sqrt(0.008) m/s after 4 mm. The speed error of
-  // a car that rolls backward there is this speed plus the car's own speed. A controller that
-  // followed the profile in reverse would brake instead.
+  // The profile leaves s = 0 at 1 m/s^2 and reaches sqrt(0.008) m/s after 4 mm. If the car rolls
+  // backward there, its speed error is the sum of this speed and the car's own speed. A controller
+  // that followed the profile in reverse would brake instead.
   const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
   EXPECT_GE(SpeedControl(kOptions, profile, 0.004, -0.02, kPeriod),
             2.0 * (std::sqrt(0.008) + 0.02));

@@ -141,12 +141,14 @@ TEST(SweptSine, SweepsItsFrequency) {
         const double share = tau / options.duration;
         const double f = sweep == Sweep::kLinear ? f0 + (f1 - f0) * share
                                                  : f0 * std::exp(share * std::log(f1 / f0));
-        // Near the peaks, InstantaneousFrequency loses precision by division.
+        // Near the peaks of the sine, InstantaneousFrequency divides by small numbers and loses
+        // precision.
         if (std::abs(SteeringAt(options, 1.0 + tau)) < 0.09) {
           // The tolerance covers the errors of the central difference over 2 us. At both ends the
           // phase of up to 132 rad is rounded by 1.4e-14 rad, which is 2.2e-9 Hz. Rounding of the
-          // sine adds the same error at 0.2 Hz, and twice this error where sqrt(1 - value^2) is
-          // 0.44. The truncation error, (2 pi f h)^2/6 = 1e-10, is smaller.
+          // sine adds the same error at 0.2 Hz, and twice this error at values for which sqrt(1 -
+          // value^2) is 0.44. The truncation error of the central difference, (2 pi f h)^2/6 =
+          // 1e-10, is smaller.
           EXPECT_NEAR(InstantaneousFrequency(options, 1.0 + tau), f, Tolerance(1e-8));
           ++looked_at;
         }

@@ -59,9 +59,9 @@ class Car {
 class TurnsRound : public ::testing::TestWithParam<ControllerEntry> {};
 
 TEST_P(TurnsRound, FromAnyHeadingAndOffset) {
-  // Until the wheels are at full lock, the car drives at most v delta_max/omega; on the circle of
-  // full lock, it moves at most another radius away from any line. From an offset of 3 m, the
-  // controllers may first drive toward the path for at most their preview distance.
+  // While the wheels turn to full lock, the car drives at most v delta_max/omega. On the circle of
+  // full lock, the car moves away from any line by at most one more radius. From an offset of 3 m,
+  // the controllers may first drive toward the path for at most their preview distance.
   const VehicleParams car = ReferenceCar();
   const double speed = 1.0;
   const double turning = speed * car.steering_limit / car.steering_rate + car.min_turning_radius();
@@ -101,7 +101,7 @@ TEST_P(TurnsRound, ToOneSideUnderNoise) {
 }
 
 TEST_P(TurnsRound, ToTheShorterSideInBothGears) {
-  // The shorter side is the left if the car must turn left by slightly less than pi. A car
+  // The shorter side is the left if the car must turn to the left by slightly less than pi. A car
   // in reverse turns its heading to the left with its wheels to the right.
   for (const int direction : {1, -1}) {
     for (const double side : {1.0, -1.0}) {
@@ -124,14 +124,16 @@ TEST(TurnRound, StepsToFullLockAndEndsWhenTheTargetIsNotBehind) {
   for (const double yaw : {1.6, 2.0, 3.0, 3.14159}) {
     EXPECT_EQ(pursuit.Steer({50.0, 0.0, yaw}), -car.steering_limit) << yaw;
   }
-  // On the path, u = -psi: within 90 degrees, the law is that of pure pursuit.
+  // On the path, the angle is u = -psi. For headings psi within 90 degrees, the law is that of pure
+  // pursuit.
   EXPECT_NEAR(pursuit.Steer({50.0, 0.0, 0.2}),
               -std::atan(2.0 * car.wheelbase * std::sin(0.2) / 4.0), Tolerance(1e-11));
 }
 
 TEST(TurnRound, LeavesAHairpinToTheLaw) {
-  // A hairpin of radius 2 m, whose legs are 4 m apart. From 1 m before it, the first point at a
-  // distance of 7 m is on the returning leg, at the angle u with sin u = 4/7, behind the car.
+  // A hairpin of radius 2 m, whose legs are 4 m apart. 1 m before the hairpin, the first point of
+  // the path at a distance of 7 m is on the returning leg behind the car, at the angle u with sin u
+  // = 4/7.
   const Path hairpin{{}, {{20.0, 0.0, 1}, {2.0 * kPi, 0.5, 1}, {40.0, 0.0, 1}}};
   Car car(PurePursuitOptions{.distance = 7.0}, hairpin);
   const VehicleParams params = ReferenceCar();
@@ -146,7 +148,8 @@ TEST(TurnRound, KeepsHalfOfTheGrip) {
   EXPECT_EQ(TurnRoundLimit(car, 1.0), car.steering_limit);
   EXPECT_NEAR(TurnRoundLimit(car, 10.0), std::atan(car.wheelbase * 0.4 * kGravity / 100.0),
               Tolerance(1e-12));
-  // Inner wheels lift at g b/(2 h) = 0.6 g with a track of 1.5 m and h = 1.25 m.
+  // The inner wheels lift off at the lateral acceleration g b/(2 h) = 0.6 g, with the track width b
+  // = 1.5 m and the height h = 1.25 m of the center of gravity.
   car.track_front = 1.5;
   car.track_rear = 1.5;
   const double height = 1.25;
@@ -156,8 +159,9 @@ TEST(TurnRound, KeepsHalfOfTheGrip) {
 }
 
 TEST(SteeringAtGrip, IsTheAngleOfTheCircleAtTheLimit) {
-  // Without slip, a car with the friction 0.8 reaches 0.8 g at 10 m/s on the curvature 0.8 g/v^2.
-  // At 1 m/s, even full lock needs less than this.
+  // Without slip, a car with the friction coefficient 0.8 reaches a lateral acceleration of 0.8 g
+  // at 10 m/s on the curvature 0.8 g/v^2. At 1 m/s, even full lock causes a smaller lateral
+  // acceleration.
   VehicleParams car = ReferenceCar();
   EXPECT_EQ(SteeringAtGrip(car, 40.0), car.steering_limit);  // unknown grip
   car.friction_lateral = 0.8;
@@ -165,7 +169,7 @@ TEST(SteeringAtGrip, IsTheAngleOfTheCircleAtTheLimit) {
   EXPECT_NEAR(SteeringAtGrip(car, 10.0), limit, Tolerance(1e-12));
   EXPECT_NEAR(SteeringAtGrip(car, -10.0), limit, Tolerance(1e-12));
   EXPECT_EQ(SteeringAtGrip(car, 1.0), car.steering_limit);
-  // A car with tyres needs the angle of its steady turn, which contains the understeer.
+  // A car with tyres needs the steering angle of its steady turn, which includes understeer.
   VehicleParams tyres = ReferenceCarWithTyres();
   tyres.friction_lateral = 0.8;
   EXPECT_NEAR(SteeringAtGrip(tyres, 10.0),

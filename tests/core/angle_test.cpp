@@ -35,7 +35,7 @@ TEST(WrapAngle, TakesOffWholeTurns) {
     const double angle = random.Uniform(-3.1, 3.1);
     const int turns = random.Below(2001) - 1000;
     const double wound = angle + turns * 2.0 * kPi;
-    // Rounding of the sum here, plus WrapAngle's "within 1 ulp": both 2^-52 |wound|.
+    // The sum in this test and WrapAngle ("within 1 ulp") each round by up to 2^-52 |wound|.
     EXPECT_NEAR(WrapAngle(wound), angle, Tolerance(std::ldexp(std::abs(wound), -51) + 1e-15));
     EXPECT_GT(WrapAngle(wound), -kPi);
     EXPECT_LE(WrapAngle(wound), kPi);
@@ -59,7 +59,7 @@ TEST(AngleDifference, IsSignedSoOneSidedComparisonsLie) {
   // value.
   EXPECT_LT(AngleDifference(0.0, 3.0), 1e-9);
   EXPECT_GT(std::abs(AngleDifference(0.0, 3.0)), 1e-9);
-  // Plain subtraction across the cut errs by a full turn.
+  // Subtracting angles on both sides of +-pi without wrapping gives an error of a full turn.
   EXPECT_GT(std::abs(3.14159 - -3.14159), 6.0);
   EXPECT_LT(std::abs(AngleDifference(3.14159, -3.14159)), 1e-5);
 }

@@ -53,7 +53,7 @@ TEST(ReadCsvTable, TakesNamesFromACommentBeforeNumbers) {
   EXPECT_EQ(TableText("\xEF\xBB\xBF# x, y, z\n# a;b\n1;2\n"), "2:a|b\n3:1|2\n");
 }
 
-// A comment may contain quotes, which would otherwise begin a cell.
+// A comment may contain quotes, which begin a quoted cell outside of comments.
 TEST(ReadCsvTable, SkipsCommentsWhateverTheyContain) {
   EXPECT_EQ(TableText("# made by \"me\n# it's \"so\", yes\na,b\n1,2\n# \"\n3,4\n# end"),
             "3:a|b\n4:1|2\n6:3|4\n");

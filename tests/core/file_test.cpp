@@ -98,8 +98,8 @@ TEST(WriteFileAtomically, SaysThatTheDiskIsFull) {
 }
 
 TEST(WriteFileAtomically, KeepsTheOldFileWhenTheTemporaryCannotBeWritten) {
-  // A name has at most 255 bytes. The file's name has 250, so the temporary's name, which adds the
-  // process id, is too long.
+  // A name has at most 255 bytes. The file's name has 250 bytes. The name of the temporary file
+  // also contains the process id, so it is too long.
   const TempFolder folder;
   const fs::path file = folder.Write(std::string(250, 'a'), "old");
   EXPECT_THAT(RunErrorMessage([&] { WriteFileAtomically(file, "new"); }), HasSubstr("too long"));
@@ -107,8 +107,9 @@ TEST(WriteFileAtomically, KeepsTheOldFileWhenTheTemporaryCannotBeWritten) {
 }
 
 TEST(WriteFileAtomically, WritesToADevice) {
-  // Writes through a link in the test's folder. An implementation that replaced the file would lose
-  // only the link, and not, when run by root, the machine's /dev/null.
+  // Writes through a link in the test's folder. An implementation that replaced the file would
+  // replace the link in the test's folder, and never the machine's /dev/null, even when root runs
+  // the test.
   const TempFolder folder;
   const fs::path file = folder.path() / "device";
   fs::create_symlink("/dev/null", file);

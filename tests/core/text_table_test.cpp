@@ -15,7 +15,7 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// The rows that libcsv, strict about quotes, reads from a text.
+/// The rows that libcsv reads from a text with strict rules for quotes.
 Rows ReadBack(const std::string& text) {
   Rows rows(1);
   csv_parser parser{};

@@ -74,9 +74,10 @@ TEST(SimulateClosedLoop, ArrivesAtTheEndOfAPathWhenItsSpeedsSay) {
       plant, controller, Drivable(PlanAlongRoute({{.length = 50.0}}, 0.0)), Config());
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   // The car accelerates over 4.5 m in 3 s, drives 42.5 m at 3 m/s and brakes over 3 m in 2 s. At
-  // each of the three knots of the profile, the speed errs by at most a period times the change of
-  // acceleration. Each knot thus moves the stop by at most 1.5 x 0.02 x 0.02/2 m = 0.3 mm. The last
-  // row is the first one at rest, at most two periods after the stop.
+  // each of the three knots of the speed profile, the speed errs by at most the control period
+  // times the change of acceleration. An error of the speed by 1.5 m/s^2 x 0.02 s during half a
+  // period, 0.01 s, moves the stop by 0.3 mm. The last row of the log is the first row at rest, at
+  // most two periods after the stop.
   EXPECT_NEAR(log.rows.back().state.pose.x, 50.0, Tolerance(3 * 3e-4));
   EXPECT_NEAR(log.rows.back().state.time, 5.0 + 42.5 / 3.0, Tolerance(0.05));
   for (const LogRow& row : log.rows) {
@@ -218,8 +219,8 @@ TEST(SimulateClosedLoop, EndsAsThePlantDoes) {
   const RunLog log =
       SimulateClosedLoop(plant, controller, Drivable(PlanAtSpeed(3.0)), ConfigFor(5.0));
   EXPECT_EQ(log.status, DriveStatus::kDiverged);
-  EXPECT_EQ(plant.commands.size(), 25U);  // diverged in the middle of the third period, so not
-                                          // stepped again
+  EXPECT_EQ(plant.commands.size(), 25U);  // the car diverged in the middle of the third period and
+                                          // was not stepped again
   EXPECT_EQ(log.rows.size(), 3U);         // the log ends before
 }
 

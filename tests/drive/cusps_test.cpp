@@ -84,8 +84,8 @@ TEST_P(Cusps, AreStoodAtUntilTheWheelsHaveTurned) {
     EXPECT_LE(std::abs(log.rows[i].state.speed), 0.02);
     const double limit = LoadCar(TurnRound(GetParam())).params().steering_limit;
     const double asked = std::clamp(log.rows[i].command.steering, -limit, limit);
-    // The wheels rest if they turn by less than 1e-4 rad in a period. The car stood while they
-    // turned.
+    // The test counts wheels as at rest if they turn by less than 1e-4 rad in a period. The car
+    // must have been at rest while the wheels turned.
     EXPECT_NEAR(log.rows[i].state.steering_actuator, asked, Tolerance(1e-3));
     std::size_t stood = 0;
     while (stood < i && std::abs(log.rows[i - stood].state.speed) <= 0.02) {

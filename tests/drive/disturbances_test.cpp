@@ -122,7 +122,8 @@ TEST(SteeringDeadBand, IsTakenOffWhatTheWheelsDo) {
     play = std::clamp(play, wanted - 0.01, wanted + 0.01);
     EXPECT_NEAR(log.rows[i].state.steering, play, Tolerance(1e-15));
   }
-  // The sine ends at 0, rising from below, so the wheels stay behind by half of the play.
+  // The sine ends at 0 after a rise from below, so the wheels are half of the play behind the
+  // command.
   EXPECT_NEAR(log.rows.back().state.steering, -0.01, Tolerance(1e-9));
 }
 
@@ -151,8 +152,8 @@ TEST(SpeedLoss, HoldsTheCarBackAndThePlanGoesOn) {
     EXPECT_NEAR(At(log, 15.0).state.speed, 1.0, Tolerance(2e-3)) << plant;
     EXPECT_NEAR(At(log, 40.0).state.speed, 1.0, Tolerance(2e-3)) << plant;
     EXPECT_EQ(log.status, DriveStatus::kArrived) << plant;  // stops where the plan does
-    // The car begins to brake below the planned speed. Braking from 1 m/s takes 0.7 s and 0.33 m.
-    // In this time, the gain of 2 1/s reduces the error only to a fraction of e^-1.4.
+    // The car begins to brake below the planned speed. Braking from 1 m/s to rest takes 0.7 s and
+    // 0.33 m. In 0.7 s, the gain of 2 1/s reduces the error only to a fraction of e^-1.4.
     EXPECT_NEAR(log.rows.back().state.pose.x, 60.0, Tolerance(0.33 * 0.25)) << plant;
   }
 }
@@ -211,8 +212,9 @@ TEST(Noise, HasItsStatistics) {
     EXPECT_NEAR(statistics.mean, 0.0, Tolerance(4.0 * sigma / std::sqrt(n)));
     EXPECT_NEAR(statistics.deviation, sigma, Tolerance(4.0 * sigma / std::sqrt(2.0 * n)));
     EXPECT_NEAR(statistics.correlation, 0.0, Tolerance(4.0 / std::sqrt(n)));
-    // Of a normal distribution, 4.55 % lie beyond two sigma. The standard deviation of this
-    // fraction is sqrt(p q / n) = 0.3 %.
+    // 4.55 % of the values of a normal distribution are farther than two standard deviations from
+    // the mean. The measured fraction has a standard deviation of sqrt(p q/n) = 0.3 %, with p =
+    // 4.55 % and q = 1 - p.
     const auto beyond =
         std::count_if(errors.begin(), errors.end(),
                       [limit = 2.0 * sigma](double e) { return std::abs(e) > limit; });
@@ -260,7 +262,7 @@ TEST(Kick, SetsTheCarAsideAndItComesBack) {
     const RunLog log =
         Drive(Straight(plant) + "disturb: {kicks: [{at: 4.01, displacement: -0.5}]}\n");
     EXPECT_NEAR(At(log, 4.0).state.pose.y, 0.0, Tolerance(1e-3)) << plant;
-    // At 4.02 s the controller has not received the offset yet.
+    // At 4.02 s, the delayed measurements do not yet show the offset to the controller.
     EXPECT_NEAR(At(log, 4.02).state.pose.y, -0.5, Tolerance(1e-3)) << plant;
     EXPECT_GT(At(log, 4.02).command.steering, 0.1) << plant;
     EXPECT_NEAR(log.rows.back().state.pose.y, 0.0, Tolerance(0.02)) << plant;

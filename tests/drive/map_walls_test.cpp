@@ -114,8 +114,8 @@ TEST(MapWalls, StopACarThatReplans) {
     const RunLog log = SimulateScenario(scenario, LoadCar(scenario), straight, plant);
     EXPECT_EQ(log.status, DriveStatus::kBlocked) << plant;
     for (const LogRow& row : log.rows) {
-      // Between their samples, motions may be closer to the wall than the safe distance of 0.5 m by
-      // 1 cm. The MuJoCo car may come closer by a few more centimeters.
+      // Between the samples of a motion, the distance to the wall may be up to 1 cm below the safe
+      // distance of 0.5 m. The MuJoCo car may come closer by a few more centimeters.
       ASSERT_GT(row.clearance.value_or(0.0), 0.4) << plant;
     }
   }

@@ -17,10 +17,10 @@ namespace {
 
 /// Tolerance of a millimeter [m] over routes of some hundred meters. The run follows the schedule
 /// and the speed profile at every physics step T = 2 ms, so the control period of 20 ms causes no
-/// error. If braking at a ends within a step at the speed v, the car is up to a T^2/8 ahead of its
-/// profile. Over a steering ramp, the actuator then lags by omega a T^2/(8 v). With omega = 0.15
-/// rad/s, a = 1.5 m/s^2 and v = 1.1 m/s, the lag is 1e-7 rad, which causes an error of 3 um after
-/// 60 m for each ramp.
+/// error. If braking with the deceleration a ends within a step T at the speed v, the car is up to
+/// a T^2/8 ahead of its profile. On a steering ramp with the rate omega, this changes the steering
+/// angle at a station by omega a T^2/(8 v). With omega = 0.15 rad/s, a = 1.5 m/s^2 and v = 1.1 m/s,
+/// the steering angle errs by 1e-7 rad, which displaces the car by 3 um after 60 m for each ramp.
 constexpr double kMillimeter = 1e-3;
 
 std::string Number(double x) {

@@ -65,8 +65,8 @@ TEST(Playback, OnPrescribedWheelsGivesTheRecordedAngleAndSpeed) {
     for (const LogRow& row : log.rows) {
       const VehicleState& state = row.state;
       EXPECT_NEAR(state.steering, recording.steering.At(state.time), Tolerance(1e-12));
-      // Each period adds a rounding error of a few 1e-15 m/s, and the gain corrects 4 % of the
-      // error.
+      // Each period adds a rounding error of a few 1e-15 m/s to the speed, and the gain removes 4 %
+      // of the speed error.
       EXPECT_NEAR(state.speed, recording.speed.At(state.time), Tolerance(1e-12));
     }
   }
@@ -106,8 +106,9 @@ TEST(Playback, BrakesAsHardAsWasRecordedOnMujocoToo) {
   const RunLog log = Drive(scenario);
   ASSERT_EQ(log.rows.size(), 201U);
   for (const LogRow& row : log.rows) {
-    // The brakes err by 5 % of 6 m/s^2, which causes a speed error of 0.15 m/s with the gain of 2
-    // 1/s. The braking car pitches by 2 degrees, which adds at most 0.02 m/s at a height of 0.5 m.
+    // The deceleration of the brakes errs by 5 % of 6 m/s^2, which causes a speed error of 0.15 m/s
+    // with the gain of 2 1/s. The braking car pitches by 2 degrees, which changes the speed by at
+    // most 0.02 m/s at a height of 0.5 m.
     EXPECT_NEAR(row.state.speed, recording.speed.At(row.state.time), Tolerance(0.17));
   }
 }
@@ -116,7 +117,7 @@ TEST(Playback, ByDistanceTurnsTheWheelsWhereTheyWereTurned) {
   Scenario scenario = Replay(Wandering(95, 2.0), "kinematic", SteeringInput::kPrescribed);
   auto& playback = scenario.control.steering.Get<PlaybackOptions>();
   playback.by = PlaybackAxis::kDistance;
-  playback.recording.speed = {{{0.0, 0.3}}};  // 6 mm per period: 20 s for 6 m
+  playback.recording.speed = {{{0.0, 0.3}}};  // the car moves 6 mm per period, so 6 m take 20 s
   scenario.mission.duration = 20.0;
   const RunLog log = Drive(scenario);
   EXPECT_NEAR(log.rows.back().state.distance, 6.0, Tolerance(1e-11));

@@ -64,7 +64,7 @@ TEST(ReplanningMonitor, AvoidsWhatBecomesKnownAfterTheDelay) {
   box.known_from_time = 1.0;
   const FeasiblePlan plan = StraightPlan();
   ReplanningMonitor monitor(Avoiding({box}), plan);
-  // The new plan comes in the first control period at or after 1.9 s.
+  // The monitor must make the new plan in the first control period at or after 1.9 s.
   const std::optional<double> time = FirstPlan(monitor, plan, 4.0);
   ASSERT_TRUE(time);
   EXPECT_NEAR(*time, 1.0 + kDelay, 1e-9);
@@ -98,7 +98,7 @@ TEST(ReplanningMonitor, KnowsAnObstacleFromItsRangeOn) {
   const double known = (59.0 - 40.0 - (car.length - car.rear_overhang)) / 3.0;
   const std::optional<double> time = FirstPlan(monitor, plan, 10.0);
   ASSERT_TRUE(time);
-  // Detection and delay each end up to one control period late.
+  // Detection and delay may each end up to one control period late.
   EXPECT_GE(*time, known + kDelay - 1e-9);
   EXPECT_LE(*time, known + kDelay + 0.04);
 }
@@ -109,7 +109,7 @@ TEST(ReplanningMonitor, LeavesThePlanWhereNothingIsInItsWay) {
   const FeasiblePlan plan = StraightPlan();
   ReplanningMonitor monitor(Avoiding({beside}), plan);
   EXPECT_FALSE(FirstPlan(monitor, plan, 4.0));
-  // The plan already considers an obstacle that is known from the start.
+  // The initial plan already avoids obstacles that are known from the start.
   ReplanningMonitor from_start(Avoiding({BoxAt(70.0, 0.0)}), plan);
   EXPECT_FALSE(FirstPlan(from_start, plan, 4.0));
 }

@@ -9,9 +9,9 @@ namespace trackbed {
 namespace {
 
 TEST(Replanning, KeepsAMotionThatLeadsPastWhatNewOnesDoNot) {
-  // A box stands in the lane after the bend. The first lattice has a motion past the box. Later
-  // lattices have their layers at other stations, and no edge past the box that the wheels can
-  // follow.
+  // A box stands in the lane after the bend. The first lattice contains a motion that passes the
+  // box. Later lattices have their layers at other stations, and contain no edge that passes the
+  // box and that the wheels can follow.
   const Scenario scenario = ParseScenario(
       "schema: 1\nname: lattice\n"
       "mission: {speed: 3, waypoints: [[0, 0], [30, 0], [60, 20], [60, 60]]}\n"

@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-/// Past a gap, back into it on two arcs, and a little ahead.
+/// The car drives past a gap, backs into the gap on two arcs, and then drives a little ahead.
 Path ParallelParking() {
   return Path({0.0, 0.0, 0.0}, {{.length = 6.0},
                                 {.length = 3.5, .curvature = -0.13, .direction = -1},
@@ -61,8 +61,8 @@ TEST_P(ReversePathFile, Parks) {
     const RunLog log = SimulateScenario(scenario, car, plan, GetParam());
     EXPECT_EQ(log.status, DriveStatus::kArrived);
     const Pose2& end = log.rows.back().state.pose;
-    // The path ends at the last point, with a heading that the fit may change by 0.05 m over a leg
-    // of 0.8 m at most. The speed controller stops within 0.1 m.
+    // Over a leg of 0.8 m or more, the fit may move the path by 0.05 m, which changes the heading
+    // at the last point. The speed controller stops within 0.1 m.
     EXPECT_LE((end.position() - goal.position()).norm(), Tolerance(0.1));
     EXPECT_LE(std::abs(AngleDifference(end.yaw, goal.yaw)), Tolerance(0.06));
     for (const LogRow& row : log.rows) {

@@ -208,7 +208,7 @@ TEST(RoadHeightsLimits, AreHigherInABankedTurn) {
   const double banked = SpeedAtLimitOnArc(Bank(-0.1));  // the right side up
   const double radius = 60.0 + 1.75;
   // A point mass on a bank with the slope e obeys v^2 = g R (mu + e)/(1 - mu e). Changes of the
-  // wheel loads change mu by a few percent, and the speed by half as many percent.
+  // wheel loads change the friction coefficient by a few percent, and the speed by half of this.
   const double mu = level * level / (kGravity * radius);
   const double expected = std::sqrt(kGravity * radius * (mu + 0.1) / (1.0 - 0.1 * mu));
   EXPECT_GT(expected, 1.05 * level);

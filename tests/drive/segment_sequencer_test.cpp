@@ -187,7 +187,7 @@ TEST(SegmentSequencer, TellsTheEndOfALoopFromItsStart) {
   for (double s = 0.0; s < around; s += 0.5) {
     const double angle = s / 10.0;
     state.pose = {10.0 * std::sin(angle), 10.0 - 10.0 * std::cos(angle), angle};
-    state.speed = 25.0;  // 0.5 m in a control period
+    state.speed = 25.0;  // the car moves 0.5 m per control period
     ASSERT_TRUE(sequencer.Project(state));
     EXPECT_EQ(sequencer.IsAtEnd(state), around - s < 0.4) << s;
   }

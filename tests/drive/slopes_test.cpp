@@ -64,9 +64,9 @@ TEST_P(Slopes, AreStartedDrivenAndStoppedOn) {
   const auto& [car, plant, grade, direction] = GetParam();
   const Outcome outcome = Drive(car, plant, grade, direction);
   EXPECT_EQ(outcome.status, DriveStatus::kArrived);
-  // The tyres reach their full drive force about ten timesteps of 2 ms after the brakes release.
-  // Meanwhile the car rolls back by g sin(0.2) (20 ms)^2/2 = 0.4 mm. The deflection of the tyres,
-  // sigma mu, adds less than 0.05 m.
+  // The tyres reach their full drive force about ten timesteps of 2 ms after the brakes are
+  // released. Meanwhile the car rolls back by g sin(0.2) (20 ms)^2/2 = 0.4 mm. The deflection of
+  // the tyres, sigma mu with the relaxation length sigma, adds less than 0.05 m.
   EXPECT_LE(outcome.rolled_back, Tolerance(0.05));
   // The feed-forward compensates the slope, but not tyre drag and pitching. With the gain of 2 1/s,
   // a disturbance of 0.02 m/s^2 causes a speed error of 0.01 m/s.

@@ -28,8 +28,8 @@ Scenario ScenarioWith(double x, double y, const std::string& more,
 TEST(StartOverlap, NamesTheObstacleAndTheDepth) {
   const VehicleParams car = ReferenceCar();
   const double front = car.length - car.rear_overhang;
-  // The obstacle reaches from x - 1 m on; moving it forward by the overlap frees the car. Moving
-  // obstacles and obstacles that become known later are treated in the same way.
+  // The obstacle extends from x - 1 m on. Moving the obstacle forward by the overlap frees the car.
+  // Moving obstacles and obstacles that become known later are treated in the same way.
   for (const char* more : {"", ", velocity: {x: 5}", ", known_from: {time: 3}"}) {
     EXPECT_EQ(StartOverlap(ScenarioWith(front + 0.75, 0.2, more), car),
               fmt::format("world.obstacles[0] at ({:.4g}, 0.2) overlaps the car, which starts at "
@@ -65,7 +65,7 @@ TEST(PlanScenario, SaysHowToLeaveAnObstacleToReplanning) {
   EXPECT_TRUE(
       PlanScenario(ScenarioWith(50.0, 0.2, ", known_from: {time: 0.1}", replan), ReferenceCar())
           .ok());
-  // Without replanning during the run, the hint would be wrong.
+  // If the car did not replan during the run, the remedies of the hint would be wrong.
   const FeasiblePlan alone = PlanScenario(ScenarioWith(50.0, 0.2, ""), ReferenceCar());
   ASSERT_FALSE(alone.ok());
   EXPECT_EQ(alone->reason.find("known_from"), std::string::npos) << alone->reason;

@@ -82,7 +82,7 @@ TEST_P(EveryLoop, ContinuesFromACopyAsIfNothingHadHappened) {
     loop.Step();
   }
   const SteppedLoop state = loop.Copy();
-  // A future with other commands, which must not change the copy.
+  // Commands of a future that differs from the copied one; they must not change the copy.
   for (int i = 0; i < 20 && !loop.status(); ++i) {
     loop.Step(0.3, 1.0);
   }
@@ -113,7 +113,8 @@ TEST(SteppedLoop, FollowsTheCommandsThatItIsGiven) {
     EXPECT_EQ(loop.input().state.time, loop.row().state.time);
     loop.Step(0.1, 0.5);
   }
-  // 500 additions of 0.001 to numbers below 4, half an ulp of 4.4e-16 each.
+  // The tolerance covers 500 additions of 0.001 to numbers below 4, each with an error of half an
+  // ulp, 4.4e-16.
   EXPECT_NEAR(loop.input().state.speed, 3.5, 500 * 2.2e-16);
   const RunLog log = loop.log();
   EXPECT_EQ(log.status, DriveStatus::kInterrupted);

@@ -62,8 +62,8 @@ TEST(IsAtRest, IsSlowAndNotAskedToMove) {
   state.speed = -0.0099;
   for (const int gear : {1, -1}) {
     command.gear = gear;
-    command.acceleration = 0.1 * gear;  // in the direction of the gear, so the car is about to
-                                        // start
+    command.acceleration = 0.1 * gear;  // the speed is in the direction of the gear, so the car is
+                                        // about to start
     EXPECT_FALSE(IsAtRest(state, command)) << gear;
     command.acceleration = -0.1 * gear;
     EXPECT_TRUE(IsAtRest(state, command)) << gear;

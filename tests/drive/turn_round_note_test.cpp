@@ -6,7 +6,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
 
-// The note on a start that faces away from the path.
+// Tests the note about a start that faces away from the path.
 namespace trackbed {
 namespace turn_round_note_test {
 
@@ -29,7 +29,7 @@ std::vector<std::string> Notes(double yaw, const std::string& obstacles) {
 }
 
 TEST(TurnRoundNote, SaysTheSideAndTheRadius) {
-  // The radius of the reference car is 5.1 m.
+  // The smallest turning radius of the reference car is 5.1 m.
   EXPECT_THAT(
       Notes(3.1, ""),
       Contains(HasSubstr("178 deg off) and turns round to the right, on a radius of 5.1 m")));
@@ -38,8 +38,9 @@ TEST(TurnRoundNote, SaysTheSideAndTheRadius) {
 }
 
 TEST(TurnRoundNote, SaysThatRoomIsMissing) {
-  // To the right of a car that faces -x is +y. The car turns about (-1, 5.1), with its front corner
-  // on a radius of hypot(5.1 + 1.725/2, 4.45 - 0.825) = 7 m; its leftmost point is near x = -8.
+  // A car that faces -x has +y on its right. The car turns about the point (-1, 5.1). Its outer
+  // front corner moves on the radius hypot(5.1 + 1.725/2, 4.45 - 0.825) = 7 m, so the leftmost
+  // point of this corner is near x = -8.
   const std::string in_the_way = "{box: {x: -6, y: 5, yaw: 0, length: 2, width: 2, height: 1}}";
   EXPECT_THAT(Notes(3.1, in_the_way),
               Contains(AllOf(HasSubstr("but meets an obstacle after"), HasSubstr("reeds_shepp"))));

@@ -48,7 +48,7 @@ void ExpectEqual(const MagicFormula& tyre, const MagicFormula& expected) {
 TEST(CarTyreFile, ReplacesAllTyreCoefficientsOfTheModel) {
   const TyreFile front = ReadTyreFile(kTyres / "mf52.tir");
   const TyreFile rear = ReadTyreFile(kTyres / "mf61.tir");
-  // The Prius has a p_ky1 for each axle, and an r_hy1, which a tyre file may lack.
+  // The Prius has one p_ky1 per axle, and the coefficient r_hy1, which a tyre file may lack.
   const CarTyres prius = *LoadCar(With("model: prius")).parts().tyres;
   const CarTyres same = *LoadCar(With("model: prius, tyre_file: mf52.tir")).parts().tyres;
   ExpectEqual(same.axle[0], front.tyre);

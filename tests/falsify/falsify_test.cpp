@@ -48,14 +48,15 @@ TEST(Falsify, FindsTheSmallestPreviewDistanceThatFails) {
     EXPECT_LT(worst.robustness, 0.0);
     EXPECT_EQ(worst.limit, "kinematic: cross_track.max");
     EXPECT_TRUE(result.shrunk.complete);
-    // The speed does not matter to a car that rolls without slip; the distance alone does.
+    // Because the car rolls without slip, its speed does not matter, and only the preview distance
+    // decides whether a point passes.
     EXPECT_EQ(worst.settings[1].value, "2");
     EXPECT_LT(worst.robustness, 0.0);
-    EXPECT_GT(worst.robustness, -0.05);  // the tolerance is 0.08 m for a range of 8 m
+    EXPECT_GT(worst.robustness, -0.05);  // the tolerance for a range of 8 m is 0.08 m
     const RunResult run = RunCounterexample(result, search);
     EXPECT_FALSE(run.verdict.passed);
     EXPECT_EQ(RobustnessOf(run).value, worst.robustness);
-    // The run passes at a preview distance that is one tolerance nearer to the nominal point.
+    // If the preview distance is one tolerance nearer to the nominal point, the run passes.
     const double holds = search.space.Value(0, result.shrunk.keys[0].holds_to.value());
     EXPECT_LT(holds, std::stod(worst.settings[0].value));
     EXPECT_NEAR(holds, std::stod(worst.settings[0].value), 0.08 + 0.002);
@@ -130,8 +131,9 @@ TEST(Falsify, EndsAtANominalPointThatFails) {
 
 TEST(Falsify, CountsPointsWithoutAScenarioAndWithoutAPlan) {
   const TempFolder folder;
-  // At the turn of 56 degrees, half of the shorter leg is 18.03 m. A radius R needs R tan(28 deg),
-  // so there is no plan for radii above 33.9 m. A preview distance must be positive.
+  // At the turn of 56 degrees, half of the shorter leg is 18.03 m. A turn by 56 degrees with the
+  // radius R needs the length R tan(28 deg) of each leg, so there is no plan for radii above 33.9
+  // m. A preview distance must be positive.
   const CheckedSearch search = CheckSearch(ReadStudy(
       folder.Write("study.yaml", "schema: 1\nname: study\nscenario: " TRACKBED_SOURCE_DIR
                                  "/scenarios/winding.yaml\n"

@@ -68,8 +68,8 @@ TEST_P(EverySearch, KeepsItsRunsAndTheSquare) {
       EXPECT_GE(std::min(point[0], point[1]), 0.0);
       EXPECT_LE(std::max(point[0], point[1]), 1.0);
     }
-    // The best value is a squared distance from the minimum. This value must be below the squared
-    // radius of a disk with a quarter of the square's area.
+    // The value of the best point is its squared distance from the minimum. The best value must be
+    // below the squared radius of a disk with a quarter of the square's area.
     EXPECT_LT(course.least, 1.0 / (3.141592653589793 * 4.0));
   }
 }
@@ -105,7 +105,7 @@ TEST(PointSearch, FinishesFromTheBestPoint) {
   const auto miss = [](const UnitPoint& p) {
     return p[0] > 0.95 ? 9.0 : std::pow(p[0] - 0.63, 2) + std::pow(p[1] - 0.31, 2);
   };
-  ASSERT_GT(points.size(), 90U);  // the last quarter is the final local search
+  ASSERT_GT(points.size(), 90U);  // the last quarter of the runs is the final local search
   const auto best =
       std::min_element(points.begin(), points.begin() + 90,
                        [&](const UnitPoint& a, const UnitPoint& b) { return miss(a) < miss(b); });

@@ -27,14 +27,14 @@ TEST(SearchSpace, RoundsValuesButNotEndsNorNominalOnes) {
         .to = 1000.0,
         .nominal = 1.0},
        {.key = "big", .from = 0.0, .to = 123456.0, .nominal = 0.0}});
-  // A range of 8 has steps of 0.001; a range of 123 456 has steps of 100.
+  // A range of 8 is rounded to steps of 0.001, and a range of 123 456 to steps of 100.
   EXPECT_EQ(space.Value(0, 0.123456789), 12.988);
   EXPECT_EQ(space.Value(0, 0.0), 12.0);
   EXPECT_EQ(space.Value(0, 1.0), 20.0);
   EXPECT_EQ(space.Value(0, space.nominal()[0]), 50.0 / 3.0);
   EXPECT_EQ(space.Value(1, 0.6), 3.0);
   EXPECT_EQ(space.Value(2, 0.5), 10.0);
-  EXPECT_EQ(space.Value(2, 0.123456789), 0.31176);  // 0.1 10^(4 0.123456789) = 0.3117648...
+  EXPECT_EQ(space.Value(2, 0.123456789), 0.31176);  // 0.1 x 10^(4 x 0.123456789) = 0.3117648...
   EXPECT_EQ(space.Value(3, 0.5), 61700.0);
   EXPECT_EQ(ShortestText(space.Value(0, 1.0 / 3.0)), "14.667");
 }

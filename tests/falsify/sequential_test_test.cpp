@@ -12,11 +12,11 @@ namespace trackbed {
 namespace {
 
 SequentialTest After(double probability, int successes, int failures) {
-  // No likelihood ratio reaches this confidence, so the test never stops.
+  // With this confidence, no likelihood ratio is high enough, so the test never stops.
   SequentialTest test(probability, 1.0 - 1e-15);
   const int trials = successes + failures;
   for (int i = 0; i < trials; ++i) {
-    // Mixes failures and successes evenly, at the ratio of failures to trials.
+    // Distributes failures and successes evenly, so that their ratio is the same at every trial.
     const auto due = [&](int n) { return static_cast<long>(n) * failures / trials; };
     test.Add(due(i + 1) == due(i));
   }
@@ -24,7 +24,8 @@ SequentialTest After(double probability, int successes, int failures) {
 }
 
 TEST(SequentialTest, HasTheLikelihoodsOfItsDefinition) {
-  // Simpson's rule over q in 20 000 steps; its error is below 1e-9 for polynomials of degree 30.
+  // Integrates over q by Simpson's rule in 20 000 steps. The error is below 1e-9 for polynomials of
+  // degree 30.
   for (const double p : {0.3, 0.9}) {
     for (const auto& [s, f] : {std::pair(0, 0), {1, 0}, {0, 1}, {20, 3}, {7, 9}}) {
       const auto integral = [&, successes = s, failures = f](double from, double to) {
@@ -44,8 +45,8 @@ TEST(SequentialTest, HasTheLikelihoodsOfItsDefinition) {
   }
 }
 
-/// With only successes L = (1 - P^(n+1)) / ((n + 1) (1 - P) P^n). With only failures M = (1 - (1 -
-/// P)^(n+1)) / ((n + 1) P (1 - P)^n).
+/// If all n trials succeed, the likelihood ratio is L = (1 - P^(n+1))/((n + 1) (1 - P) P^n). If all
+/// n trials fail, the likelihood ratio is M = (1 - (1 - P)^(n+1))/((n + 1) P (1 - P)^n).
 TEST(SequentialTest, StopsWhereTheClosedFormDoes) {
   for (const auto& [probability, expected] : {std::pair(0.99, 449U), {0.95, 88U}, {0.5, 7U}}) {
     SequentialTest test(probability, 0.95);
@@ -61,14 +62,14 @@ TEST(SequentialTest, StopsWhereTheClosedFormDoes) {
     EXPECT_LT(above(expected - 1.0), 20.0);
   }
   SequentialTest test(0.99, 0.95);
-  // After one failure, M is (1 - 0.01^2)/(2 * 0.99 * 0.01) = 50.5.
+  // For P = 0.99 and one failure, M is (1 - 0.01^2)/(2 x 0.99 x 0.01) = 50.5.
   test.Add(false);
   EXPECT_EQ(test.verdict(), ProbabilityVerdict::kBelow);
   EXPECT_NEAR(std::exp(test.LogBelow()), (1.0 - 1e-4) / (2.0 * 0.99 * 0.01), 1e-9);
 }
 
-/// The exact probability of a verdict within `trials`, from the distribution of the successes of
-/// all tests that are not stopped yet.
+/// Computes the exact probability of a verdict within `trials`, from the distribution of the number
+/// of successes of all tests that have not stopped yet.
 struct Verdicts {
   double at_least = 0.0;
   double below = 0.0;
@@ -92,7 +93,8 @@ Verdicts ExactVerdicts(double claimed, double confidence, double truth, int tria
       const double f = static_cast<double>(n) - a;
       const double likelihood = a * std::log(claimed) + f * std::log1p(-claimed);
       const double beta = std::lgamma(a + 1.0) + std::lgamma(f + 1.0) - std::lgamma(n + 2.0);
-      // The mass of q above P is P(Binomial(n + 1, P) <= s) = I_{1-P}(n + 1 - s, s + 1).
+      // The probability that q exceeds P after s successes in n trials is P(Binomial(n + 1, P) <=
+      // s) = I_{1-P}(n + 1 - s, s + 1).
       double above = 0.0;
       double term = std::pow(1.0 - claimed, n + 1);
       for (std::size_t k = 0; k <= s; ++k) {
@@ -115,7 +117,7 @@ Verdicts ExactVerdicts(double claimed, double confidence, double truth, int tria
 }
 
 TEST(SequentialTest, ErrsExactlyAsSeldomAsItSays) {
-  // At the claimed probability both verdicts count as wrong.
+  // If the true pass rate equals the claimed pass rate, either verdict counts as wrong.
   for (const double claimed : {0.5, 0.8, 0.9}) {
     for (const double confidence : {0.8, 0.95}) {
       const Verdicts verdicts = ExactVerdicts(claimed, confidence, claimed, 300);
@@ -131,8 +133,8 @@ TEST(SequentialTest, ErrsAsSeldomInStreams) {
   constexpr int kTrials = 400;
   constexpr double kConfidence = 0.9;
   std::mt19937 random(1970);
-  // The truth for which a verdict is wrong: at most the claim for `kAtLeast`, at least the claim
-  // for `kBelow`.
+  // The pass rates for which a verdict is wrong: at most the claimed rate for `kAtLeast`, at least
+  // the claimed rate for `kBelow`.
   for (const auto& [truth, wrong] :
        {std::pair(0.9, ProbabilityVerdict::kAtLeast), std::pair(0.87, ProbabilityVerdict::kAtLeast),
         std::pair(0.9, ProbabilityVerdict::kBelow), std::pair(0.93, ProbabilityVerdict::kBelow)}) {
@@ -147,8 +149,8 @@ TEST(SequentialTest, ErrsAsSeldomInStreams) {
       errors += test.verdict() == wrong ? 1 : 0;
       verdicts += test.verdict() != ProbabilityVerdict::kUndecided ? 1 : 0;
     }
-    // The bound is three standard deviations above the level: 0.1 + 3 sqrt(0.1 * 0.9 / 4000) =
-    // 0.114.
+    // The bound on the rate of wrong verdicts is three standard deviations above the level: 0.1 + 3
+    // sqrt(0.1 x 0.9/4000) = 0.114.
     EXPECT_LE(errors, kStreams * 0.1142) << truth;
     EXPECT_GT(verdicts, kStreams / 100) << truth;
   }
@@ -171,8 +173,9 @@ TEST(SequentialTest, EndsSoonFarFromTheClaim) {
 
 TEST(SequentialTest, CountsManyTrials) {
   const SequentialTest test = After(0.99, 99000, 1000);
-  // At the claim itself neither likelihood ratio is high. By Laplace's method both are about
-  // sqrt(pi/2 P (1 - P)/n)/(1 - P), with P in place of 1 - P in the last factor below the claim.
+  // If the true pass rate equals the claimed rate, neither likelihood ratio becomes high. By
+  // Laplace's method, both likelihood ratios are about sqrt(pi/2 P (1 - P)/n)/(1 - P). Below the
+  // claimed rate, the last factor is P instead of 1 - P.
   const double width = std::sqrt(std::acos(-1.0) / 2.0 * 0.99 * 0.01 / 1e5);
   EXPECT_NEAR(std::exp(test.LogAbove()) * 0.01 / width, 1.0, 0.03);
   EXPECT_NEAR(std::exp(test.LogBelow()) * 0.99 / width, 1.0, 0.03);

@@ -664,7 +664,7 @@ class Campaign:
         return 1 if self.losses else 0
 
 
-# Several of these verbs may write to one folder at the same time.
+# Several of these verbs may write to the same folder at the same time.
 ADDERS = {"report", "render --at", "render film", "render frames"}
 
 

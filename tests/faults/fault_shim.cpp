@@ -7,8 +7,8 @@
 //   FAULT_HALF    if set, and the call is a write, half of it is written first
 //   FAULT_LOG     file that receives the calls, one per line
 //
-// Counted calls: open (to write or create), write, pwrite, ftruncate, close (of a file open for
-// writing), rename, renameat, mkdir, unlink, unlinkat, rmdir.
+// The library counts these calls: open (to write or create), write, pwrite, ftruncate, close (of a
+// file open for writing), rename, renameat, mkdir, unlink, unlinkat, rmdir.
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE
 #endif
@@ -148,7 +148,7 @@ int close(int descriptor) {
   const auto real = Real<int (*)(int)>("close");
   if (IsForWriting(descriptor) && Fails("close", PathOf(descriptor))) {
     const int error = errno;
-    real(descriptor);  // the kernel closes it despite the error
+    real(descriptor);  // the kernel closes the descriptor although close reports the error
     errno = error;
     return -1;
   }

@@ -121,7 +121,7 @@ COMPARE = ["compare", "-q", "{}", "other", "-o", "again"]
 RENDER = ["render", "-q", "{}", "--at", "0.1", "--size", "64x64", "-o", "p.png"]
 MERGE = ["sweep", "merge", "-q", "{}", "-o", "merged"]
 ROW = ["run", "-q", "--from-sweep", "{}", "--row", "1", "-o", "row", "--set", "drive.time_limit=0.1"]
-# Each file, with the verbs that read it. The folder of the file replaces {}.
+# Each file, with the verbs that read it. {} stands for the folder of the file.
 READERS = {
     "run/metrics.json": [REPORT, COMPARE, RENDER],
     "run/plan.json": [REPORT, RENDER],
@@ -175,7 +175,7 @@ def changes(text, name):
                 else:
                     new = value
                 shown = "removed" if value is REMOVED else json.dumps(value)
-                # The text has no blanks, like the lines of records.
+                # The text contains no blanks, like the lines of the file of records.
                 body = text_of(new) if make("") == "" else json.dumps(
                     new, separators=(",", ":")).replace(json.dumps(HUGE), "1e999").replace(
                         json.dumps(NAN), "NaN")

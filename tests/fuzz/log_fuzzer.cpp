@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::Expect([&] {
       LogListing listing = ListLog(file);
       if (listing.map) {
-        // A long drive takes long to resample, and would show nothing new.
+        // An input for which a long drive is resampled takes long and finds nothing new.
         listing.map->to = 100.0;
         listing.map->resample.rate = 1.0;
         static_cast<void>(ImportLog(file, *listing.map));

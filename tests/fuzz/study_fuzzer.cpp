@@ -13,7 +13,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::filesystem::path file = fuzz::Write("study.yaml", fuzz::Text(data, size));
   return fuzz::Expect([&] {
     const Study study = ReadStudy(file);
-    constexpr std::size_t kFewPoints = 50;  // a study may have thousands, all checked alike
+    // A study may have thousands of points, which are all checked in the same way.
+    constexpr std::size_t kFewPoints = 50;
     const StudyPoints points(study);
     for (std::size_t i = 0; i < std::min(points.size(), kFewPoints); ++i) {
       static_cast<void>(points.Read(i));
