@@ -2,7 +2,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/vehicle/tyre_file.h"
 
-/// Fuzzes a tyre property file. An accepted file must give finite forces.
+/// Fuzzes a tyre property file. The reader must give finite forces for every file that it accepts.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   fuzz::Expect([&] {

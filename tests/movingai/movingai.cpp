@@ -27,12 +27,12 @@
 namespace trackbed {
 namespace {
 
-/// The square root of 2 as rounded in the benchmark's listed lengths. The difference affects their
-/// eighth decimal from seven diagonal steps on.
+/// The square root of 2, rounded as in the path lengths that the benchmark lists. From seven
+/// diagonal steps on, this rounding changes the eighth decimal of a path length.
 constexpr double kRootTwo = 1.414213562;
 
-/// Whether a path's length equals the listed one to its eight decimals, with the exact square root
-/// of 2 or the benchmark's rounded one. A sum of a thousand steps deviates by 1e-12.
+/// Whether a path's length equals the listed length to eight decimals, with the exact square root
+/// of 2 or with the benchmark's rounded root. A sum of a thousand steps deviates by 1e-12.
 bool HasLength(const GridPath& path, int columns, double listed) {
   constexpr double kPrinted = 0.5e-8 + 1e-11;
   double length = 0.0;
@@ -46,7 +46,8 @@ bool HasLength(const GridPath& path, int columns, double listed) {
          (std::abs(path.cost - listed) <= kPrinted || std::abs(length - listed) <= kPrinted);
 }
 
-/// Solves every instance; prints those whose length differs from the listed one.
+/// Solves every instance, and prints the instances whose path length differs from the listed
+/// length.
 std::vector<GridPath> Solve(const GridMap& map, const std::vector<MovingAiInstance>& instances,
                             int& wrong) {
   const OccupancyGrid grid = ToOccupancyGrid(map, UnknownCells::kFree);
@@ -74,10 +75,10 @@ std::vector<GridPath> Solve(const GridMap& map, const std::vector<MovingAiInstan
   return all;
 }
 
-/// How many of the paths a car can drive.
+/// Number of paths that a car can drive.
 struct Counts {
   int asked = 0;
-  int as_found = 0;  ///< the grid's path itself, its corners rounded
+  int as_found = 0;  ///< the path on the grid, with rounded corners
   int astar = 0;     ///< another path, of the planner astar
   int hybrid = 0;    ///< a path of hybrid_astar with the same goal heading
 };

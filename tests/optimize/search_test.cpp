@@ -47,8 +47,8 @@ SearchProblem Bowl() {
 }
 
 /// Returns the problem of Bowl() with a constraint that excludes the disc of radius 1 around the
-/// minimum. The feasible region is not convex. The objective rises least along x, so the minima are
-/// at (1, -1) and (3, -1), with the value 8.
+/// minimum. The feasible region is not convex. Along x, the objective rises least, so its minima on
+/// the edge of the disc are at (1, -1) and (3, -1), with the value 8.
 SearchProblem BowlWithHole() {
   SearchProblem problem = Bowl();
   problem.constraint_count = 1;

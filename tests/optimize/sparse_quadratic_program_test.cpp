@@ -36,8 +36,8 @@ TEST(SparseQuadraticProgram, CutsToABox) {
   ASSERT_TRUE(solution.ok);
   EXPECT_GT(solution.iterations, 0);
   for (Eigen::Index i = 0; i < c.size(); ++i) {
-    // IPOPT stops at a complementarity (slack times multiplier) of 1e-9. If the multiplier at a
-    // bound is near 0, the error of x is the square root of 1e-9, 3e-5.
+    // IPOPT stops at a complementarity (slack times multiplier) of 1e-9. If the multiplier of a
+    // bound is near 0, x has an error of up to sqrt(1e-9) = 3e-5.
     EXPECT_NEAR(solution.x[i], std::clamp(c[i], -3.0, 4.0), Tolerance(1e-4)) << c[i];
   }
   EXPECT_LE(solution.violation, 1e-7);

@@ -38,7 +38,8 @@ TEST(AccelerationCaps, LimitTheAccelerationWhereTheyApply) {
   const SpeedProfile profile =
       StopAtEnd(200.0, 0.0, kLimits, {}, {{.from = 10.0, .to = 20.0, .acceleration = 0.25}});
   EXPECT_NEAR(profile.SpeedAt(10.0), std::sqrt(20.0), Tolerance(kRounding));
-  EXPECT_NEAR(profile.SpeedAt(20.0), 5.0, Tolerance(kRounding));  // v^2 = 20 + 2 x 0.25 x 10 = 25.
+  // At 20 m, v^2 = 20 + 2 x 0.25 x 10 = 25 m^2/s^2.
+  EXPECT_NEAR(profile.SpeedAt(20.0), 5.0, Tolerance(kRounding));
   EXPECT_NEAR(profile.AccelerationAt(21.0), 1.0, Tolerance(kRounding));
 }
 

@@ -117,8 +117,7 @@ TEST(Bezier, DerivativesAreThoseOfItsPoints) {
     // The derivative of order m is at most 7!/(7 - m)! times the largest m-th difference of the
     // control points, which is at most 2^m 10 sqrt(2) m. The error of a central difference is h^2/6
     // times the derivative two orders higher. For the first derivative, the error is below 210 x 8
-    // x 14.2 h^2/6 m. The bound for the second derivative is 8 times larger, and that for the third
-    // derivative is again 6 times larger.
+    // x 14.2 h^2/6 m. The bounds for the second and the third derivative are 8 and 48 times larger.
     double most = 210.0 * 8.0 * 14.2 * kStep * kStep / 6.0;
     for (std::size_t order = 1; order <= 3; ++order) {
       const Vec2 difference =

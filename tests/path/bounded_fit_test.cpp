@@ -14,7 +14,8 @@
 namespace trackbed {
 namespace {
 
-/// A line, an arc that turns by `turn`, and a line, as recorded every `spacing` with noise.
+/// Points on a line, an arc that turns by `turn` [rad], and a second line, recorded at intervals of
+/// `spacing` [m] with noise.
 PathPoints Turn(double radius, double turn, double spacing, double noise, unsigned seed) {
   const double side = std::copysign(1.0, turn);
   const Path path({0.0, 0.0, 0.3},
@@ -59,12 +60,12 @@ TEST(FitPathWithin, KeepsTheCurvatureOfAnArcBetweenLines) {
     const FittedPath free = FitPath(given, options);
     const FittedPath bounded = FitPathWithin(given, options, bound);
     exceeded += LargestCurvature(free.path) > 1.01 * bound ? 1 : 0;
-    // FitPathWithin promises 1e-3.
+    // FitPathWithin promises to exceed the bound of the curvature by at most the fraction 1e-3.
     EXPECT_LE(LargestCurvature(bounded.path), (1.0 + Tolerance(1e-3)) * bound)
         << "radius " << radius << ", turn " << turn << ", noise " << noise;
     EXPECT_LE(bounded.deviation, options.max_deviation + Tolerance(1e-9));
   }
-  // Without the bound, the curvature exceeds that of the arc: the test tests something.
+  // Without the bound, the curvature must exceed that of the arc, or the test would check nothing.
   EXPECT_GE(exceeded, 15);
 }
 
@@ -72,7 +73,7 @@ TEST(FitPathWithin, ChangesNothingBelowTheBound) {
   const PathPoints given = Turn(8.0, 1.5, 0.5, 0.005, 3);
   const FittedPath free = FitPath(given, {});
   const FittedPath bounded = FitPathWithin(given, {}, 1.01 * LargestCurvature(free.path));
-  // Newton's method ends at the same curve, up to rounding, whichever way it takes.
+  // Newton's method ends at the same curve, up to rounding, from every start.
   EXPECT_NEAR(bounded.path.length(), free.path.length(), Tolerance(1e-6));
   for (double s = 0.0; s <= free.path.length(); s += 0.5) {
     const Vec2 apart = bounded.path.At(s).pose.position() - free.path.At(s).pose.position();

@@ -61,9 +61,9 @@ Segment Primitive(int kind, Dice& dice) {
   return segment;
 }
 
-/// Returns the rounding error of a path at coordinates of `offset` [m]. Each of up to 1000
-/// segments, 0.1 m long, adds the rounding errors of two coordinates. The sum of these errors grows
-/// with the square root of the number of segments, as in a random walk.
+/// Returns the rounding error of a path at coordinates of `offset` [m]. The path has up to 1000
+/// segments of 0.1 m, and each segment adds the rounding errors of two coordinates. The sum of
+/// these errors grows with the square root of the number of segments, as in a random walk.
 double Rounding(double offset) {
   return 10.0 * std::sqrt(1000.0) * 2.3e-16 * offset;
 }
@@ -174,8 +174,8 @@ TEST(FitPath, KeepsTheEndsOfRandomPoints) {
 }
 
 /// Returns the recorded positions of a car that drives along a circle of radius 20 m and stops
-/// twice. The noise has the standard deviation `noise` [m]. Neighboring points are up to `step` [m]
-/// apart.
+/// twice. The points of the path have random errors with the standard deviation `noise` [m].
+/// Neighboring points are up to `step` [m] apart.
 PathPoints Recording(double noise, Dice& dice, double step = 0.1) {
   PathPoints given;
   double s = 0.0;

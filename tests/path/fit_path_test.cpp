@@ -62,8 +62,8 @@ constexpr PathFitOptions kInterpolate{.max_deviation = 1e-7};
 // The second derivative of a quintic interpolant with spacing h has an error of the order h^4
 // |P^(6)|. A circle of radius R has |P^(6)| = 1/R^5, so the curvature error is of the order
 // h^4/R^5. The spline's natural end conditions (P''' and higher derivatives are 0) do not hold for
-// a circle, whose |P'''| is 1/R^2. Near the ends, over a few h, they change the curvature by at
-// most 0.2 h |P'''|.
+// a circle, whose |P'''| is 1/R^2. Near the ends of the path, over a few times h, these end
+// conditions change the curvature by at most 0.2 h |P'''|.
 TEST(FitPath, FindsTheCurvatureOfACircle) {
   for (const double radius : {5.0, 20.0}) {
     for (const int count : {41, 81}) {

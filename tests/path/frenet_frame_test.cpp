@@ -11,8 +11,9 @@
 namespace trackbed {
 namespace {
 
-// Tolerance of a conversion to the Frenet frame and back. The projection has an error of 1e-10 m in
-// the station. Derivatives with respect to the station, of a few units, multiply this error.
+// Tolerance of a conversion to the Frenet frame and back. The
+// projection has an error of 1e-10 m in the station. Derivatives with respect to the station, of a
+// few units, multiply this error.
 constexpr double kRoundTrip = 1e-9;
 
 /// Returns a line, followed by clothoids and arcs to both sides. The curvature is continuous and at
@@ -41,8 +42,8 @@ TEST(FrenetFrame, OfALineIsTheLinesOwn) {
 }
 
 TEST(FrenetFrame, BesideACircleIsACircle) {
-  // The car's offset is 5 m to the inside of a circle of radius 20 m. The radius of the car's path
-  // is 15 m, and its speed is 3/4 of the rate of the station.
+  // The car's offset is 5 m to the inside of a circle of radius 20 m. The car moves on a radius of
+  // 15 m instead of 20 m, so its speed is 3/4 of the rate of its station.
   const Path circle({0.0, 0.0, 0.0}, {{100.0, 1.0 / 20.0, 1}});
   const auto motion = FromFrenet(circle, {20.0, 4.0, 1.0, 5.0, 0.0, 0.0});
   ASSERT_TRUE(motion);

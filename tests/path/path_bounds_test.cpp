@@ -71,7 +71,7 @@ TEST(PathWithAnOutlier, IsRefusedOrStaysNearItsPoints) {
       if (!fitted.reversals.empty()) {
         continue;
       }
-      // The path may turn by half a circle between two points. A half circle is pi/2 times as long
+      // Between two points, the path may turn by up to half a circle, which is pi/2 times as long
       // as its chord.
       EXPECT_LE(fitted.path.length(), 0.5 * kPi * PolylineLength(given.points) + 1.0);
       // FitPath measures a bulge at sixteen points, which miss the top of the bulge. For a bulge of

@@ -374,7 +374,7 @@ Segment RandomSegment(Random& random) {
   const double from = random.Uniform(-0.2, 0.2);
   const double to = random.Uniform(-0.2, 0.2);
   const double bulge = random.Below(2) == 0 ? 0.0 : random.Uniform(-0.1, 0.1);
-  // The curvature is from + (to - from) t + 4 bulge t (1 - t) with t = d/length.
+  // The curvature at the distance d is from + (to - from) t + 4 bulge t (1 - t), with t = d/length.
   return {length, from, random.Below(3) == 0 ? -1 : 1, (to - from + 4.0 * bulge) / length,
           -8.0 * bulge / (length * length)};
 }
@@ -630,8 +630,8 @@ TEST(SegmentsThrough, KeepTheirBoundsWhichShrinkWithTheFourthPower) {
     EXPECT_LE(yaw_error, bound / 384.0 + kRounding);
     EXPECT_LE(end_error, bound / 720.0 * kLength + kRounding);
     if (last_yaw_error > 0.0) {
-      // Halving the spacing divides the error by 16, except for terms of the next order. Their
-      // relative size is (w h)^2, where h is the coarser spacing.
+      // Halving the spacing divides the error by 16, except for terms of the next order. The terms
+      // of the next order are smaller by the factor (w h)^2, where h is the coarser spacing.
       const double next_order = std::pow(2.0 * sway.w * spacing, 2);
       EXPECT_NEAR(last_yaw_error / yaw_error, 16.0, Tolerance(16.0 * next_order));
       EXPECT_NEAR(last_end_error / end_error, 16.0, Tolerance(16.0 * next_order));

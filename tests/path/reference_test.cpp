@@ -206,8 +206,8 @@ TEST(StopAtEnd, KeepsRandomCaps) {
   }
 }
 
-// The general speed limit is not a cap. The car brakes to it from the start, however the caps
-// divide the path.
+// The general speed limit is not a cap. The car brakes to this speed limit from the start, even if
+// caps divide the path.
 TEST(StopAtEnd, SlowsDownToTheLimitAcrossTheEndsOfCaps) {
   const std::vector<SpeedCap> caps{{1.0, 2.0, 6.9}, {2.0, 3.0, 6.8}};
   // Braking takes (4^2 - 3^2)/(2 x 1.5) = 7/3 m, as without caps.

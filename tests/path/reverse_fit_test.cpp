@@ -21,7 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// Samples of a path with cusps, at most `spacing` apart on each leg. The cusps are samples. The
-/// directions are those of arrival.
+/// direction at a cusp is the direction in which the car arrives there.
 PathPoints SamplesOf(const Path& path, double spacing) {
   PathPoints given;
   for (const Stations& leg : SplitIntoLegs(path)) {
@@ -37,7 +37,7 @@ PathPoints SamplesOf(const Path& path, double spacing) {
   return given;
 }
 
-/// A three-point turn: left forwards, right in reverse, left forwards.
+/// A three-point turn: forward to the left, backward to the right, forward to the left.
 Path ThreePointTurn() {
   return Path({3.0, -2.0, 0.4}, {{.length = 4.0, .curvature = 0.15},
                                  {.length = 5.0, .curvature = -0.15, .direction = -1},
@@ -66,8 +66,9 @@ void ExpectEqualPaths(const Path& path, const Path& expected, double tolerance) 
   }
 }
 
-// Legs that are arcs are fitted to 1e-9 m. A heading error of 1e-9 m over the smallest radius, 6.7
-// m, turns the later legs, 11 m long; ten times that covers two cusps and lengths.
+// Legs that are arcs are fitted to 1e-9 m. A heading error of 1e-9 m/6.7 m, with the smallest
+// radius of 6.7 m, turns the later legs, 11 m long. Ten times this error covers two cusps and the
+// errors of the lengths.
 constexpr double kExact = 1e-8;
 
 TEST(FitReversePath, FindsTheLegsFromAnyEvidence) {
@@ -106,7 +107,7 @@ TEST(FitReversePath, DrivesAWholePathInReverse) {
   const FittedPath fitted = FitPath(given, {});
   ExpectEqualPaths(fitted.path, path, Tolerance(kExact));
   EXPECT_LE(fitted.heading_difference, Tolerance(kExact));
-  // Half a turn off, and directions that say forwards.
+  // The headings are wrong by half a turn, and the directions say that the car only drives forward.
   given.direction.assign(given.points.size(), 1);
   try {
     FitPath(given, {});
@@ -134,7 +135,7 @@ TEST(FitReversePath, RepeatsTheCusp) {
   EXPECT_EQ(fitted.stations.size(), given.points.size());
 }
 
-// Positions-only files say nothing about the direction of motion.
+// A file with positions alone does not say in which direction the car moves.
 TEST(FitReversePath, NeedsEvidence) {
   PathPoints given = SamplesOf(ThreePointTurn(), 0.3);
   given.yaw.clear();
@@ -161,8 +162,8 @@ Path RandomPath(std::mt19937& random) {
   return Path({between(-50.0, 50.0), between(-50.0, 50.0), between(-3.0, 3.0)}, segments);
 }
 
-// A recorder logs the car while it stands at the cusps for 20 samples, with noise of 3 mm, which
-// is far below max_deviation. Signs of speeds are random while the car stands.
+// A recorder logs the car at rest at the cusps, with 20 samples and noise of 3 mm, which is far
+// below max_deviation. While the car is at rest, the signs of its speeds are random.
 TEST(FitReversePath, StandsAtItsCusps) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, 0.003);
@@ -191,7 +192,8 @@ TEST(FitReversePath, StandsAtItsCusps) {
     const std::vector<double> expected = CuspsOf(path);
     ASSERT_EQ(cusps.size(), expected.size());
     for (std::size_t i = 0; i < cusps.size(); ++i) {
-      // The fit deviates by at most 0.05 m from the cusp, whose samples err by up to 4 sigma.
+      // The fitted path deviates from the cusp by at most 0.05 m, and the samples there by up to 4
+      // standard deviations.
       EXPECT_LE(
           (fitted.path.At(cusps[i]).pose.position() - path.At(expected[i]).pose.position()).norm(),
           Tolerance(0.05 + 0.012));
@@ -200,7 +202,7 @@ TEST(FitReversePath, StandsAtItsCusps) {
   }
 }
 
-// The car turns between two samples, up to half of the spacing beyond them.
+// The car changes its direction between two samples, up to half of the spacing beyond them.
 TEST(FitReversePath, TurnsBetweenSamples) {
   std::mt19937 random(11);
   for (int run = 0; run < 60; ++run) {
@@ -226,8 +228,8 @@ TEST(FitReversePath, TurnsBetweenSamples) {
   }
 }
 
-/// Samples of a plan as in plan.csv, with headings and curvatures. At a cusp, the curvature is that
-/// before the cusp.
+/// Samples of a plan as in plan.csv, with headings and curvatures. The curvature at a cusp is the
+/// curvature of the leg that ends there.
 PathPoints PlanSamples(const Path& path) {
   PathPoints given = SamplesOf(path, 0.1);
   for (const Stations& leg : SplitIntoLegs(path)) {
@@ -241,7 +243,7 @@ PathPoints PlanSamples(const Path& path) {
 }
 
 // Arcs and lines whose curvatures jump between the samples, as in plans of Reeds-Shepp curves. The
-// tolerance is that of FindsTheLegsFromAnyEvidence.
+// tolerance is the one that FindsTheLegsFromAnyEvidence derives.
 TEST(FitReversePath, ReadsAPlanAgain) {
   std::mt19937 random(3);
   const auto between = [&](double from, double to) {
@@ -263,8 +265,8 @@ TEST(FitReversePath, ReadsAPlanAgain) {
   }
 }
 
-// Curvatures that are linear on each leg. Segments between samples are exact, as both ends have the
-// exact heading and curvature.
+// Each leg has a curvature that is linear in the station. The path between two samples is exact,
+// because both samples have the exact heading and curvature.
 TEST(FitReversePath, FollowsCurvaturesThatChange) {
   std::mt19937 random(5);
   for (int run = 0; run < 50; ++run) {
@@ -318,9 +320,9 @@ TEST(FitReversePath, JoinsPolylines) {
   const FittedPath fitted = FitPath(given, {.fit = PathFit::kPolyline});
   ASSERT_TRUE(fitted.reversals.empty());
   EXPECT_EQ(CuspsOf(fitted.path).size(), 2U);
-  // Arcs replace the corners within 1 mm.
+  // Arcs that replace the corners stay within 1 mm of the corners.
   EXPECT_LE(fitted.deviation, Tolerance(1e-3));
-  // The headings of chords of 0.3 m differ from those of arcs by up to 0.15 m/6.7 m.
+  // The heading of a chord 0.3 m long differs from the headings of its arc by up to 0.15 m/6.7 m.
   EXPECT_LE(fitted.heading_difference, Tolerance(0.15 * 0.15 + 1e-3));
 }
 

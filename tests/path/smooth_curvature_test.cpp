@@ -26,8 +26,8 @@ TEST(SmoothCurvature, HasNoJumpsOfCurvature) {
     EXPECT_NEAR(segments[i - 1].CurvatureAt(segments[i - 1].length), segments[i].curvature,
                 Tolerance(1e-12));
   }
-  // Over the window, the curvature rises linearly from 0 to the arc's 0.1 1/m. The factor 1.6 is a
-  // margin, because the window is averaged in steps of 0.1 m.
+  // Over the window, the curvature rises linearly from 0 to the arc's 0.1 1/m. The slope may be 1.6
+  // times larger, because the window is averaged in steps of 0.1 m.
   double steepest = 0.0;
   for (double s = 0.0; s < rounded.length(); s += 0.01) {
     steepest = std::max(steepest, std::abs(rounded.At(s).sharpness));
@@ -42,8 +42,8 @@ TEST(SmoothCurvature, StaysWithinItsBound) {
   double most = 0.0;
   for (double s = 0.0; s <= rounded.length(); s += 0.1) {
     const Projection projection = turn.Project(rounded.At(s).pose, {s - 5.0, s + 5.0});
-    // The tolerance allows for errors near the four kinks of the curvature. Simpson's rule and the
-    // quadratic curvature over 0.1 m cause these errors.
+    // The tolerance allows for errors near the four kinks of the curvature. Simpson's rule, and the
+    // quadratic curvature over each 0.1 m, cause these errors.
     EXPECT_GT(projection.cross_track, -Tolerance(1e-4));
     most = std::max(most, projection.cross_track);
   }

@@ -22,7 +22,7 @@ std::string Point(double x, double y) {
   return fmt::format("<point><x>{}</x><y>{}</y></point>", x, y);
 }
 
-/// A straight lanelet of 4 m width from (x, y) to (x + length, y), with further elements.
+/// A straight lanelet, 4 m wide, from (x, y) to (x + length, y), with further XML elements.
 std::string StraightLanelet(int id, const Vec2& from, double length, const std::string& more) {
   return fmt::format(
       "<lanelet id=\"{}\"><leftBound>{}{}</leftBound><rightBound>{}{}</rightBound>{}</lanelet>\n",
@@ -58,7 +58,7 @@ std::string Document(const std::string& content) {
   return "<commonRoad timeStepSize=\"0.1\" benchmarkID=\"Z\">\n" + content + "</commonRoad>\n";
 }
 
-/// Two lanes of 100 m beside each other, and their continuation by 100 m.
+/// Two adjacent lanes of 100 m, and the next 100 m of both lanes.
 std::string Roads() {
   return StraightLanelet(1, {0.0, 0.0}, 100.0,
                          "<successor ref=\"3\"/><adjacentLeft ref=\"2\" drivingDir=\"same\"/>") +
@@ -92,28 +92,29 @@ TEST(CommonRoadScenario, LeadsFromTheStartOntoTheCenterOfTheLane) {
   EXPECT_EQ(scenario.name, "Z");
   EXPECT_EQ(scenario.route.front(), Vec2(5.0, 0.8));
   const Vec2 first = scenario.route[1] - scenario.route[0];
-  // The quintic polynomial has the slope tan(0.05) at the start. Over the first meter of the change
-  // of lateral position, which is at least 16 m long for 0.8 m at 10 m/s, its slope changes by less
-  // than 1.5 u (10 d_0/L) = 1.5/16 0.5.
+  // The quintic polynomial has the slope tan(0.05) at the start. Over its first meter, the slope
+  // changes by less than 1.5 u (10 d_0/L) = 1.5/16 x 0.5, with u = 1/L. The lateral motion by d_0 =
+  // 0.8 m has a length L of at least 16 m at 10 m/s.
   EXPECT_NEAR(first.y() / first.x(), std::tan(0.05), Tolerance(0.05));
-  // v sqrt(5.77 d_0/a) = 10 sqrt(5.77 0.8/1.5) = 17.5 m.
+  // The length of the lateral motion is v sqrt(5.77 d_0/a) = 10 sqrt(5.77 x 0.8/1.5) = 17.5 m.
   EXPECT_NEAR(HeightAt(scenario, 5.0 + 18.5), 0.0, Tolerance(1e-9));
   EXPECT_NEAR(HeightAt(scenario, 150.0), 0.0, Tolerance(1e-9));
 }
 
 TEST(CommonRoadScenario, KeepsTheSpeedIfTheCarArrivesInTime) {
-  // The goal lanelet is 95 m to 195 m ahead. At 10 m/s, the car is there from 9.5 s to 19.5 s.
+  // The goal lanelet is 95 m to 195 m ahead. At 10 m/s, the car is in the goal lanelet from 9.5 s
+  // to 19.5 s.
   const auto speed = [](int from, int to) {
     return Read(Roads() + PlanningProblem({5.0, 0.0, 0.0}, 10.0, "<lanelet ref=\"3\"/>", from, to))
         .speed;
   };
   EXPECT_EQ(speed(100, 150), 10.0);
-  // Within 6 s, the car must have driven 95 m and the margin of 2 m. With a = 2.5 m/s^2, it drives
-  // v t - (v - v_0)^2/(2 a) at the speed v; v = 18.1 m/s gives 95.5 m, 18.6 m/s 96.8 m, and 18.7
-  // m/s 97.06 m.
+  // Within 6 s, the car must drive 95 m and the margin of 2 m. With the acceleration a = 2.5 m/s^2
+  // to the speed v, the car drives v t - (v - v_0)^2/(2 a) in the time t. This is 95.5 m for v =
+  // 18.1 m/s, 96.8 m for 18.6 m/s, and 97.06 m for 18.7 m/s.
   EXPECT_NEAR(speed(0, 60), 18.7, Tolerance(0.1 + 1e-9));
-  // After 30 s, the car must not have driven more than 195 m less the margin of 2 m:
-  // v t + (v - v_0)^2/(2 a) <= 193 m, which holds for 6.36 m/s.
+  // After 30 s, the car must have driven at most 195 m less the margin of 2 m: v t + (v - v_0)^2/(2
+  // a) <= 193 m, which is true for v = 6.36 m/s.
   EXPECT_NEAR(speed(300, 310), 6.36, Tolerance(0.1));
 }
 
@@ -123,7 +124,7 @@ TEST(CommonRoadScenario, ChangesLanesOnlyWhereItMust) {
   const CommonRoadScenario change =
       Read(Roads() + PlanningProblem({5.0, 0.0, 0.0}, 10.0, "<lanelet ref=\"4\"/>", 100, 150));
   EXPECT_NEAR(HeightAt(straight, 99.0), 0.0, Tolerance(1e-9));
-  // The length of the lane change is 10 sqrt(5.77 4/1.5) = 39.2 m.
+  // The length of a lane change by 4 m is 10 sqrt(5.77 x 4/1.5) = 39.2 m.
   EXPECT_NEAR(HeightAt(change, 5.0 + 20.0), 2.0, Tolerance(0.2));
   EXPECT_NEAR(HeightAt(change, 5.0 + 41.0), 4.0, Tolerance(1e-9));
 }
@@ -155,7 +156,7 @@ TEST(CommonRoadScenario, ReadsMotions) {
 }
 
 TEST(CommonRoadScenario, EnclosesShapesByBoxes) {
-  // A square on its corner, and a disc.
+  // The obstacles are a square that is rotated by 45 degrees, and a disc.
   const auto standing = [](const std::string& shape) {
     return "<staticObstacle id=\"7\"><shape>" + shape + "</shape>" +
            State("initialState", {20.0, 4.0, 0.5 * kPi}, 0, 0.0) + "</staticObstacle>";
@@ -171,7 +172,7 @@ TEST(CommonRoadScenario, EnclosesShapesByBoxes) {
   EXPECT_NEAR(square.length, std::sqrt(2.0), Tolerance(1e-12));
   EXPECT_NEAR(square.width, std::sqrt(2.0), Tolerance(1e-12));
   EXPECT_NEAR(square.center.x, 20.0, Tolerance(1e-12));
-  // The disc's center is 1 m ahead of the obstacle, which looks north.
+  // The center of the disc is 1 m ahead of the obstacle, which heads north.
   const OrientedBox& disc = scenario.obstacles[1].box;
   EXPECT_EQ(disc.length, 3.0);
   EXPECT_NEAR(disc.center.x, 20.0, Tolerance(1e-12));
@@ -190,7 +191,7 @@ TEST(CommonRoadScenario, ReadsCoordinatesOfAMapProjection) {
   EXPECT_THAT(there.notes, testing::Contains(HasSubstr("relative to (691000, 5334000)")));
   ASSERT_EQ(here.route.size(), there.route.size());
   for (std::size_t i = 0; i < here.route.size(); ++i) {
-    // Coordinates of 5e6 m have a spacing of 1e-9 m.
+    // Floating-point numbers near 5e6 m are 1e-9 m apart.
     EXPECT_NEAR((here.route[i] - there.route[i]).norm(), 0.0, Tolerance(1e-8));
   }
   EXPECT_EQ(here.speed, there.speed);

@@ -60,9 +60,9 @@ TEST(LocalPlane, KeepsGeodesicDistances) {
     }
     const auto point = LocalPlane(origin).ToMeters(end);
     ASSERT_TRUE(point.has_value());
-    // The scale of a transverse Mercator projection is 1 + x^2/(2 R^2); its mean over the line is
-    // between 0 and a third of the scale error at the end, for R of at least 6335 km. PROJ computes
-    // to 1 um.
+    // The scale of a transverse Mercator projection is 1 + x^2/(2 R^2), with a radius R of at least
+    // 6335 km. The mean scale error over the line is between 0 and a third of the scale error at
+    // the end. PROJ computes to 1 um.
     const double scale = 0.5 * std::pow(point->x() / 6.335e6, 2.0);
     EXPECT_NEAR(point->norm(), distance, Tolerance(distance * scale + 1e-6));
   }
@@ -84,8 +84,8 @@ TEST(LocalPlane, PointsEastAndNorthAlsoAcrossTheAntimeridian) {
   }
 }
 
-// The coordinates are an example of the manual of GeographicLib's GeoConvert: 33.3 N, 44.4 E is 38N
-// 444140.54 3684706.36.
+// The coordinates are an example in the manual of GeographicLib's GeoConvert: the point 33.3 N,
+// 44.4 E is at 38N 444140.54 3684706.36 in UTM.
 TEST(LocalPlane, StatesTheUtmZoneOfItsOrigin) {
   EXPECT_THAT(LocalPlane({33.3, 44.4}).Note(1000.0),
               AllOf(HasSubstr("latitude 33.3, longitude 44.4"), HasSubstr("UTM zone 38N"),
@@ -161,7 +161,7 @@ TEST(GlobeFiles, OfEveryFormatGiveTheSamePath) {
     const PathFile found = ReadText(name, text);
     ASSERT_EQ(found.points.points.size(), 3U) << text;
     for (std::size_t i = 0; i < 3; ++i) {
-      // Longitudes of 1e-13 degrees are 1e-8 m.
+      // A change of the longitude by 1e-13 degrees is a distance of 1e-8 m.
       EXPECT_NEAR((found.points.points[i] - expected[i]).norm(), 0.0, Tolerance(1e-7)) << text;
     }
     EXPECT_THAT(testing::PrintToString(found.notes), HasSubstr("UTM zone 32N")) << text;

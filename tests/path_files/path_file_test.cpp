@@ -166,7 +166,7 @@ TEST(PathCsv, RefusesToWaitOnTheWay) {
       AllOf(HasSubstr("3: time: the car stands for 3 s at point 2"), HasSubstr("points 3 to 4")));
   const PathPoints ends = Read("p.csv", "t,x,y\n0,0,0\n2,0,0\n3,3,0\n4,6,0\n9,6,0\n");
   EXPECT_EQ(ends.speed, (std::vector<double>{0.0, 3.0, 3.0, 0.0, 0.0}));
-  // At a cusp, the car stops anyway.
+  // At a cusp, the car stops, so a pause is allowed there.
   const PathPoints cusp = Read("p.csv", "t,x,y\n0,0,0\n1,3,0\n4,3,0\n5,1,0\n");
   EXPECT_EQ(cusp.speed, (std::vector<double>{3.0, 0.0, 2.0, 2.0}));
 }
@@ -200,7 +200,8 @@ TEST(PathCsv, RecognizesHeadingsInOtherUnits) {
 
 constexpr const char* kBackAndForth = "0,0,{}\n2,0,{}\n1,0,{}\n3,0,{}\n";
 
-/// The directions of four points, with the cells of a column of this name.
+/// Reads four points with a column `name` of the given cells, and returns the directions of the
+/// points.
 std::vector<int> Directions(const std::string& column, const std::vector<std::string>& cells) {
   return Read("p.csv",
               "x,y," + column + "\n" +
@@ -223,7 +224,7 @@ TEST(PathDirections, AreReadFromColumns) {
   EXPECT_EQ(Directions("forward", {"1", "1", "0", "1"}), expected);
   EXPECT_EQ(Directions("gear", {"D", "N", "R", "P"}), (std::vector<int>{1, 0, -1, 0}));
   EXPECT_EQ(Directions("direction", {"1", "0", "-1", "0"}), (std::vector<int>{1, 0, -1, 0}));
-  // A gear of 0 is neutral, and a car that never reverses drives forwards.
+  // A gear of 0 is neutral. If the car never reverses, all points count as forward.
   EXPECT_EQ(Directions("gear", {"0", "1", "2", "0"}), (std::vector<int>{1, 1, 1, 1}));
   PathMap map;
   map.columns.direction = "way";
@@ -247,9 +248,9 @@ TEST(PathDirections, AreTheSignsOfSpeeds) {
   const PathPoints points = Read("p.csv", "x,y,v\n0,0,2\n2,0,0.01\n1,0,-1\n0.5,0,-0.02\n3,0,1.5\n");
   EXPECT_EQ(points.direction, (std::vector<int>{1, 0, -1, 0, 1}));
   EXPECT_EQ(points.speed, (std::vector<double>{2.0, 0.01, 1.0, 0.02, 1.5}));
-  // Noise of a standing car is no reverse piece.
+  // Noise of a standing car does not make a reverse piece.
   EXPECT_TRUE(Read("p.csv", "x,y,v\n0,0,-0.01\n2,0,1\n").direction.empty());
-  // A column of directions counts before the signs.
+  // If a file has a column of directions, the signs of the speeds are ignored.
   EXPECT_EQ(Read("p.csv", "x,y,v,gear\n0,0,-1,D\n2,0,-1,N\n1,0,1,R\n").direction,
             (std::vector<int>{1, -1, -1}));
 }
@@ -331,7 +332,8 @@ TEST(PathCsv, DecidesFromTheTangentsWhereHeadingsAreMeasuredFrom) {
     const PathFile from_north =
         ReadPathFile(folder.Write("north.csv", RacingLine(-0.5 * kPi, name)));
     for (std::size_t i = 0; i < from_x.points.yaw.size(); ++i) {
-      // Both are the angle of the tangent; rounding of sums of angles below 8 rad.
+      // The angle of the tangent to the ellipse must equal the headings of the file, up to rounding
+      // in sums of angles below 8 rad.
       EXPECT_NEAR(from_x.points.yaw[i], from_north.points.yaw[i], Tolerance(4e-15));
     }
     EXPECT_NEAR(from_x.points.yaw[0], 0.5 * kPi, Tolerance(1e-15));

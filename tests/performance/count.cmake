@@ -1,5 +1,6 @@
 # Counts the instructions of one unit of work: those of MORE units minus those of FEW, per unit. The
-# count does not depend on the machine's load; its mathematical library changes it by some percent.
+# count does not depend on the machine's load. Another version of its mathematical library changes
+# the count by some percent.
 #
 #   cmake -DVALGRIND= -DPROGRAM= -DCASE= -DFEW= -DMORE= -DMOST= -DWORK= -P count.cmake
 function(count units result)

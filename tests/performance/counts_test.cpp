@@ -51,7 +51,8 @@ TEST(Allocations, PlantsStepWithoutAny) {
   }
 }
 
-/// Of a run of three_turns, without its model and plan.
+/// Counts the allocations of a run of the scenario three_turns, after its model and plan have been
+/// made.
 long AllocationsOfRun(const std::string& plant, double duration) {
   Scenario scenario = ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml");
   scenario.drive.time_limit = duration;
@@ -63,9 +64,9 @@ long AllocationsOfRun(const std::string& plant, double duration) {
 }
 
 TEST(Allocations, ControlPeriodsTakeMemoryForTheirLogOnly) {
-  // In 10 s 600 configurations are logged. For each the plant makes a vector; those that obey
-  // exactly make one of MuJoCo's positions first. The two logs double from 100 rows on to 700 at
-  // most three times each.
+  // In 10 s 600 configurations are logged. For each configuration, the plant makes a vector. Plants
+  // without forces first make a vector of MuJoCo's positions. The two logs grow from 100 to at most
+  // 700 rows, and double their memory at most three times each.
   constexpr long kSamples = 600;
   constexpr long kGrowth = 6;
   for (const auto& [plant, vectors] :
@@ -79,7 +80,7 @@ TEST(Allocations, ControlPeriodsTakeMemoryForTheirLogOnly) {
 long iterations = 0;  // NOLINT: MuJoCo's callbacks are plain functions
 long rows = 0;        // NOLINT
 
-/// Sums up, while it lives, what MuJoCo's solver did in the steps before each.
+/// While it exists, adds up the work of MuJoCo's solver in the previous steps.
 class SolverWatch {
  public:
   SolverWatch() {
@@ -110,8 +111,9 @@ TEST(Solver, IteratesAFewTimesOnContacts) {
   slalom.Steps(100);
   const SolverWatch watch;
   slalom.Steps(500);
-  // Four tyres with three rows each, and the dry friction of four wheels. Iterations as counted, to
-  // an eighth: rounding decides when the solver is content.
+  // The solver has three rows for each of four tyres, and one for the dry friction of each of four
+  // wheels. The iterations may differ from the counted number by an eighth, because rounding
+  // decides when the solver stops.
   EXPECT_NEAR(static_cast<double>(rows), 500 * 16, 500);
   const int counted = mjVERSION_HEADER >= 300 ? 1315 : 1585;
   EXPECT_NEAR(static_cast<double>(iterations), counted, counted / 8);
@@ -127,7 +129,7 @@ TEST(CollisionChecks, OfMotionsAmongBoxes) {
   const FrenetPlan motion = PlanFrenet(BentRoad(), request, {});
   const FrenetPlan lattice = PlanLattice(BentRoad(), request, {});
   ASSERT_TRUE(motion.ok() && lattice.ok());
-  // Candidates are checked from the cheapest on until one is free.
+  // The planner checks its candidates in the order of their costs, until one is free of collisions.
   EXPECT_NEAR(motion.checked, 173, 173 / 8);
   EXPECT_NEAR(lattice.checked, 761, 761 / 8);
 }

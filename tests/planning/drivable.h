@@ -36,8 +36,8 @@ inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
   const VehicleParams& car = request.vehicle;
   const double tightest = std::tan(car.steering_limit) / car.wheelbase;
   const double fastest = request.speed.speed * (1.0 + limits.speed_tolerance);
-  // The largest motion of the front corner between two samples. The corner is 3.7 m ahead of the
-  // rear axle, moves forward and swings out.
+  // The largest motion of the front corner between two samples. Largest motion of the front corner
+  // of the car between two samples.
   const double moves = limits.spacing * (1.0 + 3.7 * tightest);
   constexpr double kStep = 5e-3;
   constexpr double kDifference = 1e-3;

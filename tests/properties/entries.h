@@ -8,7 +8,7 @@
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/path/path.h"
 
-/// Calls of public functions, for entries_test.cpp.
+/// The file entries_test.cpp uses these calls of public functions.
 namespace properties {
 
 /// A call of a public function that uses `number` for one argument and valid values for all other

@@ -47,7 +47,7 @@ TEST_P(Entries, SurviveEveryNumber) {
   }
 }
 
-/// Returns references to the numbers in a planning request, with their names.
+/// Returns references to all numbers in a planning request, with their names.
 std::vector<std::pair<std::string, std::function<double&(PlanRequest&)>>> NumbersOf() {
   std::vector<std::pair<std::string, std::function<double&(PlanRequest&)>>> numbers{
       {"start.x", [](PlanRequest& r) -> double& { return r.start.x; }},

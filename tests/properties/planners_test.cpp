@@ -95,8 +95,9 @@ void CheckSamePath(const Path& expected, const Path& path, double tolerance,
 
 /// Expects that a planner solves a mirrored or moved problem equally. Some planners do not
 /// distinguish between paths of equal cost, or draw random numbers in world axes: such a planner
-/// must only find a path. All other planners must find the same path up to rounding. Rounding of
-/// coordinates of about 1000 m (2e-13 m) grows in a search that stops within 1e-9 of its bounds.
+/// must only find a path. All other planners must find the same path up to rounding. Coordinates of
+/// about 1000 m are rounded by 2e-13 m. A search that stops within 1e-9 of its bounds amplifies
+/// this rounding.
 void CheckSeenFromElsewhere(const PlannerEntry& entry, const Problem& problem, const Problem& other,
                             const std::function<Pose2(const Pose2&)>& seen) {
   const Plan plan = MakePlan(problem.request, problem.options);

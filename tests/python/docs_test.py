@@ -22,14 +22,15 @@ def test_blocks_run_in_their_order(page, tmp_path, monkeypatch, trackbed_run):
     for block in blocks:
         if "import gymnasium" in block.group(1) and importlib.util.find_spec("gymnasium") is None:
             continue
-        # The line numbers of a traceback are those of the page.
+        # The traceback of an example must show the line numbers of the page.
         before = text.count("\n", 0, block.start(1))
         exec(compile("\n" * before + block.group(1), page, "exec"), names)
     tests = [value for name, value in names.items() if name.startswith("test_")]
     for test in tests:
         test(trackbed_run)
     if page.endswith("tutorial-python.md"):
-        # The claims of the page: the error, and steering against the errors and into the turn.
+        # The page claims these two facts: the example raises the error, and the steering acts
+        # against the errors and into the turn.
         assert names["cost"].min() ** 0.5 < 0.3
         assert (names["mean"][:2] < 0).all() and names["mean"][2] > 0
 

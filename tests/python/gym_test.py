@@ -20,7 +20,8 @@ def test_passes_the_check_of_gymnasium(plant, max_acceleration):
     env = gymnasium.make(NAME, scenario="three_turns", plant=plant, max_acceleration=max_acceleration)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        # Unbounded observations are meant: SI units.
+        # The bounds of the observations are infinite on purpose, because observations are in SI
+        # units.
         warnings.filterwarnings("ignore", message=".*Box observation space m.*")
         check_env(env.unwrapped, skip_render_check=True)
 

@@ -37,7 +37,7 @@ def test_goes_where_it_is_steered():
     start = seen.speed_mps
     while seen.t_s < 2.0:
         seen = loop.step(steering=0.3, acceleration=1.0)
-    # 1000 additions of 0.002 to numbers below 8, half an ulp of 8.9e-16 each.
+    # 1000 additions of 0.002 to numbers below 8 round by up to half an ulp, 8.9e-16, each.
     assert seen.speed_mps == pytest.approx(start + 2.0, abs=1000 * 4.5e-16)
     assert seen.steering_actuator_rad == 0.3
     assert seen.yaw_rad > loop.log["yaw_rad"][0]
@@ -64,8 +64,8 @@ def test_with_noise_sees_the_measured_pose():
     log = loop.log
     numpy.testing.assert_array_equal(log["measured_x_m"][1:], [o.x_m for o in seen[:-1]])
     errors = numpy.array([o.cross_track_m for o in seen[:-1]]) - log["cross_track_m"][1:]
-    # The noise across the path has a standard deviation of 0.1 m: 99 samples of it have one of 0.1 m
-    # within 0.1/sqrt(2*99) = 7 mm, here within five times that.
+    # The noise across the path has a standard deviation of 0.1 m. With 99 samples, the measured
+    # standard deviation errs by 0.1/sqrt(2*99) m = 7 mm. The tolerance is five times that.
     assert numpy.std(errors) == pytest.approx(0.1, abs=0.036)
 
 

@@ -87,7 +87,7 @@ def test_planner_plans_the_path_that_it_returns():
     change = {"plan": {"method": "test_line"}, "mission.waypoints": ALONG}
     run = trackbed.run("three_turns", plants="kinematic", set=change)
     assert run.plan["method"] == "test_line"
-    # The points are on a line, which the fit keeps to 1e-9 m.
+    # The points are on a line, and the fitted path stays within 1e-9 m of this line.
     assert run.path["x_m"][-1] == pytest.approx(80.0, abs=1e-9)
     assert abs(run.path["y_m"]).max() < 1e-9
     change["plan"]["offset"] = 4
@@ -147,7 +147,7 @@ def test_planner_sees_the_mission():
     assert request.start == (0.0, 0.0, 0.0)
     assert request.seed == 7 and request.speed == 3.0
     numpy.testing.assert_array_equal(request.obstacles, [[40, -9, 0.2, 3, 2]])
-    # Beside the box, 20 m before it, and on it.
+    # The points are beside the box, 20 m before the box, and on the box.
     near = request.clearance([[38.0, -4.0, 0.0], [0.0, 0.0, 0.0], [39.0, -9.0, 0.0]])
     assert 0.0 < near[0] < 4.0 and near[1] >= near[0] and near[2] < 0.0
     with pytest.raises(ValueError, match=r"poses has the shape \(2,\)"):
@@ -160,7 +160,7 @@ def test_controller_steers(plant):
     assert run.metrics[plant]["status"] == "arrived"
     assert abs(run[plant]["cross_track_m"]).max() < 0.5
     calls = run[plant]["test_calls"]
-    # A period after the first one calls the controller once.
+    # Each control period calls the controller once, except the last row of the log.
     assert (numpy.diff(calls)[:-1] == 1).all()
 
 
@@ -172,15 +172,15 @@ def test_controller_may_set_the_speed():
     )
     log = run["kinematic"]
     assert (log["steering_command_rad"][1:-1] == 0.05).all()
-    # A period of 1 m/s^2 beyond 2 m/s at most.
+    # The speed may exceed 2 m/s by one period of 1 m/s^2.
     assert log["speed_mps"].max() <= 2.0 + (log["t_s"][1] - log["t_s"][0])
 
 
 def test_plant_moves_as_its_model():
     run = trackbed.run("three_turns", plants=["kinematic", "test_bicycle"])
     both = trackbed.compare(run, "kinematic", "test_bicycle")
-    # Euler's method errs by at most speed^2 curvature_max dt/2 T = 9/4*0.2*0.002/2*48 s = 0.02 m;
-    # the actuator's rate limit, which the plant lacks, is not reached by the plan.
+    # Euler's method errs by at most speed^2 curvature_max dt/2 T = 9/4*0.2*0.002/2*48 m = 0.02 m.
+    # The plan does not use the actuator's full rate, which the plant does not limit.
     assert both["position"]["max"] < 0.1
 
 
@@ -607,6 +607,7 @@ def test_falsify_of_the_program_searches_a_requirement(folder):
         "search: {method: random, runs: 30, shrink_runs: 3}\n"
     )
     told = program(folder, "falsify", "--import", "my_module", "study.yaml", "--out", "out")
-    # A run fails with the probability 2/5: all of 30 pass with 2e-7, and the seed is fixed.
+    # A run fails with the probability 2/5, so 30 runs all pass with a probability of 2e-7. The seed
+    # is fixed.
     assert told.returncode == 3, told.stderr
     assert "slow" in told.stdout and (folder / "out/counterexample/counterexample.yaml").exists()

@@ -60,7 +60,7 @@ def test_is_the_run_of_the_program(run, tmp_path):
     first, second = (json.load(open(tmp_path / f / "metrics.json")) for f in ("of_program", "of_python"))
     # Program and module may have been built at different commits.
     del first["versions"], second["versions"]
-    # Other files of one pytest process may have registered metrics.
+    # Other test files of the same pytest process may have registered metrics.
     for kind, name in trackbed._signatures._registered:
         if kind == "metric":
             for plant in second["plants"].values():
@@ -187,7 +187,7 @@ def test_other_threads_run_meanwhile():
     while not done.wait(0.001):
         count += 1
     thread.join()
-    # A run of seconds that held the GIL would let this thread wait once or twice.
+    # If the run of some seconds held the GIL, this thread would continue only once or twice.
     assert count > 20
 
 

@@ -19,9 +19,9 @@
 namespace trackbed {
 namespace {
 
-/// Returns the largest steering rate of a car that drives along the path without error [rad/s]. The
-/// function computes mean rates over intervals of 0.1 m; a mean rate cannot exceed the largest rate
-/// within the interval.
+/// Returns the largest steering rate of a car that drives along the path without error [rad/s].
+/// Computes mean rates over intervals of 0.1 m. A mean rate cannot exceed the largest rate within
+/// the interval.
 double MaxSteeringRate(const Plan& plan, const VehicleParams& car, Stations within) {
   const Path& path = plan.reference.path;
   double fastest = 0.0;
@@ -65,8 +65,8 @@ void ExpectSafe(const Plan& plan, const Plan& global, const std::vector<Oriented
     }
     EXPECT_LE(MaxSteeringRate(plan, car, curve), car.steering_rate);
   }
-  // The path after the curve is displaced by the error of approximating the curve by path segments;
-  // see SegmentsThrough.
+  // Approximating the curve by path segments displaces the path after the curve; SegmentsThrough
+  // states this error.
   const Vec2 end = path.At(path.length()).pose.position();
   const Vec2 goal = global.reference.path.At(global.reference.path.length()).pose.position();
   EXPECT_LE((end - goal).norm(), Tolerance(1e-6));
@@ -127,7 +127,7 @@ TEST(PlanAround, AMirroredRouteGetsTheMirroredPlan) {
   }
 }
 
-/// Returns a row of boxes from the obstacle outward. The gaps of 1 m between the boxes are too
+/// Returns a row of boxes from the obstacle outward. The gaps between the boxes are 1 m wide, too
 /// narrow for the car.
 std::vector<OrientedBox> WithWall(const Course& course, double share, double toward_center) {
   const Pose2 at = course.OnArc(share);
@@ -190,8 +190,8 @@ TEST(PlanAround, StartsAtTheCarsPoseAndSteering) {
   const VehicleParams vehicle = ReferenceCar();
   const Pose2 at = course.OnArc(0.6);
   const std::vector<OrientedBox> obstacles{{{at.x, at.y, 0.0}, 2.0, 2.0}};
-  // The car is on the straight 12.7 m before the arc. It is 0.08 m beside the path, and its wheels
-  // point slightly to the right.
+  // The car is on the straight 12.7 m before the arc. The car is 0.08 m beside the path, and its
+  // wheels point slightly to the right.
   const AvoidanceRequest::Car car{{30.0, 0.08, 0.01}, -0.02};
   const Plan plan = PlanAround({.vehicle = vehicle,
                                 .plan = global,
@@ -263,7 +263,7 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
                         .after = random.Uniform(5.0, 60.0)};
     const Plan global = course.Global();
     if (!global.ok()) {
-      // The wheels would have to start turning before the car starts.
+      // With this obstacle, the wheels would have to turn before the car starts.
       ASSERT_EQ(global.status, PlanStatus::kSteersBeforeStart) << global.reason;
       continue;
     }

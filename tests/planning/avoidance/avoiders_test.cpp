@@ -58,7 +58,7 @@ TEST_P(EveryAvoider, LeavesTheWayToTheCurveAsItWas) {
   const Plan plan = Around(global, {InTheMiddle(course)}, GetParam().defaults);
   ASSERT_EQ(plan.blocked, "");
   const double leave = DiagnosticsJson(plan)["avoid"][0]["leave_s_m"].get<double>();
-  // The curve begins at the distance S = r + v t_d = 22.7 m before the arc, which begins at 42.7 m.
+  // The arc begins at 42.7 m, and the curve begins S = r + v t_d = 22.7 m before the arc.
   EXPECT_NEAR(leave, 42.7 - 22.7, Tolerance(0.1));
   constexpr double kStep = 1e-6;  // If the steering jumps, the curve may begin this much earlier
                                   // [m].
@@ -73,8 +73,8 @@ TEST_P(EveryAvoider, ComesBackToThePlan) {
   const Plan global = course.Global();
   const Plan plan = Around(global, {InTheMiddle(course)}, GetParam().defaults);
   ASSERT_EQ(plan.blocked, "");
-  // The path after the curve is displaced by the error of approximating the curve by path segments;
-  // see SegmentsThrough.
+  // Approximating the curve by path segments displaces the path after the curve; SegmentsThrough
+  // states this error.
   const Pose2 end = plan.reference.path.At(plan.reference.path.length()).pose;
   const Pose2 goal = global.reference.path.At(global.reference.path.length()).pose;
   EXPECT_LE((end.position() - goal.position()).norm(), Tolerance(1e-6));
@@ -136,9 +136,10 @@ TEST_P(EveryAvoider, TheScheduleDrivesTheCurveOpenLoop) {
   }
   const KinematicState end = RollOut(ReferenceCar(), {.pose = path.At(0.0).pose, .speed = kSpeed},
                                      plan.schedule, back, 0.05);
-  // Between two knots, the wheels turn at their full rate and then rest. They are ahead of the
-  // schedule by at most the distance between the knots, 0.1 m. This displaces the path by at most
-  // 0.1 m times the heading change. Turns in opposite directions cancel most of this error.
+  // Between two knots, the wheels turn at their full rate and then rest. The wheels are ahead of
+  // the schedule by at most the distance between two knots, 0.1 m. This lead displaces the path by
+  // at most 0.1 m times the heading change. Turns in opposite directions cancel most of this
+  // displacement.
   EXPECT_NEAR((end.pose.position() - path.At(back).pose.position()).norm(), 0.0, Tolerance(0.05));
   EXPECT_LE(stretch["open_loop"]["end_distance_m"].get<double>(), 0.05);
 }

@@ -56,7 +56,7 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
   const Plan plan = Around(course.Global(), {box}, options);
   ASSERT_EQ(plan.blocked, "");
 
-  TurnManeuver problem;  // The default values match Course.
+  TurnManeuver problem;  // The default values of TurnManeuver describe the same turn as Course.
   problem.reduction = c.reduction;
   problem.side = c.side > 0.0 ? TurnSide::kLeft : TurnSide::kRight;
   problem.obstacle_sixth = c.sixth;
@@ -89,7 +89,7 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
 
 TEST(Listing, PassesOnThePrintedPoints) {
   // The expected points are printed in section 5.10, relative to P_0, which is at (20, 0). The
-  // height of P_3 depends on the random tree.
+  // height of the control point P_3 depends on the random tree.
   const Course course{.turn = 75.0 * kPi / 180.0};
   const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
   const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
@@ -106,8 +106,8 @@ TEST(Listing, PassesOnThePrintedPoints) {
 }
 
 TEST(Listing, IsDrivenHoweverNearItComes) {
-  // Section 5.10 uses a safe distance of 1.5 m. Its curves have a clearance of 0.6 to 1.5 m on the
-  // outside, and of 4 m or more on the inside.
+  // Section 5.10 uses a safe distance of 1.5 m. With this safe distance, the curves of the listing
+  // have a clearance of 0.6 to 1.5 m on the outside of the turn, and of 4 m or more on the inside.
   const Course course{.turn = 75.0 * kPi / 180.0};
   const OrientedBox box = BoxAt(course.OnArc(0.5));
   const Plan outer = Around(course.Global(), {box}, OptionsFor(PassingSideChoice::kOuter));
@@ -152,15 +152,15 @@ TEST(Listing, TakesTheNearestSixth) {
     return DiagnosticsJson(plan)["avoid"][0]["obstacle_sixth"].get<int>();
   };
   EXPECT_EQ(sixth_at(0.01), 1);
-  EXPECT_EQ(sixth_at(0.24), 1);  // 0.24 of the arc is 1.44 sixths.
-  EXPECT_EQ(sixth_at(0.26), 2);  // 0.26 of the arc is 1.56 sixths.
+  EXPECT_EQ(sixth_at(0.24), 1);  // 0.24 of the arc is 1.44 sixths of the arc, rounded to 1.
+  EXPECT_EQ(sixth_at(0.26), 2);  // 0.26 of the arc is 1.56 sixths of the arc, rounded to 2.
   EXPECT_EQ(sixth_at(0.99), 5);
 }
 
 TEST(Listing, SteersStraightAgainBehindACurveThatEndsBent) {
-  // In a right turn, P_5 is not on the tangent through P_6 and P_7. The curve therefore ends with
-  // the curvature (6/7) h/(S/2)^2, where h = cos(1.2) sin(1.2) is the distance of P_5 from the
-  // tangent.
+  // In a right turn, the listing's control point P_5 is not on the tangent through P_6 and P_7. The
+  // curve therefore ends with the curvature (6/7) h/(S/2)^2, where h = cos(1.2) sin(1.2) is the
+  // distance of P_5 from the tangent.
   const Course course{.turn = -1.2};
   const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
   const double back = DiagnosticsJson(plan)["avoid"][0]["return_s_m"].get<double>();
@@ -179,7 +179,8 @@ TEST(Listing, MendedTurnsMirrorEachOther) {
     return ReadControlPoints(
         DiagnosticsJson(Around(course.Global(), {BoxAt(course.OnArc(0.5))}, options))["avoid"][0]);
   };
-  // Defect L9 of the listing shifts P_5 of a right turn along x by the cosine of the turn's angle.
+  // The published listing shifts the control point P_5 of a right turn along x by the cosine of the
+  // turn's angle (defect L9).
   EXPECT_NEAR(points_of(right)[5].x() - points_of(left)[5].x(), std::cos(1.2), Tolerance(1e-9));
   options.literal = {};
   for (std::size_t k = 0; k < 8; ++k) {
@@ -220,7 +221,7 @@ TEST(Listing, NeedsStraightsBeforeAndAfterTheTurn) {
   EXPECT_THAT(BlockedMessage(late, BoxAt(late.OnArc(0.5))),
               HasSubstr("): the listing needs straights of 22.7 m before and 22.7 m after the "
                         "turn; found 42.7 m and 20 m"));
-  // Straights of exactly the required length suffice.
+  // The straights before and after the turn may have exactly the required length.
   const Course enough{.before = 22.7, .turn = -1.2, .after = 22.7};
   EXPECT_EQ(Around(enough.Global(), {BoxAt(enough.OnArc(0.5))}, ListingAvoidanceOptions{}).blocked,
             "");

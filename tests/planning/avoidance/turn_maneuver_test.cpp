@@ -228,8 +228,8 @@ TEST(LayOutTurn, SafePointIsAsPrinted) {
 }
 
 /// Computes the safe point by the branches of the listing, with corrected parentheses. The last
-/// branch has theta_m + 3 pi/2 - dec. With -theta_m instead, as printed, the safe point of a right
-/// turn would not be the mirror image of the left turn's safe point.
+/// branch has the angle theta_m + 3 pi/2 - dec. With -theta_m, as printed, the safe point of a
+/// right turn would not mirror the safe point of the left turn.
 Vec2 SafePointByBranches(const TurnManeuver& m, double r_k, double theta_m) {
   const bool inner = m.inner_width >= m.outer_width;
   const double dec = m.reduction;
@@ -316,8 +316,8 @@ TEST(LayOutTurn, RefusesAReductionThatLeavesNoTurn) {
   const TurnLayout layout = LayOutTurn(maneuver, ReferenceCar());
   EXPECT_EQ(layout.status, TurnStatus::kNoTurn);
   EXPECT_EQ(layout.reason, "a turn of 1.5708 rad less 1.5708 rad leaves no arc");
-  // The grid of the listing has only two points here. One sixth of two points rounds to zero
-  // points.
+  // With these values, the grid of the published listing has only two points. One sixth of two
+  // points is rounded to zero points.
   maneuver.literal.grid = true;
   maneuver.obstacle_sixth = 1;
   maneuver.reduction = maneuver.turn_angle - 0.015;
@@ -331,8 +331,8 @@ TEST(LayOutTurn, NumbersOutOfRangeAreBugs) {
     change(maneuver);
     EXPECT_THROW(LayOutTurn(maneuver, ReferenceCar()), InternalError);
   };
-  // The listing uses abs(r_1), which suggests a negative radius for right turns. The length S would
-  // then be wrong.
+  // The published listing uses abs(r_1), as if right turns had a negative radius r_1. With a
+  // negative radius, the length S of the maneuver would be wrong.
   refused([](TurnManeuver& m) { m.radius = -20.0; });
   refused([](TurnManeuver& m) { m.speed = 0.0; });
   refused([](TurnManeuver& m) { m.delay = -0.1; });
@@ -458,7 +458,8 @@ TEST(ControlPoints, DefaultOnesAreAsPrinted) {
 }
 
 TEST(ControlPoints, LiteralRightTurnIsNoMirror) {
-  // Defect L9: only P_5 is not mirrored. Its x differs by cos 75 degrees = 0.2588 m.
+  // The published listing mirrors all control points of a right turn except P_5 (defect L9). The x
+  // coordinate of P_5 is therefore wrong by cos 75 degrees = 0.2588 m.
   const Points left = ControlPointsFor(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0);
   const Points right = ControlPointsFor(Literal(TurnSide::kRight, PassingSide::kInner), -3.0);
   for (std::size_t k = 0; k < 8; ++k) {
@@ -506,8 +507,8 @@ TEST(TurnManeuver, RightTurnMirrorsTheLeftToTheLastBit) {
 }
 
 TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
-  // A reduction of 1e-9 rad rotates the exit straight about the arc's center. The far end of the
-  // exit is less than r_1 + S < 43 m from the center.
+  // A reduction of the turn's angle by 1e-9 rad rotates the exit straight about the arc's center.
+  // The far end of the exit is less than r_1 + S < 43 m from the center.
   constexpr double kSmall = 1e-9;
   for (const PassingSide passing_side : {PassingSide::kInner, PassingSide::kOuter}) {
     TurnManeuver none = Literal(TurnSide::kLeft, passing_side, 0.0);
@@ -518,9 +519,9 @@ TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
     for (std::size_t k = 0; k < 8; ++k) {
       ExpectPoint(a[k], b[k], 43.0 * kSmall + kRounding);
     }
-    // Defect L18: if the reduction vanishes, P_5 to P_7 of the listing jump. They move from the end
-    // of the arc to a place beside the safe point, 7 m lower for a pass on the inside. All other
-    // points agree.
+    // If the reduction of the turn's angle is zero, the control points P_5 to P_7 of the published
+    // listing jump (defect L18). These points move from the end of the arc to a place beside the
+    // safe point, 7 m lower for a pass on the inside. All other points agree.
     none.literal = small.literal = {.right_angle_rule = true};
     const Points c = ControlPointsFor(none, 3.0);
     const Points d = ControlPointsFor(small, 3.0);
@@ -629,9 +630,10 @@ TEST(SimulateManeuver, TableIsAsPrinted) {
   constexpr PassingSide kInner = PassingSide::kInner;
   constexpr PassingSide kOuter = PassingSide::kOuter;
   constexpr double kDec = kPi / 12.0;
-  // The listing prints a clearance of 4.59 m for V_L_1, from every second sample (4.586 m). All
-  // samples, and four times as many, give 4.5847 m. Where the duration is not printed, the expected
-  // duration is a third of the length.
+  // For V_L_1, the published listing prints a clearance of 4.59 m, computed from every second
+  // sample (4.586 m). With all samples, and with four times as many samples, the clearance is
+  // 4.5847 m. If the listing does not print the duration, the expected duration is a third of the
+  // length.
   const auto third = [](double length) { return Value{length / 3.0, 4}; };
   // clang-format off
   const std::vector<Row> rows{
@@ -682,7 +684,7 @@ TEST(SimulateManeuver, TableIsAsPrinted) {
     // m.
     EXPECT_NEAR(Drive(row.maneuver, row.final_y, ReferenceCar()).clearance, drive.clearance,
                 Tolerance(0.08 + Printed(2)));
-    // The test point of the listing passes in all rows, although on the outer side the footprint
+    // The listing's test point is free in all rows. On the outer side, the footprint nevertheless
     // comes too close to the obstacle.
     EXPECT_TRUE(drive.test_passed);
     EXPECT_TRUE(drive.steerable);
@@ -696,9 +698,9 @@ TEST(SimulateManeuver, OuterRingComesAsCloseAsPrinted) {
   EXPECT_NEAR(Drive(maneuver, 0.0).clearance, 0.60, Tolerance(Printed(2)));
   EXPECT_NEAR(Drive(maneuver, -2.0).clearance, 0.94, Tolerance(Printed(2)));
   EXPECT_NEAR(Drive(maneuver, -5.0).clearance, 1.41, Tolerance(Printed(2)));
-  // The listing prints 0.78 m, from every fourth sample (0.7755 m). An independent script that
-  // computes the distance between the sides of the footprints finds 0.77413, 0.77400 and 0.77390 m
-  // with 101, 501 and 4001 samples.
+  // The published listing prints a clearance of 0.78 m, computed from every fourth sample (0.7755
+  // m). An independent script that computes the distance between the sides of the footprints finds
+  // 0.77413, 0.77400 and 0.77390 m with 101, 501 and 4001 samples.
   EXPECT_NEAR(Drive(maneuver, -1.0).clearance, 0.77400, Tolerance(Printed(5)));
 }
 
@@ -720,7 +722,7 @@ TEST(SimulateManeuver, HeightFromTheSearchShortensTheInnerWay) {
 }
 
 TEST(SimulateManeuver, ListingsSteeringIsTooSmallByTheFactorPrinted) {
-  // Defect L1: the listing computes atan(L)/R in place of atan(L/R).
+  // The published listing computes atan(L)/R in place of atan(L/R) (defect L1).
   EXPECT_NEAR(std::atan(2.7), 1.2161, Tolerance(Printed(4)));
   EXPECT_NEAR(std::atan(2.7) / 2.7, 0.450, Tolerance(Printed(3)));
   const ManeuverRun drive = Drive(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0);
@@ -763,8 +765,8 @@ TEST(SimulateManeuver, SamplesCountChordsAtConstantSpeed) {
 TEST(SimulateManeuver, TestPointIsTwoSamplesBeforeTheStation) {
   for (int n = 1; n <= 5; ++n) {
     const ManeuverRun drive = Drive(Literal(TurnSide::kLeft, PassingSide::kInner, 0.2, n), 3.0);
-    // The indices of the listing count from 1. B_sum(m) of the listing is the s of sample m + 1,
-    // and the test point is P(m - 1).
+    // The indices of the published listing count from 1. The listing's value B_sum(m) is the
+    // distance s of sample m + 1, and its test point is P(m - 1).
     std::size_t m = 1;
     while (drive.samples[m].s < n / 6.0 * drive.length - 2.0) {
       ++m;
@@ -861,9 +863,9 @@ TEST(LiteralRrtStar, SpreadIsAsPrinted) {
   };
   const std::vector<Row> rows{{TurnSide::kLeft, PassingSide::kInner, 1.05, 0.38, 1.98, 20.7},
                               {TurnSide::kLeft, PassingSide::kOuter, -1.72, -2.67, -1.00, 41.9},
-                              // A right turn exchanges the roles of inside and outside. The nearest
-                              // distance is not printed: in a right turn, rounding down moves the
-                              // inner safe point farther.
+                              // A right turn exchanges the roles of inside and outside. The listing
+                              // does not print the nearest distance, because rounding down moves
+                              // the inner safe point of a right turn away.
                               {TurnSide::kRight, PassingSide::kInner, -1.72, -2.67, -1.00, 0.0},
                               {TurnSide::kRight, PassingSide::kOuter, 1.05, 0.38, 1.98, 0.0}};
   constexpr int kSeeds = 2000;
@@ -877,9 +879,9 @@ TEST(LiteralRrtStar, SpreadIsAsPrinted) {
       heights.push_back(tree.final_y);
       nearest = std::min(nearest, tree.goal_distance);
     }
-    // The listing prints quantiles of 2000 other random draws. Among our n draws, the rank of a
-    // printed quantile p has a standard deviation of sqrt(2 n p (1 - p)). The test allows four
-    // standard deviations, and half a unit in the last printed digit.
+    // The published listing prints quantiles of 2000 other random draws. Among our n draws, the
+    // rank of a printed quantile p has a standard deviation of sqrt(2 n p (1 - p)). The test allows
+    // four standard deviations, and half a unit in the last printed digit.
     const auto expect_quantile = [&](double p, double printed) {
       const double spread = Tolerance(4.0 * std::sqrt(2.0 * kSeeds * p * (1.0 - p)));
       const double half = Printed(2);
@@ -893,8 +895,8 @@ TEST(LiteralRrtStar, SpreadIsAsPrinted) {
     expect_quantile(0.5, row.median);
     expect_quantile(0.05, row.low);
     expect_quantile(0.95, row.high);
-    // The printed distance is the smallest of 2000 draws. With 200 000 draws, the distance falls to
-    // 20.55 m and 41.83 m.
+    // The printed smallest distance is that of 2000 draws. The smallest distance of 200 000 draws
+    // is 20.55 m and 41.83 m.
     EXPECT_GE(nearest, row.nearest - Tolerance(Printed(1)));
     // Eleven steps of 1 m cannot reach a safe point.
     EXPECT_GE(nearest, layout.safe_point.norm() - 11.0 - Tolerance(kRounding));
@@ -918,7 +920,7 @@ TEST(LiteralRrtStar, GrowsByStepsFromTheNearestNode) {
         (maneuver.side == TurnSide::kLeft) == (maneuver.passing_side() == PassingSide::kInner);
     for (std::size_t k = 1; k < tree.nodes.size(); ++k) {
       const TreeNode& node = tree.nodes[k];
-      // All samples, and therefore the whole tree, lie on one side of the start.
+      // All samples lie on one side of the start, and so does the whole tree.
       EXPECT_GE(up ? node.position.y() : -node.position.y(), -Tolerance(kRounding));
       double nearest = std::numeric_limits<double>::infinity();
       double cheapest = std::numeric_limits<double>::infinity();
@@ -976,8 +978,8 @@ TEST(LiteralRrtStar, CrossesNoSideOfTheObstacle) {
 }
 
 TEST(LiteralRrtStar, CountsALineWithinTheObstacleAsFree) {
-  // Defect L13: all samples are inside this obstacle, and the listing treats a line inside an
-  // obstacle as free.
+  // All samples are inside this obstacle. The published listing treats a line inside an obstacle as
+  // free (defect L13).
   const TurnManeuver maneuver;
   TurnLayout layout = LayOut(maneuver);
   layout.obstacle.length = layout.obstacle.width = 200.0;

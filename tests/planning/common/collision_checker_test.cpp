@@ -78,8 +78,8 @@ TEST(CollisionChecker, FindsTheFirstPlaceThatIsTooNear) {
                                                {.length = 10.0}});
     const std::optional<double> blocked = clear.FirstBlocked(path);
     blocked_ones += blocked ? 1 : 0;
-    // FirstBlocked checks the path every 2 cm. In half a step, the farthest corner of the car moves
-    // by 0.01 m x (1 + 0.2 x 3.7) = 0.01 m x 1.75.
+    // FirstBlocked checks the path every 2 cm. Within half of this step, the farthest corner of the
+    // car moves by 0.01 m x (1 + 0.2 x 3.7) = 0.01 m x 1.75.
     const double missed = 0.01 * 1.75;
     const double end = blocked ? *blocked - 0.02 : path.length();
     for (double s = 0.0; s < end; s += 0.005) {
@@ -97,7 +97,8 @@ TEST(CollisionChecker, FindsTheFirstPlaceThatIsTooNear) {
 
 TEST(CollisionChecker, SkipsOnlyLooksThatChangeNothing) {
   // With few boxes, the checker skips tests on long stretches. With many copies of the same boxes,
-  // the checker skips no test. Both must return exactly the same station.
+  // the checker does all tests. With few and with many copies of the boxes, the checker must return
+  // exactly the same station.
   Random random(4);
   int blocked_ones = 0;
   for (int i = 0; i < 200; ++i) {

@@ -52,14 +52,15 @@ TEST(CornerAt, TurnsByTheHeadingChangeBetweenTangentPoints) {
   for (const double h : {0.05, 0.25 * kPi, 0.5 * kPi, -0.5 * kPi, 2.5}) {
     for (const double speed : {0.5, 1.5, 3.0}) {
       const RoundCorner corner = CornerAt(ReferenceCar(), h, speed, kLimits.max_curvature);
-      // A corner consists of a ramp of the curvature, an arc and a second ramp. Its heading change
-      // h is kappa^2/sigma plus kappa times the length of the arc, with the sharpness sigma.
+      // A corner consists of a ramp of the curvature, an arc and a second ramp. The heading change
+      // h of a corner is kappa^2/sigma plus kappa times the length of the arc, with the curvature
+      // kappa and the sharpness sigma.
       const double ramp = corner.curvature / corner.sharpness;
       EXPECT_LE(corner.curvature * ramp, std::abs(h) * (1.0 + Tolerance(1e-12)));
       EXPECT_LE(corner.curvature, kLimits.max_curvature);
       EXPECT_TRUE(corner.curvature == kLimits.max_curvature ||
                   std::abs(corner.curvature * ramp - std::abs(h)) < Tolerance(1e-12));
-      // The corner needs more of its legs than the arc without ramps, which needs
+      // With its ramps, the corner needs more of its legs than the arc alone, which needs
       // tan(|h|/2)/kappa_max.
       EXPECT_GT(corner.tangent_length, std::tan(0.5 * std::abs(h)) / kLimits.max_curvature);
     }
@@ -131,8 +132,8 @@ TEST(RoundCorners, KeepsClearByGoingSlowerOrRefuses) {
     }
     return rounded;
   };
-  // The box is inside the curve. It blocks the corner at 3 m/s, but not at a lower speed, at which
-  // the curve stays closer to the corner.
+  // The box is inside the curve. At 3 m/s, the box is in the way of the curve. At a lower speed,
+  // the curve stays closer to the corner, so the box is not in its way.
   const RoundedCorners slower = with_box(26.2, 3.8);
   ASSERT_EQ(slower.status, PlanStatus::kOk) << slower.reason;
   ASSERT_EQ(slower.caps.size(), 1U);

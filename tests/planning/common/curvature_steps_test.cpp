@@ -19,8 +19,8 @@ TEST(StepSpeed, LeadsOffByTheDeviation) {
   // The test measures the offset at the end of the steering ramp, S/2 = 2.45 m after the step. The
   // formula for kStepDeviation assumes that the curvature is linear on the ramp. Because tan(delta)
   // is convex, the ramp turns the car by (-ln cos delta)/(delta tan delta) = 0.494 of kappa S, not
-  // by half of it. The difference is 0.003 rad, or 0.007 m over S/2. The cosines of angles up to
-  // 0.12 rad add less than 1 %.
+  // by half of it. The difference of the heading is 0.003 rad, which is an offset of 0.007 m over
+  // S/2. The cosines of angles up to 0.12 rad change the offset by less than 1 %.
   const double curvature = 0.1;
   const double speed = StepSpeed(ReferenceCar(), 0.0, curvature);
   const std::vector<Segment> segments{{.length = 20.0}, {.length = 10.0, .curvature = curvature}};

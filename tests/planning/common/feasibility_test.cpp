@@ -152,9 +152,9 @@ TEST(Feasibility, RefusesOrAllowsAsTheScenarioSays) {
 }
 
 TEST(Feasibility, SlowsDownWhereTheWheelsTurnTooSlowly) {
-  // Within 2 m, the wheels turn by atan(2.7 x 0.1) = 0.2637 rad. If the angle were linear in the
-  // station, the speed limit would be 0.1506/(0.2637/2) = 1.14 m/s. The slope of atan varies by
-  // less than 3 %.
+  // Within 2 m, the wheels turn by atan(2.7 x 0.1) = 0.2637 rad. If the steering angle were linear
+  // in the station, the speed limit would be 0.1506/(0.2637/2) = 1.14 m/s, with the steering rate
+  // 0.1506 rad/s. The slope of atan varies by less than 3 % over this range.
   const PlanRequest request = Request(4.0, {{0.0, 0.0}});
   const Plan plan = Course(request, {{.length = 20.0, .curvature = 0.0},
                                      {.length = 2.0, .curvature_to = 0.1},

@@ -23,7 +23,7 @@ PlanRequest RollingAt(double speed) {
   return request;
 }
 
-/// Share of the grip that plans with bends use for braking.
+/// Share of the grip that plans through bends use for braking.
 constexpr double kShare = 0.7;
 
 TEST(ComputeLeadIn, LeavesRoomToBrakeOnIce) {
@@ -39,12 +39,13 @@ TEST(ComputeLeadIn, LeavesRoomToBrakeOnIce) {
 
 TEST(ComputeLeadIn, LeavesRoomToBrakeOnAPatchOfIce) {
   PlanRequest request = RollingAt(3.0);
-  // The front axle reaches the ice after 1 m, where the car still drives sqrt(9 - 3) m/s.
+  // The front axle reaches the ice after 1 m, at the speed sqrt(9 - 3) m/s.
   const double edge = 1.0 + request.vehicle.wheelbase;
   request.friction_patches = {{{{edge + 50.0, 0.0, 0.0}, 100.0, 20.0}, 0.05}};
   const double ice = kShare * MaxDeceleration(request.vehicle, 0.05);
-  // The road is sampled every 0.1 m. Braking with the ice's deceleration instead of 1.5 m/s^2 on
-  // such a piece leaves 2 0.1 1.5 m^2/s^2 to the ice.
+  // The road is sampled every 0.1 m. On a piece of 0.1 m that touches the ice, the planner brakes
+  // with the deceleration of ice instead of 1.5 m/s^2. This leaves up to 2 x 0.1 x 1.5 m^2/s^2 of
+  // v^2 for braking on the ice.
   EXPECT_NEAR(ComputeLeadIn(request, 1.0, 0.0).length, 1.0 + (6.0 - 1.0) / (2.0 * ice),
               Tolerance(0.1 * 1.5 / ice));
 }

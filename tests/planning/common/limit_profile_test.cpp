@@ -84,8 +84,8 @@ TEST(LimitProfile, SpeedsUpAndBrakesOnAStraightAsFrictionAllows) {
 
 TEST(LimitProfile, IsLimitedByPower) {
   // With the constant power P, M v dv/ds = P, so v^3 = v0^3 + 3 P s/M. Each interval uses the force
-  // at its faster end. If the speed changes by dv over the interval, the gain in speed is too small
-  // by the fraction dv/v at most, and by half of that on average.
+  // at the faster one of its ends. If the speed changes by dv over an interval, the computed gain
+  // in speed is too small by up to the fraction dv/v, and by half of this on average.
   const double power = 80e3;
   const double mass = 1200.0;
   const GgvDiagram car =
@@ -101,11 +101,12 @@ TEST(LimitProfile, IsLimitedByPower) {
       EXPECT_LE(result.speeds[i], v * (1.0 + kSearched));
       worst = std::max(worst, v - result.speeds[i]);
     }
-    // In the first interval, dv is P h/(M v0^2) = 0.6 m/s for h = 2 m. The error is below half of
-    // dv.
+    // In the first interval, dv is P h/(M v0^2) = 0.6 m/s for h = 2 m. The error of the speed is
+    // below half of dv.
     EXPECT_LT(worst, Tolerance(0.5 * power * h / (mass * start * start)));
     if (before > 0.0) {
-      EXPECT_NEAR(worst / before, 0.5, Tolerance(0.05));  // The error is of first order in h.
+      // The error is proportional to the length h of the intervals.
+      EXPECT_NEAR(worst / before, 0.5, Tolerance(0.05));
     }
     before = worst;
   }
@@ -286,8 +287,8 @@ TEST(LimitProfile, CannotBeRaisedAnywhere) {
     std::vector<double> raised = result.speeds;
     raised[i] += 0.05;
     const Beyond beyond = FindBeyond(stations, raised, 1.0);
-    // Raising a speed v by 0.05 m/s changes the acceleration d(v^2)/(2 h) by 0.05 v/h, with h = 1
-    // m. At the top speed, no limit of the acceleration is active.
+    // If a speed v is raised by 0.05 m/s, the acceleration d(v^2)/(2 h) rises by 0.05 v/h, with the
+    // interval h = 1 m. At the top speed of the car, no limit of the acceleration is active.
     EXPECT_TRUE(raised[i] > 55.0 || std::max(beyond.driving, beyond.braking) > 0.02)
         << stations[i].s;
   }
@@ -350,9 +351,9 @@ TEST(LimitProfile, OfALapDoesNotDependOnItsBegin) {
 }
 
 TEST(LimitProfile, IsThatOfAnotherProgramWithinAPercent) {
-  // tests/data/limit_profile/README.md lists the input of the reference program. This program uses
-  // the force at the start of an interval to accelerate, and one correction step to brake. Both
-  // cause errors of first order in the intervals of 1 m.
+  // tests/data/limit_profile/README.md lists the input of the reference program. The reference
+  // program uses the force at the start of an interval to accelerate, and one correction step to
+  // brake. Both approximations cause errors proportional to the length of the intervals, 1 m.
   const Table lap = ReadCsv(TRACKBED_SOURCE_DIR "/tests/data/limit_profile/lap.csv");
   std::vector<LimitStation> stations;
   for (std::size_t i = 0; i < lap.rows(); ++i) {

@@ -38,8 +38,8 @@ TEST(RemainingPlans, KeepSpeedsAtTheLimit) {
 }
 
 TEST(RemainingPlans, GainSpeedUpToTheLimits) {
-  // The car accelerates at 2 m/s^2, so v^2 = 5^2 + 2 x 2 s. It is slower than the plan, until it
-  // brakes for the stop at the end of the plan.
+  // The car accelerates at 2 m/s^2, so v^2 = 5^2 + 2 x 2 s. The car is slower than the plan until
+  // it brakes for the stop at the end of the plan.
   const Plan rest = RemainingPlan(AtTheLimit(), 30.0, 5.0, {40.0, 2.0, 1.0});
   for (const double s : {0.0, 10.0, 20.0, 35.0, 50.0}) {
     EXPECT_NEAR(rest.reference.speed.SpeedAt(s), std::sqrt(25.0 + 4.0 * s), Tolerance(1e-12));
@@ -60,7 +60,8 @@ TEST(Caps, OfAPlanAtTheLimitAreItsSpeeds) {
   Plan plan = AtTheLimit();
   const std::vector<SpeedCap> caps = CapsOf(plan);
   ASSERT_EQ(caps.size(), 4U);
-  EXPECT_DOUBLE_EQ(caps[0].speed, 20.0);  // The cap is not the plan's start speed, 0 m/s.
+  // The start speed of the plan, 0 m/s, does not cap the speed.
+  EXPECT_DOUBLE_EQ(caps[0].speed, 20.0);
   EXPECT_DOUBLE_EQ(caps[1].from, 20.0);
   EXPECT_DOUBLE_EQ(caps[1].to, 50.0);
   plan.diagnostics.speed_profile.reset();

@@ -81,8 +81,9 @@ TEST(SpeedAtLimit, KeepsTheSteeringRate) {
 }
 
 TEST(SpeedAtLimit, KeepsTheSteeringRateOnTyres) {
-  // A car with linear tyres steers by tan(delta) = kappa (L + K v^2). The rate of this angle over
-  // time includes the change of speed. Differences over 0.05 m have an error below 1 %.
+  // A car with linear tyres needs the steering angle tan(delta) = kappa (L + K v^2) on a path with
+  // the curvature kappa. The steering rate therefore also depends on the change of the speed.
+  // Steering rates from differences over 0.05 m have an error below 1 %.
   PlanRequest request = Request();
   request.vehicle.mass = 1000.0;
   request.vehicle.yaw_inertia = 1500.0;
@@ -184,8 +185,8 @@ TEST(SpeedAtLimit, RefusesAStartThatIsTooFast) {
   EXPECT_EQ(kept.notes.size(), 2U);
 }
 
-// On ice with the friction factor 0.25, the tyres hold 2 m/s^2. A slope of 1 in 2 requires 4.4
-// m/s^2.
+// On ice with the friction factor 0.25, the tyres hold 2 m/s^2. Gravity on a slope of 1 in 2 pulls
+// with 4.4 m/s^2.
 TEST(SpeedAtLimit, RefusesASlopeThatTheCarCannotHold) {
   PlanRequest request = Request();
   request.friction = 0.25;

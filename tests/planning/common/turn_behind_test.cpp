@@ -66,8 +66,8 @@ TEST(RoundCorners, SlowsDownToPassNearAWaypoint) {
   const RoundedCorners free = rounded(100.0);
   EXPECT_EQ(free.corners[0].speed, 3.0);
   // The bound `gap` is the mean of the gaps at 3 m/s and at 0.5 m/s. Bisection finds the speed to
-  // 1e-6 m/s. The gap grows by less than 10 m per m/s, so the gap of the corner is at most 1e-5 m
-  // below the bound.
+  // 1e-6 m/s. The gap grows by less than 10 m for each m/s, so the gap at the found speed is at
+  // most 1e-5 m below the bound.
   const double gap =
       0.5 * (free.corners[0].gap + CornerAt(ReferenceCar(), 0.5 * kPi, 0.5, 1.0 / 5.1).gap);
   const RoundedCorners near = rounded(gap);
@@ -125,12 +125,13 @@ TEST(RoundCornersOrTurnBehind, FollowsABendOfClosePoints) {
   for (int i = 0; i < 60; ++i) {
     const double radius = random.Uniform(12.0, 60.0);
     const auto count = static_cast<std::size_t>(random.Uniform(4.0, 12.0));
-    // At least 5 m in all: the slowest curve of a gentle corner needs a meter or two of each leg.
+    // The route is at least 5 m long, because even the slowest curve of a gentle corner needs a
+    // meter or two of each leg.
     const double spacing = random.Uniform(5.0 / static_cast<double>(count - 1), 5.0);
     const std::vector<Vec2> route = PointsOnArc(radius, spacing, count);
     CornerLimits limits = Limits(route, 4.5);
     limits.deceleration = 1.5;
-    // From 3 m/s, the car needs 3 m to slow down, and some meters to turn.
+    // The car needs 3 m to slow down from 3 m/s, and some meters to turn.
     const double length = spacing * static_cast<double>(count - 1);
     limits.start_speed = length > 15.0 && i % 2 == 0 ? 3.0 : 0.0;
     const RoundedCorners rounded =
@@ -139,14 +140,15 @@ TEST(RoundCornersOrTurnBehind, FollowsABendOfClosePoints) {
     for (const Vec2& point : route) {
       EXPECT_LE(SampledDistance(rounded.path, point), limits.max_gap + Tolerance(kHalfSample)) << i;
     }
-    // A path that turns behind a waypoint is longer by a full turn at least.
+    // A path with a turn behind a waypoint is longer by at least a full circle.
     EXPECT_LT(rounded.path.length(), length + 2.0 * kPi / limits.max_curvature)
         << i << ": " << count << " points " << spacing << " m apart, radius " << radius;
   }
 }
 
 TEST(RoundCornersOrTurnBehind, LeavesOutNoWaypointBeyondTheBound) {
-  // The detour to the second waypoint is needed for a bound below its distance of 3 m.
+  // Without a detour, the path passes the second waypoint at a distance of 3 m, so only a bound
+  // below 3 m needs a detour.
   const std::vector<Vec2> route{{0, 0}, {30, 0}, {33, 3}, {36, 0}, {66, 0}};
   for (const double max_gap : {1.0, 4.0}) {
     const RoundedCorners rounded =

@@ -71,8 +71,8 @@ TEST(PredictTurn, OffsetIsThatOfACenterdRampOnGentleTurns) {
   const Plan plan = MakeFilletPlan(route, radius);
   ASSERT_EQ(plan.turns.size(), 1U);
   const double ramp = SteeringDistance(ReferenceCar(), std::atan(2.7 / radius), kSpeed);
-  // The offset is largest at the end of the ramp. After the ramp, the heading deficit moves the car
-  // outward again.
+  // The offset of the car from the path is largest at the end of the ramp. After the ramp, the
+  // car's heading deficit moves the car outward again.
   IsolatedTurn turn = plan.turns[0];
   turn.middle = turn.from + ramp;
   const TurnError error = PredictTurn(ReferenceCar(), plan.reference.path, turn, 0.0);

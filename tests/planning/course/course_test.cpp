@@ -62,10 +62,11 @@ TEST(Course, PiecesAreEitherConstantOrRamps) {
 TEST(CourseSchedule, LeadsTheKinematicCarAlong) {
   // The wheels can follow these ramps: at 3 m/s, the steering angle changes by 0.135 rad within 5
   // m, that is within 1.67 s, at 0.081 rad/s. Two errors remain. First, the schedule interpolates
-  // atan(L kappa) linearly between knots, with an error below 1e-5 rad. The curvature error of
-  // 1e-5/L = 4e-6 1/m moves the end by 27^2/2 x 4e-6 = 1.4 mm over 27 m. Second, the car reaches
-  // its steering angle early within each step of 1 mm. The heading error of 0.05 1/m times 0.5 mm
-  // moves the end by 0.6 mm.
+  // atan(L kappa) linearly between knots, which causes a steering error below 1e-5 rad. The
+  // resulting curvature error of 1e-5/L = 4e-6 1/m moves the end of the path by 27^2/2 x 4e-6 = 1.4
+  // mm over 27 m. Second, the car reaches its steering angle up to 0.5 mm early within each step of
+  // 1 mm. At a curvature of 0.05 1/m, this is a heading error of 0.05 x 0.5 mm, which moves the end
+  // of the path by 0.6 mm.
   const std::vector<Segment> segments =
       CourseSegments({.segments = {{.length = 5.0, .curvature = 0.0},
                                    {.length = 5.0, .curvature_to = 0.05},

@@ -117,8 +117,8 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
       EXPECT_GE(most, 0.6 * bound);  // Where the curve y(x) is steep, its curvature is below its
                                      // second derivative.
       // The segments are arcs of at most 0.1 m, so the curvature steps by at most 0.1 m times
-      // dkappa/ds. This rate is at most 60 offset/length^3, at the ends of a lane change. The
-      // second lane change is shorter than the first, and its offset is not larger.
+      // dkappa/ds. The derivative dkappa/ds is at most 60 offset/length^3, at the ends of a lane
+      // change. The second lane change is shorter than the first, and its offset is not larger.
       const double steepest = 60.0 * offset / std::pow(part_1 ? 28.0 : 15.5, 3);
       double curvature = 0.0;
       for (const Segment& segment : path.segments()) {

@@ -49,8 +49,9 @@ TEST(DrivablePieces, TurnOnArcsFourTimesAsLongAsTheirRamps) {
     const std::vector<Segment> pieces = Pieces({}, goal, Dubins({}, goal, drive.radius), drive);
     EXPECT_LE(Apart(End({}, pieces), goal), Tolerance(1e-9));
     EXPECT_EQ(SlowestStep(pieces, drive), speed);
-    // For a turn by phi, the curvature is kappa = sqrt(omega phi/(4 L v)). The wider arc adds less
-    // than a tenth to this turn. The sign of the curvature is that of the last turn.
+    // A turn by the angle phi on two steering ramps has the curvature kappa = sqrt(omega phi/(4 L
+    // v)). The wider arc between the ramps adds less than a tenth to this turn. The last turn of
+    // the curve has this sign of the curvature.
     const double sharpest = (pieces.end() - 2)->curvature;
     const double expected = std::copysign(
         std::sqrt(ReferenceCar().steering_rate * std::abs(phi) / (4.0 * 2.7 * speed)), phi);

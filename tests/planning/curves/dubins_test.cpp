@@ -53,7 +53,8 @@ TEST(Dubins, FindsWhatIsPlain) {
   EXPECT_NEAR(length({7.0, 0.0, 0.0}), 7.0, rounding);
   EXPECT_NEAR(length({2.0, 2.0, 0.5 * pi}), pi, rounding);   // A quarter circle to the left.
   EXPECT_NEAR(length({0.0, -4.0, pi}), 2.0 * pi, rounding);  // Half a circle to the right.
-  EXPECT_NEAR(length({-1e-3, 0.0, 0.0}), 4.0 * pi, 1e-2);    // Slightly behind: a full circle.
+  // A goal slightly behind the car needs a full circle.
+  EXPECT_NEAR(length({-1e-3, 0.0, 0.0}), 4.0 * pi, 1e-2);
   // To turn around in place, the car drives arcs of pi/3, 5 pi/3 and pi/3 on three circles that
   // touch each other.
   EXPECT_NEAR(length({0.0, 0.0, pi}), 2.0 * pi * 7.0 / 3.0, rounding);

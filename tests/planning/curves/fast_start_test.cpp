@@ -21,7 +21,7 @@ TEST(DubinsPlanner, LetsAFastStartPassTheFirstArcs) {
     request.vehicle = ReferenceCar();
     request.speed = {.speed = 0.5 + 10.0 * unit(random), .acceleration = 1.0, .deceleration = 1.5};
     request.start_speed = (1.05 + 0.45 * unit(random)) * request.speed.speed;
-    // The car can stop on a leg: it needs at most 15.75^2/3 m = 83 m.
+    // The legs are long enough to stop on: stopping needs at most 15.75^2/3 m = 83 m.
     const Vec2 first(150.0 + 300.0 * unit(random), 0.0);
     const double turn = 3.0 * (unit(random) - 0.5);
     request.waypoints = {{0.0, 0.0}, first, first + 200.0 * Direction(turn)};

@@ -176,8 +176,8 @@ TEST(SecondPass, LiteralOptimumOfAFirstTurnIsNeverInterior) {
 TEST(SecondPass, LiteralOptimumOfALaterTurnMayBeInterior) {
   // The route has legs of 40 m and turns by +100 degrees and then by +20 degrees. The window of the
   // second turn contains the return ramp of the first turn. An independent computation with a
-  // sampled window found a radius of 44.57 m. Its sampling error of 4 ms in 11.6 s explains the
-  // difference of 0.015 m from the converged radius.
+  // sampled window found a radius of 44.57 m. The sampled window has an error of 4 ms in 11.6 s,
+  // which explains the difference of 0.015 m from the converged radius.
   const Vec2 second = Vec2{40, 0} + 40.0 * Direction(Radians(100.0));
   const std::vector<Vec2> route{{0, 0}, {40, 0}, second, second + 40.0 * Direction(Radians(120.0))};
   FilletOptions options = Options(kLiteral);
@@ -201,8 +201,8 @@ TEST(SecondPass, TurnLocalOptimumIsOftenInterior) {
 }
 
 TEST(SecondPass, SimulatesAgainWhenAskedTo) {
-  // A second simulation leaves the window of the first turn unchanged. The literal window of the
-  // second turn changes, because the first turn then ends on its new radius.
+  // A second simulation leaves the window of the first turn unchanged. The window of the published
+  // listing for the second turn changes, because the first turn then ends on its new radius.
   FilletOptions once = Options(kLiteral);
   FilletOptions again = once;
   again.resimulate_each_turn = true;

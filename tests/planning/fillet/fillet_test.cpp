@@ -246,7 +246,7 @@ TEST(PlanFillets, DefaultsToTheLargestRadiusWithSteeringRoom) {
 }
 
 TEST(PlanFillets, MaxRadiusCapsGentleTurns) {
-  // A turn of 1 degree between legs of 100 m would allow r = 50/tan(0.5 deg) = 5730 m.
+  // A turn of 1 degree between legs of 100 m would allow the radius 50/tan(0.5 deg) m = 5730 m.
   const std::vector<Vec2> route{{0, 0}, {100, 0}, Vec2{100, 0} + 100.0 * Direction(Radians(1.0))};
   for (const RadiusConstraint constraint :
        {RadiusConstraint::kHalfLeg, RadiusConstraint::kSteeringRoom}) {
@@ -281,10 +281,10 @@ TEST(SteeringRoomRadii, HasPrintedIntervals) {
         SteeringRoomRadii(ReferenceCar(), kSpeed, Radians(c.angle), c.leg, {5.1, 154.0});
     ASSERT_EQ(radii.has_value(), c.radii.has_value());
     if (radii) {
-      // The printed angles are rounded to 1e-4 or 1e-5 degrees. Rounding by up to 0.5e-4 degrees =
-      // 0.87e-6 rad moves the end of the interval by this angle times dr/dphi. The derivative
-      // dr/dphi is about r/sin(phi) = 82 m/rad at 146 degrees, so the error is 82 x 0.87e-6 =
-      // 7.2e-5 m. Right angles are exact.
+      // The printed angles are rounded to 1e-4 or 1e-5 degrees. Rounding the angle phi by up to
+      // 0.5e-4 degrees = 0.87e-6 rad moves the end of the interval of radii by this angle times
+      // dr/dphi. The derivative dr/dphi is about r/sin(phi) = 82 m/rad at 146 degrees, so the error
+      // is 82 x 0.87e-6 = 7.2e-5 m. Right angles are exact.
       const double tolerance = c.angle == 90.0   ? Printed(6)
                                : c.angle > 146.0 ? Printed(6) + 7.2e-5
                                                  : Printed(6) + 1e-5;
@@ -341,8 +341,8 @@ TEST(SteeringRoomRadii, AgreesWithADenseScan) {
     if (radii) {
       ++intervals;
       interior_lows += radii->low > bounds.low ? 1 : 0;
-      // The slope of g at its roots is below 1/tan(10 deg) + K0 L/(L^2 + r^2) < 10. A root has a
-      // rounding error of 154 x 2^-50 m.
+      // The slope of g over the radius, at the roots of g, is below 1/tan(10 deg) + K0 L/(L^2 +
+      // r^2) < 10. Rounding displaces a root of g by up to 154 x 2^-50 m.
       for (const double end : {radii->low, radii->high}) {
         if (end != bounds.low && end != bounds.high) {
           EXPECT_NEAR(g(end), 0.0, Tolerance(1e-11));
@@ -368,8 +368,8 @@ TEST(HalfLegRadii, HasPrintedShortestLegs) {
     const auto radii = HalfLegRadii(angle, leg + Tolerance(Printed(3)), {5.1, 154.0});
     ASSERT_TRUE(radii);
     EXPECT_EQ(radii->low, 5.1);
-    // The leg exceeds the shortest leg by at most one unit in the last printed digit. The radius
-    // then exceeds 5.1 m by at most half of this unit times tan(phi/2) <= 3.74.
+    // The leg is rounded up by at most one unit in the last printed digit. The radius then exceeds
+    // 5.1 m by at most half of this unit times tan(phi/2) <= 3.74.
     EXPECT_NEAR(radii->high, 5.1, Tolerance(0.5 * 2.0 * Printed(3) * 3.74));
   }
 }
@@ -437,7 +437,8 @@ TEST(PlanFillets, MirroredRouteGivesMirroredPlan) {
     ++planned;
     ASSERT_EQ(a.turns.size(), b.turns.size());
     for (std::size_t k = 0; k < a.turns.size(); ++k) {
-      // Negating y is exact in every operation, so only signs may differ.
+      // Negating y is exact in every operation, so results of mirrored routes differ only in their
+      // signs.
       EXPECT_NEAR(b.turns[k].heading_change, -a.turns[k].heading_change, Tolerance(kRounding));
       EXPECT_NEAR(b.turns[k].steering, -a.turns[k].steering, Tolerance(kRounding));
       EXPECT_NEAR(b.turns[k].radius, a.turns[k].radius, Tolerance(kRounding));
@@ -480,7 +481,8 @@ TEST(PlanFillets, MovedRouteGivesMovedPlan) {
     ASSERT_EQ(a.turns.size(), b.turns.size());
     for (std::size_t k = 0; k < a.turns.size(); ++k) {
       // Rounding errors are 1e-13 m for waypoints up to 700 m away, and 1e-14 rad for headings of
-      // legs of 25 m. Where g is flat, the radius amplifies these errors by up to some thousand.
+      // legs of 25 m. At radii for which g is nearly constant, these errors change the radius by up
+      // to some thousand times as much.
       EXPECT_NEAR(b.turns[k].steering, a.turns[k].steering, Tolerance(1e-9));
       EXPECT_NEAR(b.turns[k].steer_start, a.turns[k].steer_start, Tolerance(1e-9));
       ExpectPoint(b.turns[k].center, ToWorld(X_WA, a.turns[k].center), 1e-9);
@@ -639,7 +641,8 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
 }
 
 TEST(PlanFillets, EndsAtGoalAfterALongFirstLeg) {
-  // The last straight is shorter than 1e-9 times the first leg, but longer than kPromised.
+  // The last straight is shorter than 1e-9 times the first leg, but longer than the promised
+  // accuracy kPromised.
   const double rest = 5e-7;
   const std::vector<Vec2> route{{0, 0}, {1000, 0}, {1000, 10.0 + rest}};
   const FilletPlan plan = PlanGiven(route, 10.0);
@@ -668,8 +671,8 @@ TEST(PlanFillets, CollinearWaypointsMakeNoTurn) {
 }
 
 TEST(PlanFillets, CollinearWaypointsNeedNoExactNumbers) {
-  // The thirds of a slanted line are not exact in floating point, so the heading changes are
-  // rounding errors.
+  // The waypoints at thirds of a slanted line are rounded, so the heading changes between the legs
+  // are rounding errors.
   const Vec2 end{31.7, 17.3};
   const FilletPlan plan =
       PlanWith({{0, 0}, end / 3.0, end * (2.0 / 3.0), end}, RadiusConstraint::kSteeringRoom);
@@ -801,8 +804,8 @@ TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
   EXPECT_THAT(slow.note, HasSubstr("at 3 m/s no radius from 5.1 to 154 m"));
   EXPECT_THAT(slow.note, HasSubstr(fmt::format("speed reduced to {:.4g} m/s", slow.speed)));
   // At the highest feasible speed v, the minimum of g is zero. For a right angle, the minimum is at
-  // the radius r = sqrt(K0 L - L^2), with K0 = v x 17.6/2.65. There, r + K0 atan(L/r) equals half
-  // of the leg, 14 m.
+  // the radius r = sqrt(K0 L - L^2), with K0 = v x 17.6/2.65. At this radius, r + K0 atan(L/r)
+  // equals half of the leg, 14 m.
   const double per_radian = slow.speed * 17.6 / 2.65;
   EXPECT_NEAR(slow.radius, std::sqrt(per_radian * 2.7 - 2.7 * 2.7), Tolerance(1e-5));
   EXPECT_NEAR(slow.radius + per_radian * std::atan(2.7 / slow.radius), 14.0, Tolerance(1e-9));
@@ -851,7 +854,8 @@ TEST(PlanFillets, KeepsItsSpeedUnderHalfLegWhenAskedTo) {
 
 TEST(PlanFillets, TurnsTheWheelsNearThePath) {
   // The route has a sharp corner with long legs. Under constraint C.40 alone, the car could drive
-  // 4.68 m/s at full lock, with a ramp of 15.1 m although the arc is only 12.6 m long.
+  // at 4.68 m/s at full lock, but then the ramp would be 15.1 m long, longer than the arc of 12.6
+  // m.
   const std::vector<Vec2> route{{0, 0}, {59.37, 0}, {-1.5, 48.6}, {117.75, 40}};
   const FilletPlan plan = PlanFillets(ReferenceCar(), route, 7.19, {});
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
@@ -862,7 +866,7 @@ TEST(PlanFillets, TurnsTheWheelsNearThePath) {
     EXPECT_THAT(turn.note, HasSubstr("the wheels turn too slowly for a radius of"));
     // The planner chooses the highest speed at which the ramp deviates from the path by at most a
     // quarter of the car's width. The radius is the largest that C.40 allows for this speed. The
-    // planner finds both as roots, to 52 bits.
+    // planner finds the speed and the radius as roots, to 52 bits.
     const double S = turn.ramp_distance;
     EXPECT_NEAR(S * S / (24.0 * turn.radius), 0.25 * ReferenceCar().width, Tolerance(1e-9));
     EXPECT_NEAR(turn.tangent_length + S, 0.5 * turn.shorter_leg, Tolerance(1e-9));
@@ -1000,8 +1004,8 @@ constexpr ReferencePoint kCg = ReferencePoint::kCenterOfGravity;
 constexpr double kStep = 0.1;  // [m]
 
 TEST(OpenLoop, PassOneStopsShortOfFullLock) {
-  // On the arc of 8.0111 m, at the slope omega/v, the steering angle reaches 0.4021 rad, less than
-  // the angle of full lock, 0.4869 rad.
+  // On half of the arc of 8.0111 m, the steering angle rises with the slope omega/v to 0.4021 rad,
+  // less than the angle of full lock, 0.4869 rad.
   const FilletPlan plan = PlanGiven(RouteA(), 5.1);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   double peak = 0.0;
@@ -1014,14 +1018,14 @@ TEST(OpenLoop, PassOneStopsShortOfFullLock) {
 
 TEST(OpenLoop, PassOneYawIsTheClosedFormOfATruncatedTurn) {
   // On two ramps up to the steering angle delta_p, the heading changes by 2 (v/(L omega)) (-ln cos
-  // delta_p). Half of this change is complete when the return begins.
+  // delta_p). When the wheels begin to return, half of this change is complete.
   const FilletPlan plan = PlanGiven(RouteA(), 5.1);
   const double peak = 5.1 * kPi / 2.0 * (2.65 / 17.6) / kSpeed;
   const double ramp = kSpeed * 17.6 / (2.7 * 2.65) * -std::log(std::cos(peak));
   const auto at_return = Drive(RouteA(), plan, plan.turns[0].steer_return, kRear, kStep);
   const auto at_end = Drive(RouteA(), plan, plan.path.length(), kRear, kStep);
-  // The roll-out is a method of fourth order with steps of 0.1 m. Its heading error per ramp is h^4
-  // |psi'''''| S/2880 < 1e-9 rad.
+  // The roll-out is a method of fourth order with steps of 0.1 m. The heading error of the roll-out
+  // on a ramp of the length S is h^4 |psi'''''| S/2880 < 1e-9 rad.
   EXPECT_NEAR(at_return.pose.yaw, ramp, Tolerance(1e-9));
   EXPECT_NEAR(at_end.pose.yaw, 2.0 * ramp, Tolerance(3e-9));
 }

@@ -146,15 +146,16 @@ TEST(NeutralSteering, PredictionOfAStraightRouteIsTheCircleThatTheWheelsDrive) {
   const double curvature = std::tan(0.05) / kWheelbase;
   const double yaw = 40.0 * curvature;
   const Vec2 end(std::sin(yaw) / curvature, (1.0 - std::cos(yaw)) / curvature);
-  // With constant steering, the roll-out is Simpson's rule with steps of 0.5 m. Its position error
-  // over 40 m is (0.5 kappa)^4/2880 x 40 m = 1e-10 m.
+  // With constant steering, the roll-out is Simpson's rule with steps of 0.5 m. The position error
+  // of the roll-out over 40 m is (0.5 kappa)^4/2880 x 40 m = 1e-10 m.
   EXPECT_NEAR(plan.verification.goal_distance, (end - straight.back()).norm(), Tolerance(1e-9));
   EXPECT_NEAR(plan.verification.goal_heading, yaw, Tolerance(kRounding));
 }
 
 TEST(NeutralSteering, PredictedHeadingIsTheIntegralOverRampsAndHolds) {
-  // The heading is psi = int tan(delta)/L ds. Outside the turn the curvature is kappa_0, and on the
-  // hold it is that of the arc. A ramp with the slope m turns by (ln cos d_0 - ln cos delta)/(L m).
+  // The heading is psi = int tan(delta)/L ds. Outside the turn, the curvature is kappa_0. Between
+  // the two ramps, the curvature is that of the arc. A ramp with the slope m from the neutral
+  // steering angle d_0 to delta turns the car by (ln cos d_0 - ln cos delta)/(L m).
   const std::vector<Vec2> route{{0, 0}, {40, 0}, {40, 40}};
   for (const double neutral : {0.01, -0.03}) {
     const FilletPlan plan = PlanFillets(ReferenceCar(), route, kSpeed, Neutral(neutral));

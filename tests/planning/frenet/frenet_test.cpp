@@ -21,8 +21,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Returns the argument at the minimum of a function. At the minimum the function is flat, so only
-/// half of the digits are accurate.
+/// Returns the argument at the minimum of a function. The function hardly changes near its minimum,
+/// so only half of the digits of the argument are accurate.
 template <typename Function>
 double Minimum(const Function& function, double from, double to) {
   return boost::math::tools::brent_find_minima(function, from, to, 26).first;
@@ -103,9 +103,6 @@ TEST(FrenetCost, IsTheSameOverTimeAndOverStationAtConstantSpeed) {
   }
 }
 
-// --- FrenetCandidates
-// --------------------------------------------------------------------------------------------
-
 TEST(FrenetCandidates, AreAllEndsByTheirCost) {
   const FrenetRequest request = OnPath(5.0);
   const FrenetOptions options;
@@ -168,7 +165,8 @@ TEST(Frenet, KeepsStraightOnWhereNothingIsInTheWay) {
   EXPECT_EQ(plan.reason, "");
   EXPECT_EQ(plan.candidates, 525);
   EXPECT_EQ(plan.checked, 1);
-  // Only the duration has a cost. For the shortest duration, the cost is (K_dt + K_st) x 2 s.
+  // Only the duration has a cost. The shortest duration is 2 s, and its cost is (K_dt + K_st) x 2
+  // s.
   EXPECT_NEAR(plan.cost, 0.4, Tolerance(1e-12));
   for (const TrajectoryPoint& point : plan.points) {
     EXPECT_EQ(point.frenet.d, 0.0);
@@ -248,7 +246,7 @@ TEST(Frenet, ForeseesWhereAMovingBoxWillBe) {
 
 TEST(Frenet, LooksBeyondTheEndOfItsMotion) {
   // At 3 m/s, a shift by 1.5 m takes 5.4 s. Without a horizon, the cheapest motion takes 2 s, ends
-  // 9 m before the box, and ignores the box.
+  // 9 m before the box, and does not consider the box.
   FrenetRequest request = OnPath(3.0);
   request.obstacles = {BoxAt(StraightRoad(), 20.0, 0.8)};
   FrenetOptions options;
@@ -345,7 +343,8 @@ TEST(Frenet, SaysWhyItRejects) {
   {
     FrenetOptions aside = options;
     aside.end_offsets = {3.0};
-    aside.limits.max_lateral_acceleration = 0.5;  // The motion needs 5.77 x 3/16 m/s^2.
+    // The motion needs a lateral acceleration of 5.77 x 3/16 m/s^2.
+    aside.limits.max_lateral_acceleration = 0.5;
     EXPECT_EQ(CountRejected(road, OnPath(8.0), aside).Of(Rejection::kAcceleration), 1);
     // The motion needs a steering rate of 60 L D/(T^3 v^2) = 0.84 rad/s, with the wheelbase L, the
     // shift D, the duration T and the speed v.
@@ -361,7 +360,7 @@ TEST(Frenet, SaysWhyItRejects) {
     EXPECT_TRUE(PlanFrenet(road, narrow, aside).ok());
   }
   {
-    // A shift of 2 m within 4 m changes the slope by up to 5.77 x 2/16 per meter.
+    // On a shift of 2 m within 4 m, the slope changes by up to 5.77 x 2/16 per meter.
     FrenetOptions tight = options;
     tight.end_offsets = {2.0};
     tight.limits.time_step = 1.0;

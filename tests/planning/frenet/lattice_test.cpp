@@ -17,8 +17,9 @@ namespace trackbed {
 namespace {
 
 /// Returns three walls, 36 m apart, that extend alternately from the left and the right side into a
-/// road. The road reaches 4 m to each side of its middle. A car passes the walls on the right, on
-/// the left and on the right, 1.86 m from the middle.
+/// road. The road reaches 4 m to each side of its middle. To pass the walls on the right,
+/// on the left and on the right, the car needs an offset of 1.86 m from the middle: 0.7 m of wall,
+/// half of its width, and the safe distance.
 std::vector<MovingBox> SlalomBoxes(const Path& path) {
   return {BoxAt(path, 24.0, 1.65, 1.0, 4.7), BoxAt(path, 60.0, -1.65, 1.0, 4.7),
           BoxAt(path, 96.0, 1.65, 1.0, 4.7)};
@@ -167,8 +168,7 @@ TEST(Lattice, PlansOnlyWhatCanBeDriven) {
 }
 
 TEST(Lattice, LooksCloselyAtWhatItTakes) {
-  // If motions are checked only every 20 s, the search does not notice collisions between the
-  // nodes.
+  // If motions are checked only every 20 s, the search misses collisions between the nodes.
   FrenetRequest request = OnPath(3.0);
   request.obstacles = SlalomBoxes(StraightRoad());
   LatticeOptions options;
@@ -225,7 +225,7 @@ TEST(Lattice, StopsAtTheStation) {
   EXPECT_NEAR(end.s, 30.0, Tolerance(1e-9));
   EXPECT_NEAR(end.s_rate, 0.0, Tolerance(1e-9));
   ExpectDrivable(StraightRoad(), request, {}, plan);
-  // A stop beyond the end of the lattice must not change the motion yet.
+  // A stop beyond the end of the lattice must not change the motion.
   request.goal = StopAt{100.0};
   const FrenetPlan far = PlanLattice(StraightRoad(), request, {});
   ASSERT_TRUE(far.ok()) << far.reason;
@@ -244,8 +244,8 @@ TEST(Lattice, FollowsItsLeader) {
   const double duration = plan.motion.duration();
   const FrenetState end = plan.motion.At(duration);
   const FrenetTarget target = TargetAt(request.goal, request.vehicle, duration);
-  // The lattice has only three speeds. A layer takes 6 s at 2 m/s. A speed that is wrong by half a
-  // step misses the target station by up to 1.5 m.
+  // The lattice has only three speeds. A layer takes 6 s at 2 m/s. If the speed of a layer is wrong
+  // by half a step, the motion misses the target station by up to 1.5 m.
   EXPECT_NEAR(end.s, target.station.value(), 2.0);
 }
 

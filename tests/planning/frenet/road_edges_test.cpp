@@ -87,9 +87,9 @@ TEST(RoadEdges, OfARingAreAsFarAsItsRadiiSay) {
   for (const double radius : {kRing, 48.0, 52.0}) {
     const RoadEdges edges = EdgesBeside(CircleOf(radius), track, ReferenceCar(), 0.5);
     for (double s = 0.0; s < 2.0 * kPi * radius; s += 0.3) {
-      // The edges are polylines. Their points are 0.5 m apart along the center line, and at most
-      // 0.54 m apart on the outer edge. A polyline is therefore at most 0.54^2/(8 x 54) = 0.0007 m
-      // inside its circle. The closing error of the center line is 1e-4 m.
+      // The edges are polylines. The points of the edges are 0.5 m apart along the center line, and
+      // at most 0.54 m apart on the outer edge. A polyline is therefore at most 0.54^2/(8 x 54) =
+      // 0.0007 m inside its circle. The closing error of the center line is 1e-4 m.
       EXPECT_NEAR(edges.At(s).left, radius - (kRing - 6.0) - 0.5, Tolerance(1e-3));
       EXPECT_NEAR(edges.At(s).right, kRing + 4.0 - radius - 0.5, Tolerance(1e-3));
     }
@@ -145,19 +145,20 @@ TEST(RoadEdges, KeepFootprintsAtTheirDistanceFromATrack) {
       continue;  // Beyond an edge, `nearest` has the wrong sign.
     }
     within += beyond <= 0.0 ? 1 : 0;
-    // Three errors add up. First, distances are measured along the normal of the path, which
-    // differs from that of the edge by up to 0.05 rad: 0.05^2/2 of at most 4 m is 0.005 m. Second,
-    // the path is treated as a circle, although its sharpness is up to 0.001 1/m^2: 0.0085 m at 3.7
-    // m ahead of the axle. Third, edges with a curvature of 1/30 1/m between points 1.1 m apart add
-    // 0.005 m.
+    // Three errors add up. First, the program measures distances along the normal of the path. This
+    // normal differs from that of the edge by up to 0.05 rad, so a distance of at most 4 m errs by
+    // 0.05^2/2 x 4 m = 0.005 m. Second, the program treats the path as a circle, although its
+    // sharpness is up to 0.001 1/m^2. At 3.7 m ahead of the axle, this is an error of 0.0085 m.
+    // Third, edges with a curvature of 1/30 1/m are polylines with points 1.1 m apart, which is an
+    // error of 0.005 m.
     EXPECT_NEAR(-beyond, nearest - kDistance, Tolerance(0.019)) << state.s << ' ' << state.d;
   }
   EXPECT_GT(within, 100);
 }
 
 TEST(RoadEdges, AdmitAnyCarThatIsOnThePath) {
-  // The wanted distance of 50 m is never available. The limits then equal the outline of a car that
-  // is on the path.
+  // No edge is as far away as the wanted distance of 50 m. The limits then equal the outline of a
+  // car that is on the path.
   const Track track = Kidney();
   const VehicleParams car = ReferenceCar();
   const Path path = CenterOf(track);
@@ -188,7 +189,7 @@ void ExpectWithin(const RingScene& scene, const FrenetPlan& plan) {
   double aside = 0.0;
   for (const TrajectoryPoint& point : plan.points) {
     for (const Vec2& corner : FootprintAt(scene.request.vehicle, point.motion.pose).Corners()) {
-      // The tolerance is that of the polylines and the sampled sides, as above.
+      // The tolerance for polylines and sampled sides is derived in the previous tests.
       EXPECT_LE(std::abs(corner.norm() - kRing), 4.5 - 0.3 + Tolerance(0.005));
     }
     aside = std::max(aside, std::abs(point.frenet.d));
@@ -206,7 +207,7 @@ TEST(FrenetPlans, KeepWithinTheEdges) {
 
 TEST(FrenetPlans, TakeTheSideThatTheEdgesLeave) {
   // To pass the box, the car needs half of the box's width, its own width, and the distances to the
-  // box and to the edge, 3.3 m in total. Only one side of the road has this room.
+  // box and to the edge, 3.3 m in total. Only one side of the road is that wide.
   const RingScene left(1.5, 4.5);
   const FrenetPlan to_left = PlanFrenet(left.path, left.request, {});
   ASSERT_TRUE(to_left.ok());

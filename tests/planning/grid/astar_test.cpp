@@ -172,8 +172,8 @@ TEST(AStar, LooksAtNoMoreThanItMust) {
   grid.columns = 200;
   grid.rows = 200;
   grid.occupied.assign(200 * 200, 0);
-  // On a straight line across an empty map, the heuristic is exact, so the search expands only the
-  // cells of the path.
+  // On a straight line across an empty map, the heuristic equals the cost, so the search expands
+  // only the cells of the path.
   const GridPath path = SearchGrid(grid, 0, grid.size() - 1);
   EXPECT_NEAR(path.cost, 199.0 * std::numbers::sqrt2, Tolerance(1e-9));
   EXPECT_LE(path.expansions, 200);
@@ -212,8 +212,8 @@ TEST(AStar, JumpsInHeadingByAnEighthOfATurn) {
     const Vec2 in = point(k - 1) - point(k - 2);
     const Vec2 out = point(k) - point(k - 1);
     const double turn = std::abs(std::atan2(Cross(in, out), in.dot(out)));
-    // The path turns by 0 or 45 degrees at a single point. No finite curvature can follow such a
-    // turn.
+    // The path turns by 0 or 45 degrees at a single point. A path of finite curvature cannot turn
+    // at a point.
     EXPECT_TRUE(turn < 1e-12 || std::abs(turn - 0.25 * kPi) < 1e-12) << turn;
     sharpest = std::max(sharpest, turn);
   }
@@ -221,8 +221,8 @@ TEST(AStar, JumpsInHeadingByAnEighthOfATurn) {
 }
 
 TEST(AStar, GoesRoundTheOtherSideForASmallShift) {
-  // A box 5 m long stands on the straight line. The path passes the box on the side where the box
-  // extends less far. A small shift of the box or the start changes the side.
+  // A box 5 m long stands on the straight line. The path passes the box on the side on which the
+  // box extends less far from the line. A small shift of the box or the start changes the side.
   const auto side = [](double box_y, double start_y) {
     const OccupancyGrid grid = Rasterize({0.0, 0.0, 0.0}, {{-2.0, -10.0}, {32.0, 10.0}}, 0.5,
                                          {{{15.0, box_y, 0.0}, 5.0, 5.0}}, 1.0);

@@ -188,8 +188,8 @@ TEST_P(ParkingLots, AreSolvedAtEveryResolutionOrAtNone) {
   EXPECT_GT(solved, 0);
 }
 
-/// A path that is driven backward leads from its end to its start, so it solves the reversed
-/// problem.
+/// If a path is driven backward, it leads from the goal to the start. The problem with start and
+/// goal exchanged therefore has a solution, too.
 TEST_P(ParkingLots, AreSolvedInBothDirectionsOrInNone) {
   for (int lot = 0; lot < LotsPerKind(); ++lot) {
     Random random(static_cast<std::uint64_t>(lot));

@@ -74,7 +74,7 @@ TEST(HybridAStar, FindsNoWayBackwardsWhereItMayNot) {
 TEST(HybridAStar, GoesThroughMaps) {
   for (const Map& map : Maps()) {
     if (map.name == "passage" || map.name == "clutter") {
-      continue;  // Only a point that turns on the spot fits.
+      continue;  // only a point that turns on the spot can pass
     }
     SCOPED_TRACE(map.name);
     const HybridAStarProblem problem{.start = {map.problem.start.x(), map.problem.start.y(), 0.0},

@@ -169,8 +169,8 @@ TEST(LaneRoutePlanner, SlowsDownForSpirals) {
       const double slope = std::abs(plan.schedule.At(s + 0.5) - plan.schedule.At(s)) / 0.5;
       const double speed =
           std::min(plan.reference.speed.SpeedAt(s), plan.reference.speed.SpeedAt(s + 0.5));
-      // The product of the smaller speed and the mean slope is at most the largest steering rate
-      // within the step.
+      // In each step, the smaller speed times the mean slope must not exceed the largest steering
+      // rate.
       EXPECT_LE(speed * slope, 1.0001 * request.vehicle.steering_rate) << i << " at " << s;
     }
   }

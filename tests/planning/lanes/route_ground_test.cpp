@@ -79,7 +79,8 @@ TEST(RouteGround, HasTheProfileAcrossTheRoad) {
   for (double t = -3.4; t < 3.5; t += 0.2) {
     const double away = std::abs(t);
     const double height = away > 0.5 ? -0.025 * (away - 0.5) : 0.025 * (0.25 - t * t);
-    // The ground of the route may deviate from the lanes by 1 cm; it interpolates on planes.
+    // The ground of the route may deviate from the surface of the lanes by 1 cm, because it is
+    // interpolated. On planes, the interpolation is exact.
     EXPECT_NEAR(ground.terrain->At({50.0, t}).height, height, Tolerance(away > 1.0 ? 1e-6 : 0.01))
         << t;
   }
@@ -102,9 +103,10 @@ TEST(RouteGround, HasConstantGradeAndBank) {
     const Terrain::Point at = ground.terrain->At(p);
     // Beside the lanes, the height is a weighted mean over neighboring strips of the road, which
     // become level beyond their ends. At a lateral distance of 1 m, a strip that ends 5 m away has
-    // the weight 1/700. Its error is 0.06 (5 - 10 (1 - e^-0.5)) m = 64 mm, so the mean has an error
-    // of 0.1 mm. Cubic convolution passes 1/16 of this error from two neighbors to the border of
-    // the lane, and 1/16 per cell of 0.5 m to the slope at the border.
+    // the weight 1/700. The height of this strip errs by 0.06 (5 - 10 (1 - e^-0.5)) m = 64 mm, so
+    // the weighted mean errs by 0.1 mm. Cubic convolution adds 1/16 of this error from two
+    // neighboring points to the height at the border of the lane, and 1/16 per cell of 0.5 m to the
+    // slope there.
     EXPECT_NEAR(at.height, 5.0 + grade * p.x() + across * p.y(), Tolerance(2e-5));
     EXPECT_NEAR(at.slope.x(), grade, Tolerance(2e-4));
     EXPECT_NEAR(at.slope.y(), across, Tolerance(2e-4));

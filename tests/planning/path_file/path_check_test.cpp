@@ -69,9 +69,9 @@ TEST(CheckPath, FindsTheSpeedOfACircle) {
   EXPECT_NEAR(ice.faults[0].stations.to, fitted.path.length(), Tolerance(1e-9));
 }
 
-// The bend has the curvature kappa(s) = A (1 - cos(2 pi s/l))/2. Its segments of 0.1 m, with
-// quadratic curvature, have an error below 1e-5 A. The expected speed limit is the car's steering
-// rate divided by the maximum of d delta/ds = L kappa'/(1 + (L kappa)^2).
+// The bend has the curvature kappa(s) = A (1 - cos(2 pi s/l))/2. The segments of the bend are 0.1 m
+// long and have a quadratic curvature, which errs by less than 1e-5 A. The expected speed limit is
+// the car's steering rate divided by the maximum of d delta/ds = L kappa'/(1 + (L kappa)^2).
 TEST(CheckPath, FindsTheSteeringRateOfABend) {
   constexpr double kMaxCurvature = 0.1;
   constexpr double kLength = 60.0;
@@ -96,14 +96,14 @@ TEST(CheckPath, FindsTheSteeringRateOfABend) {
   const FittedPath fitted = Fit(PointsOf(path, 0.5), kClose);
   const double expected = car.steering_rate / slope(steepest);
   const PathCheck check = CheckPath(fitted, car, {.speed = 1.05 * expected});
-  // The bend has one fault at its entry and one at its exit.
+  // The check finds one fault at the entry of the bend and one fault at its exit.
   ASSERT_EQ(check.faults.size(), 2U);
   for (const PathFault& fault : check.faults) {
     EXPECT_EQ(fault.kind, PathFaultKind::kSteeringRate);
     EXPECT_EQ(fault.limit, car.steering_rate);
     // The spline deviates by at most 1e-5 m from points 0.5 m apart. This changes the curvature by
     // 4e-5 1/m, and the curvature rate by 1e-4 1/m^2. That is 2 % of the bend's rate of 0.0052
-    // 1/m^2. The error of the bend's own curvature is smaller.
+    // 1/m^2. The fitted curvature of the bend itself has a smaller error.
     EXPECT_NEAR(fault.required, 1.05 * car.steering_rate, Tolerance(0.02 * car.steering_rate));
     EXPECT_LT((fault.position - path.At(fault.s).pose.position()).norm(), 1e-3);
     EXPECT_GT(slope(fault.stations.from + 0.3), 0.97 / 1.05 * slope(steepest));
@@ -128,8 +128,8 @@ TEST(CheckPath, FindsSteeringBeyondTheCarsAngle) {
   EXPECT_EQ(check.faults[0].kind, PathFaultKind::kSteeringAngle);
   EXPECT_NEAR(check.faults[0].s, 26.0, Tolerance(0.3));
   EXPECT_NEAR(check.faults[0].limit, car.steering_limit, Tolerance(1e-12));
-  // The curvature exceeds 1/5.1 1/m from 6 (1 - 0.196/0.25) = 1.294 m before the peak to 1.294 m
-  // after it.
+  // The curvature exceeds 1/5.1 1/m within 6 (1 - 0.196/0.25) m = 1.294 m on either side of the
+  // peak.
   EXPECT_NEAR(check.faults[0].stations.from, 26.0 - 1.294, Tolerance(0.15));
   EXPECT_NEAR(check.faults[0].stations.to, 26.0 + 1.294, Tolerance(0.15));
   EXPECT_EQ(check.max_speed, 0.0);

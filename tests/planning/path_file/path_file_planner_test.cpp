@@ -230,7 +230,8 @@ TEST(PathFilePlanner, DrivesReversePieces) {
     EXPECT_EQ(json.at("changes_of_direction"), 2);
     EXPECT_TRUE(plan.stops.empty());
     for (const double cusp : {4.0, 7.0}) {
-      // The stations of the cusps are exact to 1e-8 m, where v^2 = 2 a d.
+      // The stations of the cusps have errors of up to 1e-8 m. At this distance d from a stop, the
+      // speed is v = sqrt(2 a d).
       EXPECT_NEAR(plan.reference.speed.SpeedAt(cusp), 0.0, Tolerance(1e-3));
     }
     EXPECT_THAT(plan.notes, Contains(HasSubstr("begins forwards, changes its direction at s = 4, "

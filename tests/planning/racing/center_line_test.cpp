@@ -93,8 +93,8 @@ TEST(CenterLine, MayStartBeforeTheLineAndBesideIt) {
   EXPECT_EQ(path.At(0.0).pose.position(), request.start.position());
   EXPECT_NEAR(path.At(0.0).pose.yaw, request.start.yaw, Tolerance(1e-9));
   ASSERT_EQ(plan.laps.lines.size(), 3U);
-  // The start line is 30 m ahead. The car starts 1.5 m inside of a circle of radius 50 m, at an
-  // angle to it, which changes the distance by less than 1 m.
+  // The start line is 30 m ahead. The car is 1.5 m inside of the center line, whose radius is 50 m,
+  // and heads at an angle to it. This changes the distance to the start line by less than 1 m.
   EXPECT_NEAR(plan.laps.lines[0], 30.0, 1.0);
   for (const double line : plan.laps.lines) {
     const TrackPlace place = track.Locate(path.At(line).pose.position());
@@ -130,7 +130,7 @@ TEST(CenterLine, MayStartFlying) {
 
 // The car starts beside the center line at full speed. The usual length for joining the line is 25
 // m, ten times the offset d. On this length, the wheels would have to turn at about v L 60 d/25^3 =
-// 0.21 rad/s, faster than the car's 0.15 rad/s.
+// 0.21 rad/s, faster than the limit of 0.15 rad/s.
 TEST(CenterLine, LeadsARollingCarOntoTheLineAsFastAsItCanSteer) {
   for (const double offset : {2.5, -2.5}) {
     PlanRequest request = RingLaps(1);
@@ -203,10 +203,10 @@ TEST(CenterLine, StartsWhereTheTrackCrossesItself) {
     request.start = {0.0, 0.0, yaw};
     const Plan plan = MakePlan(request, CenterLineOptions{});
     ASSERT_TRUE(plan.ok()) << yaw << ": " << plan.reason;
-    // By symmetry, the crossing is at a quarter and at three quarters of the lap. The car passes
-    // the start line for the last time after the rest of the lap, and possibly a further lap. The
-    // points are 3 m apart; the station of the crossing is certain to a small share of this
-    // distance.
+    // By symmetry, the crossing is at a quarter and at three quarters of the lap. After this
+    // crossing, the car drives the rest of the lap, and possibly one more lap, until it passes the
+    // start line for the last time. The points are 3 m apart, and the station of the crossing errs
+    // by a small fraction of this distance.
     const double last = plan.laps.lines.back();
     EXPECT_NEAR(std::remainder(last + share * lap, lap), 0.0, 0.3) << yaw;
   }

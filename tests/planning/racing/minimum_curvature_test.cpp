@@ -25,7 +25,7 @@ using testing::HasSubstr;
 
 TEST(MinimumCurvature, OfARingIsItsOuterCircle) {
   // For a closed curve that goes around once, the integral of kappa^2 is at least (2 pi)^2/length.
-  // The optimum is therefore the longest circle within the margin.
+  // The line of least curvature on a ring is therefore the longest circle within the margin.
   const Track track(RingPoints(50.0, 63, 4.0, 3.0));
   const MinimumCurvatureLine found = FindMinimumCurvature(track, 1.5);
   ASSERT_EQ(found.refused, "");
@@ -91,8 +91,8 @@ TEST(MinimumCurvature, CannotBeBetteredNearby) {
     }
     const ClosedSplineBasis basis(track.length(), static_cast<std::size_t>(count));
     const TrackLine other(basis, FitClosedSpline(basis, samples, 5.0));
-    // The optimizer stops when a step changes the integral by less than 1e-6 of it. Its spline is
-    // coarser than that of the test.
+    // The optimizer stops when a step changes the integral by less than 1e-6 of it. The spline of
+    // the optimizer has fewer knots than the spline of the test.
     EXPECT_GT(MeasureLine(track, other).curvature_square, (1.0 - 1e-3) * best) << trial;
   }
 }
@@ -116,9 +116,10 @@ TEST(MinimumCurvature, IsPlannedAndFeasible) {
   ASSERT_NE(own, nullptr);
   EXPECT_LT(own->plan.lap.curvature_square, 0.9 * own->center_curvature_square);
   EXPECT_GT(own->plan.lap.radius_min, 32.0);
-  // The second lap follows the racing line. The first lap follows it except at the start. At the
-  // start, the path moves from the center line to the racing line, 3.6 m outside, within 3 s (24
-  // m). On the outside, a bend of radius 30 m is longer by at most 24 x 3.6/30 = 2.9 m.
+  // The second lap follows the racing line. The path of the first lap follows the racing line
+  // except at the start. At the start, the path moves from the center line to the racing line, 3.6
+  // m outside, within 3 s (24 m). On the outside, a bend of radius 30 m is longer by at most 24 x
+  // 3.6/30 = 2.9 m.
   ASSERT_EQ(plan.laps.lines.size(), 3U);
   EXPECT_NEAR(plan.laps.lines[2] - plan.laps.lines[1], own->plan.lap.length, Tolerance(1e-3));
   EXPECT_NEAR(plan.laps.lines[1] - plan.laps.lines[0], own->plan.lap.length, 24.0 * 3.6 / 30.0);
@@ -168,7 +169,7 @@ TEST_P(TumTracks, HaveNoMoreCurvatureThanTumsRacingLines) {
   const double ratio = CurvatureSquare(ours) / CurvatureSquare(theirs);
   RecordProperty("ratio", std::to_string(ratio));
   EXPECT_LT(ratio, 1.01);
-  EXPECT_GT(ratio, 0.9);  // a much straighter line would leave the track
+  EXPECT_GT(ratio, 0.9);  // a line with less than 0.9 of this curvature would leave the track
 }
 
 }  // namespace

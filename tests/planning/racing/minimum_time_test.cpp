@@ -88,7 +88,8 @@ TEST(MinimumTime, OfARingIsItsInnerCircle) {
   EXPECT_NEAR(found.start_time, 2.0 * kPi * std::sqrt(52.5 / 8.0), Tolerance(1e-4 * fastest));
   EXPECT_NEAR(found.time, fastest, Tolerance(kConvergenceTolerance * fastest));
   // The lap time grows with the square root of the radius. A relative error of
-  // kConvergenceTolerance in the time is therefore 2 kConvergenceTolerance in the radius, 5 cm.
+  // kConvergenceTolerance in the time is a relative error of twice this size in the radius, which
+  // is 5 cm.
   for (double s = 0.0; s < track.length(); s += 1.0) {
     EXPECT_NEAR(found.line.At(s).d, 1.5, Tolerance(2.0 * kConvergenceTolerance * 48.5));
   }
@@ -167,9 +168,9 @@ TEST(MinimumTime, OfHairpinsIsFasterThanLateAndEarlyApexes) {
   EXPECT_EQ(found.end, MinimumTimeEnd::kConverged);
   EXPECT_LT(found.time, family.value * (1.0 + kConvergenceTolerance));
   // The lower bound of the lap time considers only the motion in the direction of the straights.
-  // From the apex of one bend to that of the other, the car covers the straight and both inner
-  // edges in this direction. It starts and ends at rest in this direction, and accelerates with at
-  // most 9 m/s^2.
+  // From the apex of one bend to the apex of the other bend, the car moves in this direction by the
+  // straight and by both inner edges. In this direction, the car starts and ends at rest, and
+  // accelerates with at most 9 m/s^2.
   EXPECT_GT(found.time, 4.0 * std::sqrt((kStraight + 2.0 * (kBend - kWidth + kBeside)) / 9.0));
 }
 
@@ -218,15 +219,16 @@ TEST(MinimumTime, KnowsTheSteeringRate) {
   ASSERT_EQ(found.refused + free.refused, "");
   EXPECT_TRUE(found.improved);
   EXPECT_LT(found.time, found.start_time);
-  // With a limited steering rate, the lap takes longer than without the limit. It takes less time
-  // than a lap on the line that was optimized without the limit.
+  // With a limited steering rate, the lap takes longer than without the limit. With a limited
+  // steering rate, the found line takes less time than the line that was optimized without the
+  // limit.
   EXPECT_GT(found.time, free.time);
   EXPECT_LT(found.time, 0.99 * LapTime(lap.track, free.line, lap.limits));
 }
 
 TEST(MinimumTime, KnowsTheUndersteerOfTheTyres) {
-  // On its tyres, the car must steer by K v^2 kappa more: 0.07 rad at 8 m/s^2. The same line is
-  // slower, and the search finds a faster one.
+  // With tyres, the car must steer by K v^2 kappa more, which is 0.07 rad at 8 m/s^2. With tyres,
+  // the line found without them is slower, and the search finds a faster line.
   SteeredLap lap;
   lap.limits.vehicle.steering_rate = 0.06;  // [rad/s]
   const MinimumTimeLine rolling = FindMinimumTime(lap.track, 1.2, lap.limits);
@@ -252,8 +254,8 @@ TEST(MinimumTime, KeepsTheCarsSmallestRadius) {
   const MinimumTimeLine found = FindMinimumTime(lap.track, 1.2, lap.limits);
   ASSERT_EQ(found.refused, "");
   // The optimizer enforces the radius at stations 2 m apart. FindMinimumTime rejects a line that
-  // violates the radius by more than 1e-3 at stations 1 m apart. At denser stations, the violation
-  // is hardly larger.
+  // violates the radius by more than 1e-3 at stations 1 m apart. Between these stations, the radius
+  // is hardly smaller.
   EXPECT_GT(MeasureLine(lap.track, found.line).radius_min, (radius + 0.5) * (1.0 - 2e-3));
 }
 
@@ -303,9 +305,9 @@ TEST(MinimumTime, IsPlannedWithTheLapTimeThatItStates) {
   ASSERT_FALSE(plan.notes.empty());
   EXPECT_THAT(plan.notes.front(), HasSubstr("less than on the line of least curvature"));
   // The second lap starts and ends at racing speed. The plan uses clothoids and stations 0.5 m
-  // apart, but the optimizer uses stations 1 m apart. The profile takes the smaller acceleration of
-  // both ends of an interval, so its error is of first order in this distance. The acceleration of
-  // up to 10 m/s^2 changes by up to 1 m/s^2 over 1 m.
+  // apart, but the optimizer uses stations 1 m apart. The profile uses the smaller acceleration at
+  // the two ends of each interval, so its error is proportional to the length of the intervals. The
+  // acceleration of up to 10 m/s^2 changes by up to 1 m/s^2 over 1 m.
   ASSERT_EQ(plan.laps.lines.size(), 4U);
   const double second = plan.reference.speed.TimeAt(plan.laps.lines[2]) -
                         plan.reference.speed.TimeAt(plan.laps.lines[1]);
@@ -343,7 +345,7 @@ TEST(MinimumTime, NeedsSpeedsAtTheLimit) {
 struct RaceTrack {
   const char* name;
   const char* file;
-  int iterations;  // Few: an iteration takes a second per kilometer.
+  int iterations;  // few iterations, because an iteration takes a second per kilometer of track
   double gain;     // Minimum gain in lap time with this number of iterations.
 };
 

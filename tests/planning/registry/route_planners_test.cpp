@@ -172,7 +172,8 @@ TEST_P(EveryRoutePlanner, SaysWhenTheGoalCannotBeReached) {
     request.obstacles.push_back({{x, y, 0.0}, length, width});
   }
   const Plan plan = Make(request);
-  // A sampling planner cannot prove that there is no path.
+  // Planners with random samples cannot prove that no path exists, so they report that the budget
+  // is used up.
   EXPECT_EQ(plan.status, GetParam().is_random ? PlanStatus::kBudgetUsedUp : PlanStatus::kNoPath);
   EXPECT_NE(plan.reason, "");
   EXPECT_EQ(plan.reference.path.length(), 0.0);
@@ -236,8 +237,9 @@ TEST_P(EveryRoutePlanner, LeadsThroughEveryWaypoint) {
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const Path& path = plan.reference.path;
   for (const Vec2& waypoint : request.waypoints) {
-    // A rounded corner passes its waypoint on the inside, closer than an arc with the same tangent
-    // length T. The arc passes at T tan(h/4) = 0.68 m, with T = 5.3 m and the turn h = 0.51 rad.
+    // A rounded corner passes its waypoint at a smaller distance than an arc with the same tangent
+    // length T. The arc passes the waypoint at the distance T tan(h/4) = 0.68 m, with T = 5.3 m and
+    // the turn h = 0.51 rad.
     const double away = std::abs(path.Project({waypoint.x(), waypoint.y(), 0.0}).cross_track);
     EXPECT_LE(away, GetParam().has_headings ? Tolerance(1e-6) : 0.68);
   }
@@ -355,8 +357,8 @@ PlanRequest From(const OrientedBox& near) {
   return request;
 }
 
-/// Obstacles at a distance [m] from the car at the origin: behind it, across; on its left and on
-/// its right, as long as a car or a wall; and at a corner of the car.
+/// Obstacles at a distance [m] from the car at the origin: a wall behind the car, obstacles as long
+/// as the car and walls on its left and right, and an obstacle at a corner of the car.
 std::vector<OrientedBox> BoxesNearTheOrigin(double distance) {
   const VehicleParams car = ReferenceCar();
   const double beside = 0.5 * car.width + distance;
@@ -369,7 +371,8 @@ std::vector<OrientedBox> BoxesNearTheOrigin(double distance) {
 TEST_P(EveryRoutePlanner, LeavesAnObstacleNearTheStart) {
   for (const double distance : {0.2, 0.15, 0.4, 0.5}) {
     for (const OrientedBox& near : BoxesNearTheOrigin(distance)) {
-      // Without a search, curves begin with an arc: the car cannot first drive past an obstacle.
+      // Planners of curves do not search: their curves begin with an arc, even if an obstacle is in
+      // its way.
       const bool is_beside = std::abs(near.center.x) < 1.5;
       if (is_beside && !GetParam().searches) {
         continue;
@@ -381,7 +384,8 @@ TEST_P(EveryRoutePlanner, LeavesAnObstacleNearTheStart) {
                              << ": " << plan.reason;
       const Path& path = plan.reference.path;
       for (double s = 0.0; s < path.length(); s += 0.05) {
-        // Between the planner's own checks the footprint's farthest corner may come 1.8 cm nearer.
+        // Between the checks of the planner, the farthest corner of the footprint may come 1.8 cm
+        // closer to an obstacle.
         ASSERT_GE(Separation(FootprintAt(request.vehicle, path.At(s).pose), near),
                   (apart < kSafe ? 0.5 * apart : kSafe) - Tolerance(0.018))
             << "s = " << s;
@@ -436,7 +440,8 @@ TEST(PlannersWithHeadings, TurnInPlace) {
   for (const PlannerEntry& entry : WithHeadings()) {
     for (const double turn : {kPi, -kPi, 0.5 * kPi, -2.0, 1.0, 0.1, 1e-3, 1e-6}) {
       for (const double start_speed : {0.0, 1.0}) {
-        // There and back, far from the origin, where coordinates have rounding errors of 1e-10 m.
+        // The car drives there and back. The route is far from the origin, where coordinates have
+        // rounding errors of 1e-10 m.
         PlanRequest request = Between({4e5, -3e5, 0.7}, {4e5, -3e5, 0.7 + turn}, {});
         request.waypoints.push_back(request.waypoints[0]);
         request.headings.push_back(0.7);
@@ -444,10 +449,10 @@ TEST(PlannersWithHeadings, TurnInPlace) {
         const Plan plan = MakePlan(request, entry.defaults);
         ASSERT_TRUE(plan.ok()) << entry.name << ", " << turn << ": " << plan.reason;
         const Path& path = plan.reference.path;
-        // A car cannot turn faster than on its smallest radius.
+        // A turn by an angle needs at least this angle times the smallest turning radius.
         EXPECT_GT(path.length(), 2.0 * std::abs(turn) * ReferenceCar().min_turning_radius());
         const Pose2 end = path.At(path.length()).pose;
-        // The tolerance for a path of 100 m is ten roundings of its positions.
+        // The positions of a path of 100 m are rounded about ten times.
         EXPECT_NEAR((end.position() - request.waypoints[0]).norm(), 0.0, Tolerance(1e-8));
         EXPECT_NEAR(AngleDifference(end.yaw, 0.7), 0.0, Tolerance(1e-8));
       }
@@ -470,7 +475,7 @@ TEST(CurvePlanners, TurnAroundInPlaceOnTheShortestCurve) {
 
 TEST(PlannersWithHeadings, RefuseAPoseTwice) {
   for (const PlannerEntry& entry : WithHeadings()) {
-    // Adding a whole turn to a heading changes nothing.
+    // A heading that is larger by a full turn is the same heading.
     PlanRequest request = Between({0.0, 0.0, 0.3}, {0.0, 0.0, 0.3 + 2.0 * kPi}, {});
     const Plan at_once = MakePlan(request, entry.defaults);
     EXPECT_EQ(at_once.status, PlanStatus::kDuplicateWaypoints) << entry.name;

@@ -85,7 +85,7 @@ TEST_P(EveryAlongMethod, GoesOnAtItsSpeedWhereNothingIsInTheWay) {
   EXPECT_NEAR(end.s_rate, 3.0, Tolerance(1e-9));
   EXPECT_NEAR(end.d, 0.0, Tolerance(1e-9));
   ExpectEndsAtRest(scene, plan);
-  // After the motion, braking takes v^2/(2 a) = 1.5 m.
+  // After the motion, braking from 3 m/s takes v^2/(2 a) = 1.5 m.
   EXPECT_NEAR(plan.points.back().frenet.s - end.s, 1.5, Tolerance(1e-9));
 }
 
@@ -131,7 +131,7 @@ TEST_P(EveryAlongMethod, ApproachesWhatStandsTooFarAwayToStopThere) {
   scene.request.wanted = 3.0;
   scene.request.obstacles = {BoxAt(scene.frame.path, 40.0 + 20.0 + Front(), 0.0)};
   // Motions of up to 4 s, and lattice layers that end 8 m ahead, cannot reach a stop 16 m ahead.
-  // The options contain no slower motion.
+  // The options contain no slower motions, which might stop there.
   AlongOptions options = GetParam().defaults;
   if (auto* frenet = std::get_if<FrenetOptions>(&options)) {
     frenet->end_times = {2.0, 3.0, 4.0};
@@ -188,8 +188,8 @@ TEST_P(EveryAlongMethod, DoesNotLeadPastANearGoal) {
 }
 
 TEST_P(EveryAlongMethod, LeavesRoomToReturnToTheRouteBeforeTheGoal) {
-  // Two arcs with the smallest turning radius r shift a car by d over the length sqrt(d (4 r - d)).
-  // At 12 m/s, braking at 2 m/s^2 takes 36 m, longer than the motions that stop at the goal. A
+  // Two arcs with the smallest turning radius r move a car sideways by d on the length sqrt(d (4 r
+  // - d)). Braking from 12 m/s at 2 m/s^2 takes 36 m, longer than the motions of the planner. A
   // motion at constant speed must therefore leave room for braking.
   const double radius = ReferenceCar().wheelbase / std::tan(ReferenceCar().steering_limit);
   int found = 0;
@@ -219,7 +219,7 @@ TEST_P(EveryAlongMethod, LeavesRoomToReturnToTheRouteBeforeTheGoal) {
 TEST_P(EveryAlongMethod, BrakesNoFasterThroughABendThanTheWheelsTurn) {
   // At 5 m/s, the wheels would have to turn at 2.7 m x 5 m/s x 0.025 1/m^2 = 0.34 rad/s in the
   // clothoid, faster than their limit of 0.15 rad/s. From some of these starts, a motion at 5 m/s
-  // ends before the bend, and the car would then brake in the bend.
+  // ends before the bend. The car must not brake only in the bend.
   int found = 0;
   for (double start = 20.0; start <= 55.0; start += 2.5) {
     Scene scene;
@@ -279,7 +279,8 @@ TEST_P(EveryAlongMethod, StopsAtTheEndOfTheRoute) {
       PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
   ASSERT_EQ(plan.kind, ManeuverType::kProceed) << plan.found.reason;
   EXPECT_TRUE(plan.to_goal);
-  // All station offsets end before the goal. None of them is cheaper than the goal itself.
+  // All station offsets end before the goal. No station offset has a lower cost than the goal
+  // itself.
   EXPECT_NEAR(plan.points.back().frenet.s, scene.frame.goal, Tolerance(1e-6));
   EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
 }
@@ -326,7 +327,8 @@ TEST(LeaderIn, IsTheNearestInTheLane) {
   request.start.s = 20.0;
   const AlongSettings settings{.safe_distance = 0.5};
   const double room = 0.5 * ReferenceCar().width + 0.5;
-  // An obstacle 1.5 m wide is outside the lane if its lateral distance exceeds 0.75 m + room.
+  // An obstacle 1.5 m wide does not reach into the lane if its center is more than 0.75 m + room
+  // beside the path.
   request.obstacles = {BoxAt(path, 60.0, 0.0), BoxAt(path, 40.0, 0.75 + room + 0.01),
                        BoxAt(path, 10.0, 0.0), BoxAt(path, 50.0, -(0.75 + room - 0.01))};
   request.obstacles[3].velocity = {2.0, 5.0};
@@ -397,7 +399,7 @@ TEST(MakeRouteFrame, IsSharperWhereTheRouteIsSlow) {
   const double turning =
       SteeringForCurvature(ReferenceCar(), 1.0 / 8.0) / ReferenceCar().steering_rate;
   // The curvature k of the smoothed arc is larger by the fraction (k w)^2/24, which is 0.11 at 6
-  // m/s. The path therefore reaches 90 % of the bend's curvature earlier.
+  // m/s. The smoothed path therefore reaches 90 % of the bend's curvature earlier.
   EXPECT_NEAR(ramp(), 0.8 * 6.0 * turning, Tolerance(0.1221 * 6.0 * turning));
   plan.caps = {{50.0, 95.0, 2.0}};
   EXPECT_NEAR(ramp(), 0.8 * 2.0 * turning, Tolerance(0.0123 * 2.0 * turning + 0.1));
@@ -443,9 +445,9 @@ TEST_P(EveryAlongMethod, KeepsWithinTheEdgesOfATrackUntilItStands) {
   EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
   for (const TrajectoryPoint& point : plan.points) {
     for (const Vec2& corner : FootprintAt(lap.request.vehicle, point.motion.pose).Corners()) {
-      // The edges are polylines with points 0.5 m apart, which are up to 0.5^2/(8 x 55) = 0.0006 m
-      // inside their circles. The sides of the car are checked at five points, and may touch an
-      // edge between two of these points: 0.55^2/(2 x 55) = 0.003 m.
+      // The edges are polylines with points 0.5 m apart. A chord is up to 0.5^2/(8 x 55) m = 0.0006
+      // m inside its circle. The program checks the sides of the car at five points. Between two of
+      // these points, a side may reach over an edge by 0.55^2/(2 x 55) m = 0.003 m.
       EXPECT_LE(corner.norm(), RingLap::kRadius + 3.0 - RingLap::kDistance + Tolerance(0.004));
       EXPECT_GE(corner.norm(), RingLap::kRadius - 5.0 + RingLap::kDistance - Tolerance(0.004));
     }
@@ -453,9 +455,9 @@ TEST_P(EveryAlongMethod, KeepsWithinTheEdgesOfATrackUntilItStands) {
 }
 
 TEST(PlanAlongRoute, BrakesBackToTheLineWhereItsOffsetLeadsOffTheTrack) {
-  // The lane is wide only up to 100 m. The car can pass the box at 68 m on the left. The wide part
-  // is then too short to stop in: stopping at 1 m/s^2 takes 32 m, and the front of the car is 4 m
-  // ahead of its rear axle.
+  // The lane is wide only up to 100 m. The car can pass the box at 68 m on the left. After passing
+  // the box, the car is too close to the end of the wide part to stop before it: stopping at 1
+  // m/s^2 takes 32 m, and the front of the car is 4 m ahead of its rear axle.
   RingLap lap(5.0, 2.0);
   lap.request.speed.deceleration = 1.0;
   const AlongPlan plan = PlanAlongRoute(lap.frame, lap.request, lap.settings, FrenetOptions{});

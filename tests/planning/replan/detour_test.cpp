@@ -56,8 +56,9 @@ TEST(BlockedStretches, AreWhereTheFootprintIsTooNear) {
   // BlockedStretches samples the path every 0.1 m.
   EXPECT_NEAR(stretches[0].from, 48.0 - 0.6 - 3.625, Tolerance(0.1));
   EXPECT_NEAR(stretches[0].to, 52.0 + 0.6 + 0.825, Tolerance(0.1));
-  // The second box is 1.4 - 0.8625 = 0.5375 m beside the side of the car. Its corners are within
-  // 0.6 m over an additional length of sqrt(0.6^2 - 0.5375^2) = 0.267 m at both ends.
+  // The second box is 1.4 - 0.8625 = 0.5375 m beside the side of the car. The corners of this box
+  // are less than 0.6 m from the car over an additional length of sqrt(0.6^2 - 0.5375^2) m = 0.267
+  // m at both ends.
   EXPECT_NEAR(stretches[1].from, 79.0 - 0.267 - 3.625, Tolerance(0.1));
   EXPECT_NEAR(stretches[1].to, 81.0 + 0.267 + 0.825, Tolerance(0.1));
   EXPECT_EQ(BlockedStretches(ReferenceCar(), path, 60.0, boxes, 0.6).size(), 1U);
@@ -219,7 +220,8 @@ TEST(PlanDetour, LeadsOnFromBehindTheStartOfThePlan) {
   ASSERT_TRUE(detour.route) << detour.why;
   const Path& path = (*detour.route)->reference.path;
   EXPECT_NEAR(path.At(0.0).pose.x, 18.5, Tolerance(1e-9));
-  // The joined path ends at the goal. The end of the planner's curves has an error of up to 1e-6 m.
+  // The joined path ends at the goal. At the goal, the planner's curves have an error of up to 1e-6
+  // m.
   const Pose2 end = path.At(path.length()).pose;
   EXPECT_NEAR(end.x, 120.0, Tolerance(1e-5));
   EXPECT_NEAR(end.y, 0.0, Tolerance(1e-5));

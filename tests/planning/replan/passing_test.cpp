@@ -124,8 +124,9 @@ TEST_P(Passing, FollowsALeaderThatIsNoSlower) {
 }
 
 TEST_P(Passing, DoesNotPullOutWhereTheRouteEndsFirst) {
-  // The leader drives at 5 m/s, and the car gains at most 3 m/s on it. Gaining 15 m takes 5 s,
-  // which is 40 m. The car then needs 16 m to stop, but the route ends in 45 m.
+  // The leader drives at 5 m/s, and the car gains at most 3 m/s on it. To gain 15 m on the leader,
+  // the car needs 5 s, in which it drives 40 m at 8 m/s. The car then needs 16 m to stop, but the
+  // route ends in 45 m.
   Road road(5.0, 5.0, 10.5);
   road.request.start.s = road.frame.goal - 45.0;
   road.request.obstacles[0].box.center.x += road.request.start.s - 40.0;
@@ -152,10 +153,10 @@ TEST_P(Passing, WaitsForOncomingTraffic) {
   EXPECT_EQ(road.Go(GetParam().defaults).kind, ManeuverType::kProceed);
 }
 
-/// Drives a car among its obstacles for at most `time` [s], with a new plan twice a second. If no
-/// motion is found, the car continues its last motion; before its first motion, it brakes. Returns
-/// the time [s] at which the car has passed the leader and is back on its route; infinite if this
-/// never happens.
+/// Drives a car among its obstacles for at most `time` [s], with a new plan twice a second. If the
+/// planner finds no motion, the car continues its last motion. If it had no motion yet, the car
+/// brakes. Returns the time [s] at which the car has passed the leader and is back on its route;
+/// infinite if this never happens.
 double TimeToPass(Road road, const AlongOptions& options, double time, double& nearest) {
   constexpr double kPeriod = 0.5;
   constexpr double kStep = 0.05;
@@ -199,8 +200,8 @@ TEST_P(Passing, GetsPastFromManyStarts) {
       for (const double speed : {1.0, 2.0, 4.0}) {
         SCOPED_TRACE(fmt::format("lead {} m/s, gap {} m, start {} m/s", lead, gap, speed));
         double nearest = 1e9;
-        // The car drives at 5 m/s or more while it closes the gap and passes the leader over 6.5 m.
-        // Pulling out takes at most 25 s, even at 0.5 m/s (ShiftLength).
+        // While the car closes the gap and passes the leader, which is 6.5 m altogether, it drives
+        // at 5 m/s or more. Pulling out takes at most 25 s, even at 0.5 m/s (ShiftLength).
         EXPECT_LT(TimeToPass(Road(speed, lead, gap), GetParam().defaults, 40.0, nearest), 40.0);
         // Between their samples, motions may come 1 cm closer than the safe distance.
         EXPECT_GE(nearest, AlongSettings{}.safe_distance - 0.01);
@@ -239,8 +240,8 @@ TEST_P(Passing, KeepsClearOfOncomingTraffic) {
           << ahead << " m, " << speed << " m/s";
     }
   }
-  // Oncoming cars at 10 m/s from up to 100 m ahead have gone by after 10 s. This leaves 10 s for
-  // passing.
+  // Oncoming cars at 10 m/s from up to 100 m ahead have passed the car after 10 s. This leaves 10 s
+  // for passing.
   EXPECT_GE(passed, 10);
 }
 

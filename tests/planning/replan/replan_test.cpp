@@ -247,8 +247,8 @@ TEST(Replan, BrakesForWhatComesAsHardAsThatTakes) {
   Scene scene;
   scene.request.max_deceleration = 8.0;
   scene.Block(2.0, 2.0);
-  // The box crosses from the right. The box would hit the car at the car's present speed, but not
-  // if the car stops.
+  // The box crosses from the right. At its present speed, the car would be hit by the box. A car
+  // that stops is not hit.
   scene.request.obstacles[0].box.center.y = -4.0;
   scene.request.obstacles[0].velocity = {0.0, 3.0};
   scene.options.settings.road = {1.0, 1.0};
@@ -279,7 +279,7 @@ TEST(Replan, DoesNotBrakeForWhatComesFromBehind) {
 }
 
 TEST(Replan, AsksForNoMoreThanTheLimitBeyondThePlansEnd) {
-  // The car is 0.4 m before the goal, and an impact has pushed it to 3 m/s. The remaining path is
+  // The car is 0.4 m before the goal, and an impact has pushed it to 3 m/s. The rest of the path is
   // too short to stop on.
   Scene scene;
   scene.request.strayed = true;
@@ -326,8 +326,8 @@ TEST(Replan, TakesADetourWhereNoMotionLeadsPast) {
   ASSERT_EQ(next.kind, ReplanKind::kRoute) << DiagnosticsJson(next.plan).dump();
   EXPECT_EQ(DiagnosticsJson(next.plan)["replan"]["kind"], "detour");
   EXPECT_TRUE(next.plan->blocked.empty());
-  // Without a penalty, the detour is not worth its length. The car then keeps the motion that stops
-  // or proceeds.
+  // Without a penalty for collisions, the detour is too long to be worth it. The car then keeps the
+  // motion along its route.
   scene.options.comparator = DetourChoice{.comparator = {.collision_penalty = 0.0}};
   EXPECT_EQ(scene.Go().kind, ReplanKind::kMotion);
 }

@@ -26,7 +26,7 @@ TEST(Comparator, CountsWhatIsLeft) {
   EXPECT_NEAR(Score(Over(0.0), {4.0, 3.0}).length, 3.0 + 6.0, Tolerance(1e-12));
   EXPECT_NEAR(Score(Over(0.0), {12.0, 0.0}).length, 2.0, Tolerance(1e-12));
   EXPECT_NEAR(Score(Over(0.0), {-1.0, 0.0}).length, 11.0, Tolerance(1e-12));
-  // At a corner the score equals the cost of the wind-aware RRT from the nearest node.
+  // At a corner, the score equals the cost by which the wind-aware RRT connects the nearest node.
   EXPECT_NEAR(Score(Over(12.0), {5.0, 12.0}).length, 13.0, Tolerance(1e-12));
 }
 
@@ -63,8 +63,8 @@ TEST(Comparator, UniformWindDoesNotMatter) {
 }
 
 TEST(Comparator, LayersOfWindTurnTheChoice) {
-  // The wind is a tailwind above the x axis and a headwind below it, both of 1 m/s. At V = 3 m/s,
-  // each changes the cost of a path by a third of its length.
+  // The wind is a tailwind above the x axis and a headwind below it, both of 1 m/s. At V = 3 m/s, a
+  // wind of 1 m/s changes the cost of a path by a third of its length.
   const OrientedBox above{{5.0, 5.0, 0.0}, 20.0, 10.0};
   const OrientedBox below{{5.0, -5.0, 0.0}, 20.0, 10.0};
   const auto layer = [](const OrientedBox& area, double speed) {

@@ -68,8 +68,8 @@ Case RandomCase(Random& random) {
   return one;
 }
 
-/// Returns the cost of a path by the documented formula. A corner without room costs a million
-/// meters.
+/// Returns the cost of a path by the documented formula. If a corner does not fit, its cost is a
+/// million meters.
 double PathCost(const Case& one, const std::vector<Vec2>& few) {
   double cost = -WindScore(InPieces(few), one.wind);
   std::vector<Vec2> all = few;
@@ -142,7 +142,8 @@ TEST(FewCorners, OfAStraightWayAreNone) {
 }
 
 TEST(FewCorners, OfALongWayAreFoundInWindows) {
-  // A zigzag of 1 m over 4 windows. Straight lines are shorter, and windows meet at their ends.
+  // A zigzag with an amplitude of 1 m through 4 windows. Straight lines are shorter, and windows
+  // meet at their ends.
   Case one{.corner_cost = 1.0};
   for (std::size_t i = 0; i <= 4 * kPruningWindow; ++i) {
     one.way.emplace_back(static_cast<double>(i), i % 2 == 0 ? 0.0 : 1.0);

@@ -154,7 +154,7 @@ TEST(PartialPlan, IsOfTheTreeThatLeadsNearest) {
       EXPECT_LE(own, tree.value("left_m", own));
     }
     EXPECT_EQ(each.at(DiagnosticsJson(plan)["chosen"].get<std::size_t>())["left_m"], own);
-    // A run with more trees contains the trees of a run with fewer trees.
+    // A run with more trees begins with the same trees as a run with fewer trees.
     EXPECT_LE(own, left);
     left = own;
     of_one = trees == 1 ? own : of_one;
@@ -247,8 +247,8 @@ TEST(TimeLimit, EndsTheTreeAndLeadsToItsNearestNode) {
   const Plan limited = MakePlan(request, RrtPlannerOptions{.time_limit = 64.0 / 1024.0});
   ASSERT_TRUE(limited.ok()) << limited.reason;
   EXPECT_THAT(limited.partial, HasSubstr("the nearest feasible path of 1 tree in 0.0625 s"));
-  // The planner reads the clock at the start and before every iteration. The time limit is reached
-  // before the 64th iteration.
+  // The planner reads the clock at the start and before every iteration, and each reading advances
+  // the test's clock. The time limit is reached before the 64th iteration.
   const auto leg = DiagnosticsJson(limited)["legs"].at(0);
   EXPECT_EQ(leg["status"], "stopped");
   EXPECT_EQ(leg["iterations"], 63);

@@ -182,8 +182,8 @@ TEST(RrtPlanner, TellsHowFarItCame) {
 }
 
 TEST(RrtPlanner, TellsOfTheTreeThatCameNearest) {
-  // A wall makes the goal unreachable. A run with more trees contains the trees of a run with fewer
-  // trees.
+  // A wall makes the goal unreachable. A run with more trees begins with the same trees as a run
+  // with fewer trees.
   const PlanRequest request = Across({{{30.0, 0.0, 0.0}, 1.0, 200.0}});
   std::vector<double> left;
   for (int trees = 1; trees <= 8; ++trees) {

@@ -32,14 +32,14 @@ PlanRequest AroundAWall() {
 }
 
 /// Returns the length of the shortest path of a point around the inflated end of the wall. The path
-/// starts at the end of the lead-in, x = `lead`. It consists of two tangents to the circle around
-/// the wall's end, and the arc between them.
+/// starts at the end of the lead-in, x = `lead`. The path consists of two tangents to the circle
+/// around the wall's end, and the arc between them.
 double ShortestAround(double lead, double inflation) {
   const double from = std::hypot(30.0 - lead, 5.0);
   const double to = std::hypot(30.0, 5.0);
   const double turn = std::acos(inflation / from) + std::acos(inflation / to);
-  // The angle between the directions from the wall's end, 5 m to the left of the line, to the two
-  // ends of the path.
+  // The directions from the wall's end, which is 5 m to the left of the line, to the two ends of
+  // the path form this angle.
   const double between = std::atan2(30.0 - lead, 5.0) + std::atan2(30.0, 5.0);
   return std::sqrt(from * from - inflation * inflation) +
          std::sqrt(to * to - inflation * inflation) + inflation * (2.0 * M_PI - between - turn);

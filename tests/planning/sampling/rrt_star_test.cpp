@@ -297,7 +297,8 @@ TEST(RrtStar, SaysWhichEndIsBlocked) {
   RrtStarProblem goal = Nothing();
   goal.obstacles = {Block(17.0, 4.0, 19.0, 6.0)};
   EXPECT_EQ(PlanRrtStar(goal, Budget(100), 1).status, RrtStarStatus::kGoalBlocked);
-  // A distance of exactly the inflation is still blocked: a path must keep a larger distance.
+  // Points at a distance of exactly the inflation are blocked, because a path must keep a larger
+  // distance.
   RrtStarProblem touching = Nothing();
   touching.obstacles = {Block(0.0, 4.0, 1.5, 6.0)};
   EXPECT_EQ(PlanRrtStar(touching, Budget(100), 1).status, RrtStarStatus::kStartBlocked);
@@ -339,8 +340,8 @@ TEST(RrtStar, InformedItLeavesOutMostOfAnOpenField) {
     ASSERT_TRUE(result.ok());
     EXPECT_LE(result.cost, 16.0 * 1.01);
     // A path of 16.16 m between foci 16 m apart lies in an ellipse with semi-axes of 8.08 and 1.13
-    // m. The ellipse covers 29 m^2 of 200 m^2, so it contains 290 of 2000 samples. Further samples
-    // were added before the path was that short.
+    // m. The ellipse covers 29 m^2 of 200 m^2, so it contains 290 of 2000 samples. The search added
+    // further samples before the path was that short.
     EXPECT_LT(result.nodes.size(), 600U);
   }
 }
@@ -382,7 +383,7 @@ TEST(RrtStar, StartThatIsTheGoalIsAWayOfNoLength) {
 }
 
 TEST(RrtStar, StepBoundsTheFirstEdges) {
-  // While a node has no neighbors to choose from, its edge extends the tree by at most one step.
+  // If a new node has no neighbors, it is at most one step from an existing node.
   RrtStarOptions options = Budget(2000);
   options.step = 0.5;
   const RrtStarResult result = PlanRrtStar(Nothing(), options, 1);

@@ -97,7 +97,8 @@ TEST(PlanWithLeadIn, LeavesACarThatHeadsElsewhereByATurn) {
 }
 
 TEST(PlanWithLeadIn, NamesTheStartSpeedThatFits) {
-  // On 1 m, a car can stop with twice the deceleration of 1.5 m/s^2 from sqrt(2 3 1) = 2.45 m/s.
+  // With twice the deceleration of 1.5 m/s^2, a car can stop within 1 m from sqrt(2 x 3 x 1) m/s =
+  // 2.45 m/s.
   const PlanRequest request = Rolling(1.0);
   const auto too_short = [&](const Options&, const PlanRequest&, const std::vector<Vec2>&) {
     Plan plan;

@@ -94,8 +94,9 @@ TEST(Smoothing, KeepsAFreeWayFree) {
 }
 
 TEST(Smoothing, AnObstacleMayHoldOneCoordinateAlone) {
-  // The box under the corner reaches up to y = 1.15 m. With the smoothness 0.4, the step in x is
-  // 0.4 (0 + 5 - 2 x 4) = -1.2 m, which is free. The step in y, down to 1.12 m, is not free.
+  // The box under the corner reaches up to y = 1.15 m. With the smoothness 0.4, the point moves by
+  // 0.4 (0 + 5 - 2 x 4) m = -1.2 m in x, to a free place. The move in y, down to 1.12 m, would lead
+  // into the box.
   const std::vector<Vec2> way{{0.0, 1.0}, {4.0, 1.6}, {5.0, 1.0}};
   const std::vector<OrientedBox> box{{{2.5, 0.65, 0.0}, 2.0, 1.0}};
   const SmoothingOptions once{.data = 0.1, .smoothness = 0.4, .sweeps = 1};
@@ -142,8 +143,8 @@ TEST(Smoothing, RefusesWhatDoesNotConverge) {
 
 TEST(WindScore, IsWhatTheAirSpeedGainsToFirstOrder) {
   // The time T for a line dx at the air speed V satisfies V T = V |dx|/(V + w . t), with the wind w
-  // and the unit vector t along the line. For a wind of V/1000, this equals |dx| - W up to a
-  // millionth of |dx|, where W is the wind score.
+  // and the unit vector t along the line. For a wind of V/1000, this time times V equals |dx| - W,
+  // up to a millionth of |dx|, where W is the wind score.
   const WindScoring scoring{.wind = {.velocity = {0.01, 0.02}}, .speed = 20.0};
   const Vec2 from{3.0, 4.0};
   const Vec2 to{43.0, -10.0};

@@ -35,7 +35,8 @@ while not loop.observation.ended:
     loop.step()
 numpy.testing.assert_array_equal(loop.log["x_m"], run["mujoco"]["x_m"])
 
-# IPOPT plans a racing line, and PROJ projects a path from longitude and latitude.
+# These commands need IPOPT, to plan a racing line, and PROJ, to project a path from longitude and
+# latitude.
 assert trackbed.run("kidney_minimum_curvature", plants="kinematic").path is not None
 line = {"type": "LineString", "coordinates": [[11.0 + i * 1e-5, 48.0] for i in range(50)]}
 pathlib.Path("line.geojson").write_text(json.dumps(line))
