@@ -236,7 +236,7 @@ TEST(ImportLog, ReadsTimesOfAnyUnitFromAnyMoment) {
                          pose.yaw);
     }
     const RecordedDrive drive = Import(csv, map);
-    // Near 1.7e18 ns doubles are 256 ns apart.
+    // Near 1.7e18 ns, neighboring double values are 256 ns apart.
     EXPECT_THAT(drive.duration(), DoubleNear(2.0, Tolerance(1e-6))) << unit;
     EXPECT_THAT(drive.At(1.0).yaw_rate, DoubleNear(kRate, Tolerance(1e-4))) << unit;
   }
@@ -406,7 +406,7 @@ TEST(ImportLog, SaysWhatIsWrongInAFile) {
 
 constexpr const char* kAnyway = " (check: false in the map imports it anyway)";
 
-/// A weaving car: yaw and course turn both ways.
+/// A weaving car turns to both sides.
 std::string Weaving(const std::function<std::string(double t, const Pose2& pose)>& row) {
   std::string csv = "t,x,y,yaw,v,r,steer\n";
   Pose2 pose;
@@ -514,8 +514,8 @@ TEST(ImportLog, NoticesAndRemovesTheDelayOfASignal) {
   map.align = true;
   const RecordedDrive aligned = Import(csv, map);
   EXPECT_THAT(aligned.notes, Contains(HasSubstr("shifted by this delay")));
-  // The delay is found to a tenth of its resolution, half the distance between two rows. The yaw
-  // rate changes by at most 1.5 rad/s^2.
+  // The program finds the delay to a tenth of its resolution, which is half the distance between
+  // two rows. The yaw rate changes by at most 1.5 rad/s^2.
   EXPECT_NEAR(aligned.At(5.0).yaw_rate, 1.5 * std::sin(5.0 - 0.01), Tolerance(1.5 * 0.1 * 0.01));
   map.align = false;
   map.yaw_rate->delay = 0.23;
@@ -525,7 +525,7 @@ TEST(ImportLog, NoticesAndRemovesTheDelayOfASignal) {
 }
 
 TEST(ImportLog, NotesHowLateTheCarTurns) {
-  // The steering is 0.15 s early, and the pose of Weaving is 0.01 s late.
+  // The steering is 0.15 s early, and the pose of the helper Weaving is 0.01 s late.
   const std::string csv = Weaving([&](double t, const Pose2& pose) {
     return fmt::format("{},{},{},{},{},{},{}", t, pose.x, pose.y, pose.yaw, 2.0, 0.0,
                        std::atan(0.3 * 1.5 * std::sin(t + 0.15) / 2.0));

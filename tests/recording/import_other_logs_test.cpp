@@ -38,9 +38,9 @@ TEST(ListLog, ProposesAMapThatReadsABag) {
     EXPECT_EQ(drive.valid_fraction(), 1.0);
     for (const RecordedSample& sample : drive.samples) {
       const double angle = kRate * sample.time;
-      // A parabola through rows 0.1 s apart within 0.17 s (0.3 s at an end, with the nearest rows)
-      // deviates from the circle by up to R rate^3 h^3/6 = 1.4 mm, times the sum of the magnitudes
-      // of the weights, below 3.
+      // Over the half width h of its window, a parabola through rows 0.1 s apart deviates from the
+      // circle by up to R rate^3 h^3/6 = 1.4 mm. The fit amplifies this deviation by at most 3, the
+      // sum of the magnitudes of its weights.
       EXPECT_NEAR(sample.pose.x, kRadius * std::sin(angle), Tolerance(4.2e-3));
       EXPECT_NEAR(sample.pose.y, kRadius * (1.0 - std::cos(angle)), Tolerance(4.2e-3));
       // The yaw, the speed and the yaw rate are linear in time, which parabolas fit exactly.
@@ -59,7 +59,7 @@ TEST(ImportLog, UsesFurtherRowsIfThoseAtTheEdgeOfTheWindowHaveNoWeight) {
     LogMap map = *ListLog(kBags / "sqlite").map;
     map.resample = {.rate = 100.0, .half_width = half_width, .degree = 2};
     for (const RecordedSample& sample : ImportLog(kBags / "sqlite", map).samples) {
-      // As above; the yaw is linear in time.
+      // The tolerance is that of ProposesAMapThatReadsABag; the yaw is linear in time.
       EXPECT_NEAR(sample.pose.yaw, kRate * sample.time, Tolerance(1e-6));
       EXPECT_NEAR(sample.pose.x, kRadius * std::sin(kRate * sample.time), Tolerance(4.2e-3));
     }
@@ -70,7 +70,8 @@ TEST(ListLog, FindsSteeringAndCommands) {
   const RecordedDrive odometry =
       ImportLog(kBags / "odometry.mcap", *ListLog(kBags / "odometry.mcap").map);
   EXPECT_FALSE(odometry.has_steering);
-  // Commands of 32 bits have an error of half a unit in the last place, 2^-28 here.
+  // Commands with 32 bits have an error of half a unit in the last place, which is 2^-28 for these
+  // values.
   EXPECT_NEAR(odometry.samples[3].steering_command, 0.12, Tolerance(4e-9));
   const RecordedDrive autoware =
       ImportLog(kBags / "autoware.mcap", *ListLog(kBags / "autoware.mcap").map);
@@ -136,10 +137,12 @@ void ExpectCircle(const fs::path& log, const LogMap& map) {
   EXPECT_EQ(drive.valid_fraction(), 1.0);
   for (const RecordedSample& sample : drive.samples) {
     const double angle = 0.2 * kRate * sample.time;  // radius 100 m
-    // As above, with h up to 2 s at an end: R rate^3 h^3/6 = 17 mm, times 3.
+    // At an end, the half width h of the window is up to 2 s. The deviation R rate^3 h^3/6 is then
+    // 17 mm, which the fit amplifies by up to 3.
     EXPECT_NEAR(sample.pose.x, 100.0 * std::sin(angle), Tolerance(0.05));
     EXPECT_NEAR(sample.pose.y, 100.0 * (1.0 - std::cos(angle)), Tolerance(0.05));
-    // Slopes have twice the error of values divided by h, 0.05 m/s of 5 m/s.
+    // The error of a slope is twice the error of a value divided by h, which is 0.05 m/s for a
+    // speed of 5 m/s.
     EXPECT_NEAR(AngleDifference(sample.pose.yaw, angle), 0.0, Tolerance(0.02));
   }
   EXPECT_THAT(drive.notes, Contains(HasSubstr("UTM zone 32N")));

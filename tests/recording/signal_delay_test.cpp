@@ -46,9 +46,9 @@ TEST(SignalDelay, IsFoundWithoutNoise) {
   for (const double delay : {-0.9, -0.123, 0.0, 0.004, 0.36, 0.77}) {
     const auto found = Find(Delayed(delay, 0.0, 1));
     ASSERT_TRUE(found) << delay;
-    // The sum of squared residuals is a parabola in the delay except for its fourth-order term. At
-    // half a sample, this term moves the minimum by a share of (omega period)^2 = 0.053^2 of the
-    // sample.
+    // As a function of the delay, the sum of squared residuals is a parabola, except for a term of
+    // fourth order. For a delay of half a sample, this term moves the minimum by the fraction
+    // (omega period)^2 = 0.053^2 of a sample.
     EXPECT_NEAR(found->delay, delay, Tolerance(0.053 * 0.053 * kPeriod)) << delay;
   }
 }
@@ -83,7 +83,7 @@ TEST(SignalDelay, IsUnknownWhereTheSignalsDoNotTell) {
   EXPECT_FALSE(Find(Delayed(0.1, 20.0, 1)));      // mostly noise
   EXPECT_FALSE(Find(Delayed(1.6, 0.0, 1)));       // beyond kMaxSignalDelay
   EXPECT_FALSE(Find(Delayed(0.1, 0.0, 1, 300)));  // too short
-  // A ramp looks the same at every delay, except for a constant.
+  // A delayed ramp is the same ramp plus a constant.
   Signals ramp;
   for (int i = 0; i < 6000; ++i) {
     ramp.reference.push_back(0.01 * i);

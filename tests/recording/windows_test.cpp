@@ -78,7 +78,7 @@ RecordedDrive Drive(const CarModel& car, const std::string& name, double duratio
   return drive;
 }
 
-/// The largest distance [m] between a state of any window and the record.
+/// Returns the largest distance [m] between the record and any state in the windows.
 double LargestDistance(const std::vector<WindowPrediction>& windows, const RecordedDrive& drive) {
   double largest = 0.0;
   for (const WindowPrediction& window : windows) {

@@ -147,8 +147,8 @@ TEST(Canvas, CutsOffWhatLiesOutside) {
   canvas.Fill({-5, -5, 30, 30}, 3, {1, 1, 1}, 1.0);
   EXPECT_EQ(image.Pixel(0, 0)[0], 255);
   EXPECT_EQ(image.Pixel(7, 7)[0], 255);
-  // The first cell covers x = -7 to 2, white up to -3; the white half of the second one is x = 3 to
-  // 7.
+  // The first cell covers x = -7 to 2, and its white half ends at x = -3. The white half of the
+  // second cell is x = 3 to 7.
   canvas.Text(-7, -7, "ab", 20.0, {0, 0, 0});
   EXPECT_EQ(image.Pixel(2, 0)[0], 255);
   EXPECT_EQ(image.Pixel(3, 0)[0], 0);
@@ -195,9 +195,9 @@ TEST(Camera, SideGoesAlongWithoutAJerk) {
     const CameraPose pose = side.pose(subject, 1.0 + frame / 30.0, 1.8);
     const double rate = 30.0 * (pose.azimuth - before);
     // The heading of the camera is a mean weighted by a triangle of +-0.8 s. The rate of the
-    // camera's heading changes by at most 0.5/0.8 rad/s per second: the step of 0.5 rad/s times the
-    // peak of the triangle. The bound is doubled because the mean has 31 samples 0.05 s apart,
-    // while frames are 0.033 s apart.
+    // camera's heading changes by at most 0.5/0.8 rad/s per second, the step of 0.5 rad/s times the
+    // peak of the triangle. The bound is doubled, because the mean uses 31 samples 0.05 s apart,
+    // while the frames are 0.033 s apart.
     EXPECT_LT(std::abs(rate - rate_before), 2.0 * 0.5 / 0.8 / 30.0) << frame;
     before = pose.azimuth;
     rate_before = rate;

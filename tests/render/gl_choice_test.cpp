@@ -92,7 +92,8 @@ TEST(GlSurroundings, NameTheLibraryThatHasDrawn) {
     library = context->library();
     EXPECT_THAT(context->Version(), testing::ContainsRegex("^[0-9]+[.][0-9]+.*, .+"));
   }
-  EXPECT_EQ(ReadGlSurroundings().in_process, library);  // still after the context is gone
+  // The library stays in the process after the context is gone.
+  EXPECT_EQ(ReadGlSurroundings().in_process, library);
 }
 
 // File names that exist on no system.

@@ -95,7 +95,7 @@ TEST_F(GroundFilm, CamerasGoUpAndDownWithTheGround) {
   const CameraSubject subject(recording);
   for (const auto& [camera, above] : {std::pair{"chase", 1.0}, {"side", 0.7}, {"top", 0.0}}) {
     const CameraPose pose = FindCamera(camera).pose(subject, 10.0, 1.8);
-    // The mean of a linear height over a symmetric window is its value in the middle.
+    // The height is linear, so its mean over a symmetric window is its value in the middle.
     EXPECT_NEAR(pose.ground_z, 0.1 * pose.target_x, Tolerance(1e-9)) << camera;
     EXPECT_NEAR(pose.target_z, pose.ground_z + above, Tolerance(1e-9)) << camera;
   }
@@ -109,8 +109,8 @@ TEST_F(GroundFilm, DownASteepHillTheSkyIsDrawn) {
   SetWorld("world: {ground: {grade: {x: -0.5, y: 0}}}\n");
   const Image image = Picture("chase", 0.0);
   // The hill's horizon is 26.6 degrees down, and the picture's upper edge is 18 + 26.6 - 20 = 24.6
-  // degrees down. So 2 of 40 degrees at the top of the picture are sky, which is blue where asphalt
-  // is gray.
+  // degrees down. Therefore the upper 2 of the 40 degrees of the picture show sky. Sky is blue, and
+  // asphalt is gray.
   const std::uint8_t* rgb = image.Pixel(kWidth / 2, 1);
   EXPECT_GT(rgb[2], rgb[0] + 8);
 }

@@ -139,8 +139,8 @@ TEST(Occlusion, IsTheShareOfLinesOfSightThatTheBoxCrosses) {
   };
   EXPECT_EQ(share(0.0, 20.0, 5.0), 1.0);
   EXPECT_EQ(share(8.0, 2.0, 5.0), 0.0);
-  // With its margin of 0.5 m, the wall begins at y = 0.2 m. Of the lines of sight to the points at
-  // y = -0.8, 0 and 0.8 m, only the last one crosses the wall, at y = 0.33 to 0.48 m.
+  // With its margin of 0.5 m, the wall begins at y = 0.2 m. The camera has lines of sight to the
+  // points at y = -0.8, 0 and 0.8 m. Only the last line crosses the wall, at y = 0.33 to 0.48 m.
   EXPECT_NEAR(share(3.2, 5.0, 5.0), 1.0 / 3.0, Tolerance(1e-9));
   EXPECT_EQ(FadedAlpha(0.0), 1.0);
   EXPECT_DOUBLE_EQ(FadedAlpha(1.0), 0.25);

@@ -162,7 +162,7 @@ TEST_F(FilmSceneTest, PointsAreProjectedAsAPinholeCameraSeesThem) {
 
 TEST_F(FilmSceneTest, TheErrorRibbonHasTheColorOfTheDistanceFromThePath) {
   WriteStraightPlan(folder_.path(), 16.0);
-  // A cross-track error of 0.18 m from x = 3 on.
+  // From x = 3 m on, the car has a cross-track error of 0.18 m.
   SetLogColumn(folder_.path(), "mujoco", "cross_track_m",
                [](double time) { return time < 1.0 ? 0.0 : -0.18; });
   overlays_.emplace_back("error");
@@ -229,7 +229,7 @@ TEST_F(FilmSceneTest, TheWindIsDrawnOnTheGroundWhereItBlowsTo) {
 class StripTest : public FilmSceneTest {
  protected:
   StripTest() {
-    // A plan for 2 s at 3 m/s: curved to the left from x = 3 on.
+    // The plan lasts 2 s at 3 m/s, and turns to the left from x = 3 m on.
     Table plan({"s_m", "x_m", "y_m", "curvature_radpm"});
     for (int i = 0; i <= 60; ++i) {
       plan.AddRow({0.1 * i, 0.1 * i, 0.0, i < 30 ? 0.0 : 0.05});
@@ -294,7 +294,8 @@ TEST_F(StripTest, ShowsWhatIsPlannedAndWhatWasSteeredUntilNow) {
 }
 
 TEST_F(StripTest, FollowsThePlanThatHolds) {
-  // At 1.5 s, after 4.5 m, a replan takes effect: straight for 0.9 m (0.3 s), then to the right.
+  // At 1.5 s, after 4.5 m, the car adopts a new plan, which is straight for 0.9 m (0.3 s) and then
+  // turns to the right.
   Table plans({"from_t_s", "s_m", "x_m", "y_m", "curvature_radpm"});
   for (int i = 0; i <= 60; ++i) {
     plans.AddRow({1.5, 0.1 * i, 4.5 + 0.1 * i, 0.0, i < 9 ? 0.0 : -0.05});
@@ -320,7 +321,7 @@ TEST_F(StripTest, EndsWithItsOwnDriveOnTheAxisOfAll) {
   const int first = static_cast<int>(std::round(top_ + 3.2 + 0.86 * 16.0));
   const int middle = (first + 346) / 2;
   // The plot covers 4 s, but the log of the car only 2 s. In these 2 s, the command is to the left
-  // and the measured angle to the right. Nothing is drawn afterward.
+  // and the measured angle to the right. After the end of the log, the plot shows no steering.
   const auto column = [](double time) { return 18 + static_cast<int>(time / 4.0 * 603.0); };
   EXPECT_GT(Brightest(image, column(1.9), first, middle - 2)[2], 100);
   EXPECT_LT(Brightest(image, column(2.1), first, middle - 2)[2], 60);
@@ -349,7 +350,7 @@ TEST_F(FilmSceneTest, GhostAndCarAreApartInThePictureAsInTheLogs) {
       const mjvGeom& of_car = posed.geoms[i];
       for (int j = i + 1; j < posed.ngeom; ++j) {
         const mjvGeom& of_ghost = posed.geoms[j];
-        // A ghost consists of the same geoms of the model, translucent.
+        // A ghost consists of the geoms of the car's model, drawn translucently.
         if (of_car.objtype != mjOBJ_GEOM || of_car.objid != of_ghost.objid ||
             of_ghost.objtype != mjOBJ_GEOM || of_ghost.rgba[3] > 0.3F || of_car.rgba[3] < 1.0F) {
           continue;
@@ -359,10 +360,10 @@ TEST_F(FilmSceneTest, GhostAndCarAreApartInThePictureAsInTheLogs) {
         const auto seen_ghost = projection({of_ghost.pos[0], of_ghost.pos[1], of_ghost.pos[2]});
         ASSERT_TRUE(seen_car && seen_ghost);
         // A ghost is drawn 0.1 m farther along the line of sight, which does not move it in the
-        // picture. Single precision at 10 m is 1e-6 m, less than 1e-4 px. MuJoCo's cameras are the
-        // left and the right one of a stereo pair, each 0.034 m from the middle. At a distance of
-        // 15 m, drawing the ghost 0.1 m farther away therefore moves it by 2e-4 m, which is 0.004
-        // px.
+        // picture. Single precision at 10 m is 1e-6 m, less than 1e-4 px. MuJoCo draws with the
+        // left and the right camera of a stereo pair, each 0.034 m from the middle. At a distance
+        // of 15 m, a ghost that is drawn 0.1 m farther away therefore moves by 2e-4 m, which is
+        // 0.004 px.
         EXPECT_NEAR(seen_ghost->x, seen_car->x, 0.01) << time;
         EXPECT_NEAR(seen_ghost->y, seen_car->y, 0.01) << time;
         ++compared;

@@ -112,8 +112,8 @@ TEST_F(PainterTest, PlantsSideBySideAreEachAsAlone) {
           different += std::equal(here, here + 3, alone.Pixel(x, y)) ? 0 : 1;
         }
       }
-      // The shadow map is fitted to the camera of the whole picture, which is the same for both
-      // widths.
+      // MuJoCo fits the shadow map to the camera of the whole picture, and this camera is the same
+      // for both widths.
       EXPECT_EQ(different, 0) << quality << ", " << one.plants.front();
     }
   }
@@ -164,9 +164,9 @@ world:
   const Image without = Painted(options_);
   options_.inset = "top";
   const Image with = Painted(options_);
-  // The legend has ten lines of 16 px and 9.6 px of padding, from 10 px on: the car, the path, the
-  // error scale, the ghost with a note, wind, gust and three factors. The readings have one line of
-  // 16 px and 6.4 px of padding.
+  // The legend begins at 10 px and has ten lines of 16 px and 9.6 px of padding. The lines are the
+  // car, the path, the error scale, the ghost with a note, wind, gust and three factors. The
+  // readings have one line of 16 px and 6.4 px of padding.
   const int legend_end = 10 + 10 * 16 + 9;
   const int readings_begin = 350 - 16 - 7;
   EXPECT_EQ(Different(with, without, 0, 640, 0, legend_end), 0);

@@ -107,9 +107,9 @@ class FilmSceneTest : public testing::Test {
   std::optional<CameraPose> pose_;
 };
 
-// Threshold for the brightness of white paint on flat ground. The lamps of the Prius light paint
-// with at least 0.96 of its color. Asphalt between painted lines has at most 0.69 of white. The
-// threshold of 225 / 255 = 0.88 lies well between.
+// Threshold for the brightness of white paint on flat ground. In sunlight, white paint has at least
+// 0.96 of its color. Asphalt between painted lines has at most 0.69 of white. The threshold of 225
+// / 255 = 0.88 lies well between.
 inline constexpr int kWhite = 225;
 
 }  // namespace trackbed::render

@@ -61,9 +61,9 @@ TEST_F(RecordingTest, ReadsTheDriverAidsThatIntervene) {
 }
 
 TEST_F(RecordingTest, TurnsTheShortWayWhenTheQuaternionChangesSign) {
-  // The half angle of the rotation passes pi between 0.5 s and 1 s. The cosine and the sine of the
-  // half angle are continuous, so the quaternion q does not jump. Negating the second row makes q
-  // jump without changing the rotation.
+  // The half angle of the rotation passes the angle pi between 0.5 s and 1 s. The cosine and the
+  // sine of the half angle are continuous, so the quaternion q does not jump. Negating the second
+  // row makes q jump without changing the rotation.
   std::string header = "t_s,x_m,y_m,z_m,qw,qx,qy,qz";
   std::string zeros;
   for (const std::string& column : PriusJointColumns()) {

@@ -39,7 +39,7 @@ TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
   Recording recording = ReadRecording(folder_.path());
   // Use a shadow map of 0.8 m per texel, which is much coarser than in films. With this map, paint
   // that casts a shadow (thin boxes, for example) is dark at 102 of the 123 points. With the map of
-  // a film, the dark speckles would lie between the points.
+  // a film, no dark speckle would be at a checked point.
   recording.model->vis.map.shadowclip = static_cast<float>(200.0 / recording.model->stat.extent);
   recording.model->vis.quality.shadowsize = 512;
   Offscreen offscreen(*recording.model, kWidth, kHeight, 1);
@@ -153,10 +153,10 @@ TEST_F(FilmSceneTest, TheSideCameraHasTheCarInTheMiddle) {
 /// Classifies the paint at a point of the road by its color.
 ///
 /// Colors are from 0 to 255. Asphalt is gray, up to 0.62 * 1.10 * 255 = 174, with no more red than
-/// green. A discarded plan is drawn with an opacity of 0.35 over asphalt of 0.60, so a white one
-/// has at least 0.96 * (0.60 + 0.35 * 0.40) * 255 = 181. The red of pink, (1.00, 0.58, 0.80),
-/// exceeds its green by 0.96 * 0.42 * 255 = 103, and by 33 for a discarded plan. The thresholds of
-/// this difference are halfway between 33 and 103 and between 0 and 33.
+/// green. A discarded plan is drawn with an opacity of 0.35 over asphalt of 0.60, so a white plan
+/// has a brightness of at least 0.96 * (0.60 + 0.35 * 0.40) * 255 = 181. The red of pink, (1.00,
+/// 0.58, 0.80), exceeds its green by 0.96 * 0.42 * 255 = 103, and by 33 for a discarded plan. The
+/// thresholds of this difference are halfway between 33 and 103 and between 0 and 33.
 std::string PaintAt(const std::array<int, 3>& rgb) {
   if (rgb[0] - rgb[1] > 68) {
     return "pink";

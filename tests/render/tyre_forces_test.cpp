@@ -106,7 +106,7 @@ class GripDialTest : public FilmSceneTest {
 };
 
 TEST_F(GripDialTest, PointsWhereTheForceGoesAndEndsAtTheShareOfGripThatIsUsed) {
-  // 0.3 of the longitudinal friction limit is a bar of 12 px upward, for any limit in newtons.
+  // For any limit in newtons, 0.3 of the longitudinal friction limit is a bar of 12 px upward.
   const Image little = Dial(Vec2(300.0, 0.0));
   EXPECT_GT(little.Pixel(60, 50)[0], 200);
   EXPECT_GT(little.Pixel(60, 50)[1], 200);  // white: less than 0.9
@@ -115,8 +115,8 @@ TEST_F(GripDialTest, PointsWhereTheForceGoesAndEndsAtTheShareOfGripThatIsUsed) {
   EXPECT_GT(little.Pixel(60, 20)[0], 180);  // the rim
   EXPECT_GT(little.Pixel(20, 60)[0], 180);
   EXPECT_EQ(little.Pixel(60, 15)[0], 120);
-  // Half of the lateral limit of 2000 N is a bar of 20 px to the left, as long as the bar for half
-  // of the longitudinal limit of 1000 N.
+  // Half of the lateral limit of 2000 N is a bar of 20 px to the left. The bar for half of the
+  // longitudinal limit of 1000 N has the same length.
   const Image half = Dial(Vec2(0.0, 1000.0));
   EXPECT_GT(half.Pixel(45, 60)[0], 200);
   EXPECT_LT(half.Pixel(32, 60)[0], 120);

@@ -40,7 +40,8 @@ TEST(Isolines, AroundAHillClose) {
   for (std::size_t i = 1; i < lines.front().size(); ++i) {
     length += (lines.front()[i] - lines.front()[i - 1]).norm();
     // Along a cell side of 0.1 m, the height is a parabola that deviates from its chord by 0.1^2 /
-    // 4 = 2.5e-3. The slope is 4 or 2.8, so the line deviates by less than 1e-3 m.
+    // 4 = 2.5e-3. On contour lines with a slope of 4 or 2.8, this moves the line by less than 1e-3
+    // m.
     EXPECT_NEAR(lines.front()[i].norm(), 2.0, Tolerance(1e-3));
   }
   EXPECT_NEAR(length, 4.0 * kPi, Tolerance(0.02));
@@ -141,7 +142,7 @@ TEST_F(FilmSceneTest, PlainGroundKeepsItsColorAndHasLinesOnRequest) {
     return least;
   };
   // The texture of 10 m has a line in its middle, along its whole length. A line has 1.12 of the
-  // mean brightness, grain at most 1.10, and red is slightly darker than the mean of all channels.
+  // mean brightness, and grain at most 1.10. Red is slightly darker than the mean of all channels.
   EXPECT_LT(least_of_row(side / 2), before);
   MakeGroundPlain(model, true);
   EXPECT_GT(least_of_row(side / 2), 1.05 * before);
@@ -244,7 +245,7 @@ TEST_F(CameraTest, ChaseSwingsRoundInReverse) {
   EXPECT_NEAR(Pose("chase", 3.1).azimuth, aside, Tolerance(1e-9));
   EXPECT_NEAR(Pose("chase", 6.0).azimuth, kPi + aside, Tolerance(1e-9));
   // At the change of gear, the camera has turned halfway. Samples 0.05 s apart and rows 0.02 s
-  // apart each cause an error of up to pi / 16.
+  // apart each cause an error of the camera's azimuth of up to pi/16.
   EXPECT_NEAR(Pose("chase", 4.0).azimuth, 0.5 * kPi + aside, Tolerance(kPi / 16.0));
   // Looking backward, the camera is ahead of the car.
   EXPECT_GT(Eye(Pose("chase", 6.0)).x(), 3.0 + 3.6);
@@ -288,7 +289,7 @@ TEST_F(CameraTest, StandsNearerToSmallCars) {
   ASSERT_NE(xml.find(size), std::string::npos);
   xml.replace(xml.find(size), size.size(), "0.2 0.08 0.07");
   WriteFileAtomically(model, xml);
-  // The car is a tenth as long as 4 m, the length from which cars count as full-size.
+  // The car is 0.4 m long, a tenth of the length of 4 m from which cars count as full-size.
   for (const char* camera : {"chase", "side", "orbit", "top"}) {
     EXPECT_LT(Pose(camera, 1.0).paint_scale, 0.2) << camera;
   }

@@ -284,8 +284,8 @@ class Reports(PageTest):
         heading = value_at(rows, "yaw_rad", moment) - value_at(rows, "heading_error_rad", moment)
         by = 9 * value_at(rows, "cross_track_m", moment)
         self.assertGreater(abs(by), 0.01)
-        # The car is drawn at ten times its distance from the path. Half of the time's last digit
-        # moves the car by 15 mm along the path.
+        # The page draws the car's distance from its path ten times enlarged. The time is shown with
+        # two decimals, so the car may be up to 15 mm farther along the path.
         self.assertAlmostEqual(x, value_at(rows, "x_m", moment) - by * math.sin(heading), delta=0.03)
         self.assertAlmostEqual(y, value_at(rows, "y_m", moment) + by * math.cos(heading), delta=0.03)
         self.click("#enlarge")
@@ -314,7 +314,7 @@ class Reports(PageTest):
             scale = (high - low) / (at_high - at_low)
             self.assertEqual(scale > 0, axis == 0)
             for pixel, value in values:
-                # The steering changes by 0.75 mrad within half of the time's last digit.
+                # Within half a unit of the time's last digit, the steering changes by 0.75 mrad.
                 self.assertAlmostEqual(pixel, low + scale * (value - at_low), delta=abs(scale) * 3e-3 + 0.5)
 
     def test_pointing_at_a_chart_moves_cars_and_obstacle(self):
@@ -354,8 +354,8 @@ class Reports(PageTest):
         rows = rows_of(self.root / "slow/mujoco.csv")
         text = self.text("[data-quantity=steering] .readout[data-track=mujoco]").replace("−", "-")
         done, asked = (float(n) for n in re.fullmatch(r"(-?[\d.]+) \((-?[\d.]+)\)", text).groups())
-        # The tolerance is the rate limit of 0.15 rad/s times half of the time's last digit, plus
-        # rounding to four decimals.
+        # The tolerance is the change of the steering at its rate limit of 0.15 rad/s within half a
+        # unit of the time's last digit, plus rounding to four decimals.
         delta = 0.15 * 0.005 + 5e-5
         self.assertAlmostEqual(done, value_at(rows, "steering_rad", self.moment()), delta=delta)
         self.assertAlmostEqual(
@@ -673,8 +673,8 @@ class Reports(PageTest):
                  "the runs follow different paths"]
                 if judged else [],
             )
-            # Compares the difference curve at the station under the pointer, and the first car at
-            # its time there.
+            # Compares the difference curve at the pointer's station with the table, and the first
+            # car at its time at this station.
             rows = [row for row in rows_of(self.root / "judged/compare.csv") if row["pair"] == "0"]
             self.point_at("difference_yaw_rate", 0.45)
             moment = self.moment()
@@ -805,7 +805,7 @@ class Reports(PageTest):
         self.assertEqual(self.count("#influence figure"), 3)
         self.assertEqual(self.count("#study-map .cell:not(.none)"), 2 * 7)
         self.assertEqual(self.count("#distributions figure"), 2)
-        # The values are perfectly anticorrelated.
+        # The two outputs are perfectly anticorrelated.
         self.assertEqual(self.text("#correlations [data-bar='error'] .bar-name:last-child"), "−1.00")
         worst = self.run_in_page(
             "return Array.from(document.querySelectorAll('#worst tbody tr')).map(e => e.dataset.number)"

@@ -130,7 +130,7 @@ TEST(Comparison, OfOneRunStandsWithThatRun) {
   const TempFolder folder;
   const fs::path a = DriveCorner(folder, "a", kPlants);
   const fs::path b = Shifted(a, "b", "single_track", 0.25, 0.0);
-  // Its plants are compared even without a judged comparison.
+  // The plants of this run are compared even without a judged comparison.
   const ordered_json alone = ReportData({a});
   EXPECT_THAT(PairsIn(alone), testing::ElementsAre("0 kinematic - 0 single_track"));
   EXPECT_TRUE(alone["comparison"]["verdicts"].empty());
@@ -153,7 +153,7 @@ TEST(Comparison, OfOneRunStandsWithThatRun) {
               testing::ElementsAre("1 kinematic - 1 single_track", "0 kinematic - 1 kinematic",
                                    "0 single_track - 1 single_track"));
   EXPECT_EQ(both["comparison"]["verdicts"][0]["run"], 1);
-  // A comparison of other runs does not belong to these two.
+  // A comparison of other runs must not be shown for these two runs.
   RememberHashes(b);
   WriteComparison(CompareFolders({a, b}, {}, std::nullopt), b);
   EXPECT_EQ(ReportData({b, a})["comparison"]["verdicts"].size(), 1U);

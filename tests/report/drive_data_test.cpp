@@ -59,7 +59,8 @@ template <typename ShortBy>
 std::string DriveAlongX(double duration, const ShortBy& short_by) {
   std::string csv = "t_s,x_m,y_m,yaw_rad,steering_command_rad,steering_actuator_rad\n";
   for (int i = 0; 0.02 * i <= duration; ++i) {
-    // The next row shows whether the actuator reached this row's command.
+    // The measured angle in the next row shows whether the actuator reached the command of this
+    // row.
     csv += fmt::format("{0:.2f},{0:.2f},0,0,0.1,{1}\n", 0.02 * i, 0.1 - short_by(i));
   }
   return csv;
@@ -88,7 +89,8 @@ TEST(EventsJson, SaysWhenObstaclesBecomeKnown) {
                      {.footprint = box, .known_from_time = 2.5},
                      {.footprint = box, .known_from_range = 30.0},
                      {.footprint = box, .known_from_range = 5.0}};
-  // The front, `length - rear_overhang` ahead of x = t, is 30 m from the box's near side at 39 m.
+  // The front of the car is `length - rear_overhang` ahead of x = t. It is 30 m from the near side
+  // of the box, at 39 m.
   const double t = 39.0 - 30.0 - (car.length - car.rear_overhang);
   const ordered_json known = EventsJson(file, world, car)["known"];
   ASSERT_EQ(known.size(), 2U);  // without those known from the start or never in range

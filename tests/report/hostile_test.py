@@ -33,7 +33,8 @@ vary: {control.distance: [2, 3], mission.speed: [2, 4]}
 outputs: [metrics.kinematic.distance, plan.status]
 """
 
-# Each script sets `hacked` if it runs. None contains a slash, so that each can be a file name.
+# Each script sets `hacked` if it runs. No script contains a slash, so that each script can be a
+# file name.
 SCRIPTS = {
     "script": "<script>hacked=1",
     "image": '"><img src=x onerror="hacked=2">',
@@ -304,7 +305,8 @@ class HostileReports(PageTest):
                     return [changed(entry, f"{place}[{i}]") for i, entry in enumerate(value)]
                 if not isinstance(value, str) or place.endswith((".plan.status", ".kind")):
                     return value
-                # Equal texts stay equal, because runs are matched by the names of their plants.
+                # Equal texts must stay equal, because the page matches runs by the names of their
+                # plants.
                 texts.setdefault(value, f"{len(texts)}:{ENDINGS}{''.join(SCRIPTS.values())}{SEEN}")
                 if re.search(r"\.(motion|vehicle|ground)\b", place):
                     drawn.add(texts[value])
@@ -322,7 +324,7 @@ class HostileReports(PageTest):
             self.assertGreater(sum(text in shown for text in said), 0.5 * len(said))
             self.browser.picture(PICTURES / f"hostile-every-{path.split('/')[0]}.png")
 
-    # The Content-Security-Policy, as second line of defense.
+    # The Content-Security-Policy is a second protection against scripts in inputs.
 
     def test_policy_refuses_what_the_page_does_not_have(self):
         self.trackbed("report", "plain", "-o", "policy.html")

@@ -75,8 +75,9 @@ TEST(RowsToShow, KeepEveryExtremeOfALongOne) {
 TEST(RowsToShow, LeaveNoLongGap) {
   const Table table = Waves(30000);
   const std::vector<std::size_t> rows = RowsToShow(table, 1026);
-  // 128 intervals keep at most 1024 rows, two for each of four columns, and 1026 with the ends. An
-  // interval has at most 235 rows, so adjacent kept rows are less than two intervals apart.
+  // Each of 128 intervals keeps at most two rows for each of four columns, 1024 rows in all, and
+  // 1026 with the two end rows. An interval has at most 235 rows, so adjacent kept rows are less
+  // than two intervals apart.
   for (std::size_t i = 1; i < rows.size(); ++i) {
     EXPECT_LT(rows[i] - rows[i - 1], 470U);
   }

@@ -182,7 +182,7 @@ class Replay(PageTest):
             hull = hull_of(outline)
             self.assertGreater(len(differs), 1000)
             # The car rolls and pitches by up to a degree, which moves its roof, 1.5 m high, by 26
-            # mm. The log has rows 33 ms apart; a pixel is some 10 mm there.
+            # mm. The rows of the log are 33 ms apart. At the car, a pixel is about 10 mm wide.
             outside = [p for p in differs if depth_in(hull, p) < -4]
             self.assertLess(len(outside), 0.002 * len(differs), moment)
             # Only every second pixel is checked. A car fills its convex outline except for the gaps

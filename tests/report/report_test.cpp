@@ -82,8 +82,8 @@ TEST(ReportData, HoldsTheLogsOfTheRun) {
       const ordered_json& shown = plant["log"][name];
       ASSERT_EQ(shown.size(), values.size()) << name;
       for (std::size_t i = 0; i < values.size(); ++i) {
-        // The tolerance is half a unit of the sixth digit, or the threshold below which values
-        // become zero.
+        // The tolerance is half a unit of the sixth digit, or the threshold below which values are
+        // shown as zero.
         ASSERT_NEAR(shown[i].get<double>(), values[i], std::max(5e-6 * std::abs(values[i]), 5e-7))
             << name << " of row " << i;
       }
@@ -324,8 +324,8 @@ TEST(ReportData, HoldsTheTableOfAStudy) {
               HasSubstr("other.csv:1: no column 'status'"));
 }
 
-/// A study of `rows` rows: two controllers alternate; the output is x for the first controller and
-/// twice x for the second; rows pass if it is below 1.
+/// A study of `rows` rows in which two controllers alternate. The output is x with the first
+/// controller and 2 x with the second controller. A row passes if its output is below 1.
 std::string BigStudy(int rows) {
   std::string csv = "control,x,status,y,reason\n";
   for (int i = 0; i < rows; ++i) {
@@ -360,7 +360,8 @@ TEST(StudyData, SaysWhatAllRowsSayTogether) {
   EXPECT_EQ(y["distribution"].size(), 200U);
   ASSERT_EQ(y["indices"].size(), 2U);
   // Evenly spaced values have no random error, but the index subtracts the bias that random values
-  // would have. With 64 classes of 2000 rows, the bias is 0.03 of the remaining variance.
+  // would have. Evenly spaced values have no random error, but the index subtracts the bias that
+  // random values would cause.
   EXPECT_NEAR(y["indices"][0]["index"].get<double>(), 3.0 / 13.0, 0.03);
   EXPECT_NEAR(y["indices"][1]["index"].get<double>(), 9.0 / 13.0, 0.03);
   const ordered_json& means = y["effects"][0]["classes"];
@@ -383,8 +384,8 @@ TEST(StudyData, OfABigStudyHasSomeRowsAndTheEndsOfOutputs) {
   EXPECT_EQ(study["even_count"], 4000);
   const auto numbers = study["row_numbers"].get<std::vector<int>>();
   EXPECT_EQ(numbers.size(), study["rows"].size());
-  // The lowest `y` are in the first rows, the highest in the last odd rows. The page must show
-  // these rows in addition to the evenly chosen rows, which are one in 2.5.
+  // The lowest values of `y` are in the first rows, and the highest values in the last odd rows.
+  // The page must show these rows in addition to its evenly spaced rows, which are one in 2.5.
   for (const int row : {0, 1, 2, 3, 9999, 9997, 9995, 9981}) {
     EXPECT_NE(std::find(numbers.begin(), numbers.end(), row), numbers.end()) << row;
   }
@@ -420,7 +421,8 @@ TEST(StudyDifference, IsOfRowsThatSetTheSame) {
   EXPECT_EQ(passed["after"], 0.75);
   EXPECT_EQ(passed["higher"], 2);
   EXPECT_EQ(passed["lower"], 1);
-  EXPECT_EQ(passed["sign_test"], 1.0);  // a split of 2 : 1 or worse has probability 1
+  // A ratio of 2 : 1 or a more extreme ratio has the probability 1.
+  EXPECT_EQ(passed["sign_test"], 1.0);
   const ordered_json& y = difference["outputs"][1];
   EXPECT_EQ(y["name"], "y");
   EXPECT_EQ(y["count"], 3);                               // the fourth row had no y
@@ -525,7 +527,8 @@ TEST(ReportPage, StaysSmall) {
     EXPECT_GE(plant["log"]["t"].back().get<double>(), 60.0);
     EXPECT_GE(plant["log"]["t"].size(), 3000U);  // every period of 20 ms
   }
-  EXPECT_LT(data.dump().size(), kMaxBytes / 2);  // the scripts take the other half
+  // The scripts take the other half of the allowed size.
+  EXPECT_LT(data.dump().size(), kMaxBytes / 2);
   EXPECT_LT(ReportPage(data).size(), kMaxBytes);
   EXPECT_LT(ReportPage(ReportData({two, three})).size(), kMaxBytes);
   // A log with ten times as many rows.

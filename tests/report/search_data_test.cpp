@@ -96,12 +96,13 @@ TEST_F(SearchDataTest, HasTheOutcomeAndTheMargins) {
 
 TEST_F(SearchDataTest, CountsWhatWasTriedInEqualIntervals) {
   const ordered_json search = Data(Outcome().dump())["search"];
-  // 5 and 5.9 are in the sixth tenth of 0 to 10. The rejected run does not count.
+  // The values 5 and 5.9 are in the sixth tenth of the range from 0 to 10. The rejected run does
+  // not count.
   EXPECT_EQ(search["keys"][0]["tried"].dump(), "[1,0,0,0,0,2,1,1,0,1]");
   EXPECT_EQ(search["keys"][0]["failed"].dump(), "[1,0,0,0,0,0,1,1,0,0]");
-  // Each bin is a tenth of two decades: 0.11 is at log10(11) / 2 = 0.52.
+  // Each bin is a tenth of two decades, so 0.11 is at the fraction log10(11)/2 = 0.52.
   EXPECT_EQ(search["keys"][1]["tried"].dump(), "[1,0,0,0,0,4,0,0,0,1]");
-  // With three whole numbers, each one is a bin.
+  // With three whole numbers, each number has a bin.
   EXPECT_EQ(search["keys"][2]["tried"].dump(), "[1,4,1]");
   EXPECT_EQ(search["keys"][2]["failed"].dump(), "[1,2,0]");
   // `best` contains only runs of the search, not of the shrinking.

@@ -88,7 +88,8 @@ class Searches(PageTest):
         self.assertIn(f"Runs to make it smaller{found['shrink_runs']}", answer)
         self.assertIn("broken/counterexample/counterexample.yaml", answer)
         self.assertIn(f"--row {found['counterexample']['row']} --video --report", answer)
-        # For each key, the page shows the values of its line in the terminal, and its range.
+        # For each key, the page shows the values of the key's line in the terminal output, and the
+        # key's range.
         for key in ("control.distance", "mission.speed"):
             line = rf"^ *{re.escape(key)} +(\S+) +(\S+) +(\S+) +(\S+ to \S+|-) +(\S+)$"
             nominal, fails, holds, alone, sensitivity = re.search(line, printed, re.M).groups()
@@ -163,7 +164,7 @@ class Searches(PageTest):
         self.assertEqual(len(self.attributes("[data-output='control.distance'] .cell.tried", "x")), len(tenths))
         self.assertEqual(len(self.attributes("#coverage [data-output='mission.speed'] .cell", "x")), 4)
         self.assertEqual(len(self.attributes("#coverage [data-output='control.distance'] .tick-of", "d")), len(rows))
-        # Marks are above the tick of their run; the nominal point is row 0.
+        # Each mark is above the axis tick of its run; the nominal point is row 0.
         for kind, row in (("point", 0), ("counterexample", self.outcome("broken")["counterexample"]["row"])):
             figure = "#coverage [data-output='control.distance']"
             mark = re.match(r"translate\(([\d.]+)", self.attributes(f"{figure} .sign-of.{kind}", "transform")[0]).group(1)

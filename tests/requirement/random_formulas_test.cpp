@@ -20,8 +20,8 @@ using testing::HasSubstr;
 
 // Compares random formulas with a reference evaluation. Formulas are made as trees and printed with
 // the parentheses that the documented operator precedence requires. The reference evaluates the
-// tree by the definitions, sample by sample and window by window. Its times and bounds are whole
-// ticks, so nothing is rounded.
+// tree by the definitions, sample by sample and window by window. All times and bounds of the
+// reference are whole numbers of ticks, so nothing is rounded.
 
 constexpr double kTick = 0.05;  // [s]
 constexpr double kNoSample = std::numeric_limits<double>::infinity();

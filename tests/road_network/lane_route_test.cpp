@@ -103,8 +103,8 @@ TEST(LaneRoute, StartsAndEndsAtItsPlaces) {
 }
 
 TEST(LaneRoute, TellsTheEndsOfARoadApartThatIsTwiceAtAJunction) {
-  // The route from the loop's end to its start turns left at the junction. It neither goes straight
-  // nor turns right.
+  // The route from the loop's end to its start turns left at the junction. A route that goes
+  // straight or turns right at the junction does not lead to the start of the loop.
   const RoadNetwork network = Crossing();
   const LaneRoute route = FindLaneRoute(network, {{"2", -1, 170.0}, {"2", -1, 5.0}});
   ExpectAlongCenters(network, route);
@@ -202,10 +202,10 @@ TEST(LaneRoute, RoundsSmallKinksAndSaysHowFarThatLeadsOff) {
   const RoadNetwork network = ParseNetwork(TwoRoads(0.02, 0.0));
   const LaneRoute route = FindLaneRoute(network, {{"1", -1, 10.0}, {"2", -1, 90.0}});
   ASSERT_TRUE(route.ok()) << route.failure;
-  // The path turns by the angle a = 0.02 rad within the length L = 1 m. The curvature is quadratic
-  // in the station and 0 at both ends of the turn. With q = d/L, where d is the distance from the
-  // start of the turn, the heading is a (3 q^2 - 2 q^3). At the corner, q = 1/2, the path deviates
-  // by 3/32 a L. The relative error of this formula is a^2.
+  // The path turns by the angle a = 0.02 rad within the length L = 1 m. The path turns by the angle
+  // a = 0.02 rad within the length L = 1 m at the corner. With q = d/L, where d is the distance
+  // from the start of the turn, the heading is a (3 q^2 - 2 q^3). In the middle of the turn, at the
+  // corner, q is 1/2 and the path deviates by 3/32 a L. The relative error of this formula is a^2.
   EXPECT_NEAR(route.deviation, 3.0 / 32.0 * 0.02, Tolerance(1e-6));
   const Pose2 end = route.path.At(route.path.length()).pose;
   EXPECT_NEAR(end.yaw, 0.02, Tolerance(1e-9));
@@ -301,8 +301,8 @@ TEST(LaneRoute, HasTheHeadingAndCurvatureOfLanesOnABank) {
   };
   for (double s = 3.0; s < 97.0; s += 3.1) {
     const SurfaceLine line = SurfaceLineAt(road, LaneBordersAt(road, -1, s).Center(), s, s);
-    // Central differences over h: errors of order h^2 of the third derivatives, 1e-3, and of the
-    // rounding 1e-14/h^2.
+    // Central differences with the step h have errors of h^2 times the third derivatives, which are
+    // about 1e-3, and of 1e-14/h^2 from rounding.
     constexpr double kStep = 1e-3;
     const Vec2 first = (at(s + kStep) - at(s - kStep)) / (2.0 * kStep);
     const Vec2 second = (at(s + kStep) - 2.0 * at(s) + at(s - kStep)) / (kStep * kStep);
@@ -318,9 +318,10 @@ TEST(LaneRoute, HasTheHeadingAndCurvatureOfLanesOnABank) {
   }
 }
 
-// At the joint, the second derivative of the roll angle r steps by 6e-4 rad/m^2. The curvature of a
-// lane at t = -2 m, t cos(r) from the reference line, steps by about t sin(r) times as much,
-// 1.2e-4 1/m. The lane is joined without this step, because a planner would slow down for it.
+// At the joint, the second derivative of the roll angle r steps by 6e-4 rad/m^2. The lane is at t =
+// -2 m, which is t cos(r) from the reference line seen from above. Its curvature steps by about t
+// sin(r) times as much, 1.2e-4 1/m. The route joins the lane without this step, because a planner
+// would slow down for a step.
 TEST(LaneRoute, RoundsSmallStepsOfCurvature) {
   RoadText road;
   road.geometry =

@@ -254,7 +254,7 @@ RoadText RoadNumber(int place) {
   return road;
 }
 
-// One broken road does not make the others useless.
+// If one road is broken, the other roads can still be used.
 TEST(OpenDrive, LeavesOutBrokenRoadsWithANote) {
   RoadText broken = RoadNumber(2);
   broken.lanes = "<laneSection s='0'/>";

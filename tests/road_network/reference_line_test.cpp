@@ -80,7 +80,7 @@ TEST(ReferenceLine, OfASpiralIsFresnelsIntegral) {
   for (const double s : {5.0, 20.0, 35.0, 50.0}) {
     const ReferenceLinePoint at = line.At(s);
     const Vec2 expected = ClothoidBySeries(0.5 * curvature / length, s);
-    // The header states this accuracy for curves other than lines and arcs.
+    // The header of the function states this accuracy for curves other than lines and arcs.
     EXPECT_NEAR((at.pose.position() - expected).norm(), 0.0, Tolerance(1e-9)) << s;
     EXPECT_NEAR(at.pose.yaw, 0.5 * curvature / length * s * s, Tolerance(kRoundingOfLines));
     EXPECT_NEAR(at.curvature, curvature * s / length, Tolerance(kRoundingOfLines));
@@ -136,8 +136,8 @@ TEST(ParametricCubic, InvertsArcLengthOfAnyCurve) {
     const std::array<double, 4> v{0.0, 0.0, random.Uniform(-9, 9), random.Uniform(-9, 9)};
     const ParametricCubic unit(u, v, 1.0, 1.0);
     const ParametricCubic curve(u, v, 1.0, unit.arc_length());
-    // A chord over a step of length h is shorter than the arc by kappa^2 h^3/24. With kappa below
-    // 0.1 1/m and 4000 steps of h = 0.01 m, the sum of the differences is below 4000 x 0.01 x
+    // A chord of a curve over the arc length h is shorter than h by kappa^2 h^3/24. With kappa
+    // below 0.1 1/m and 4000 steps of h = 0.01 m, the sum of the differences is below 4000 x 0.01 x
     // 1e-6/24 = 2e-6 m.
     double chords = 0.0;
     constexpr int kSteps = 4000;

@@ -51,8 +51,8 @@ std::string WithoutFolder(std::string message, const fs::path& file) {
   return message;
 }
 
-/// The message for a file: from the reader, or from loading the car that it names. Studies have the
-/// key `scenario`.
+/// Returns the message for a file, from the reader or from loading the car that the file names. A
+/// file with the key `scenario` is a study.
 std::string MessageFor(const fs::path& file) {
   try {
     if (IsStudy(file)) {

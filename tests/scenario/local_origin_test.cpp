@@ -19,8 +19,8 @@
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/track/track_file.h"
 
-// Tests the local origin of scenarios with large coordinates. The coordinates of the random
-// scenarios are multiples of 1/8 m, so a translation by whole meters is exact.
+// Tests the local origin of scenarios with large coordinates. All coordinates of the random
+// scenarios are multiples of 1/8 m, so moving them by whole meters is exact.
 namespace trackbed {
 namespace {
 
@@ -103,7 +103,8 @@ TEST(LocalOrigin, IsTheOneThatTheUserGives) {
   const Scenario given = Parse(text + "origin: [500010, 5200000]\n");
   EXPECT_EQ(given.mission.waypoints.front(), Vec2(0.0, 20.0));
   EXPECT_EQ(given.mission.waypoints.back(), Vec2(50.0, 20.0));
-  // An origin may be given for small coordinates, too. A start by default stays where it was.
+  // An origin may be given for small coordinates, too. A start that is (0, 0) by default was not
+  // moved.
   const Scenario near = Parse(
       "schema: 1\nname: x\norigin: [10, 20]\nmission: {speed: 5, duration: 1}\ncontrol: "
       "{method: constant_steering, steering: 0}\n");
@@ -233,7 +234,7 @@ TEST(LocalOrigin, MovesRoadsWithTheirHeights) {
     EXPECT_EQ(far.origin, kFar);
     EXPECT_EQ(InitialState(far).pose, InitialState(near).pose);
     for (double x = 0.0; x <= 100.0; x += 5.0) {
-      // Same arithmetic in the same coordinates.
+      // Both computations use the same arithmetic with the same coordinates.
       EXPECT_NEAR(GroundHeight(far.world, {x, -1.75}), GroundHeight(near.world, {x, -1.75}),
                   Tolerance(1e-9));
     }

@@ -82,8 +82,9 @@ class MapFiles : public testing::Test {
 const std::string kRamp = "P2 4 3 255  0 64 89 90  205 206 254 255  128 10 20 30";
 
 TEST_F(MapFiles, DecideByTheThresholds) {
-  // A pixel v is occupied if d = 1 - v/255 > 0.65, which holds up to v = 89 (0.651). It is free if
-  // d < 0.196, which holds from v = 206 on (0.192); v = 205 gives 0.19608.
+  // A pixel with the value v is occupied if d = 1 - v/255 > 0.65. This is true up to v = 89, whose
+  // d is 0.651. A pixel is free if d < 0.196. This is true from v = 206 on, whose d is 0.192; for v
+  // = 205, d is 0.19608.
   EXPECT_EQ(Drawn(Read(kRamp)), "###_/_.../_###");
   const GridMap map = Read(kRamp);
   EXPECT_EQ(map.columns, 4);
@@ -95,12 +96,13 @@ TEST_F(MapFiles, DecideByTheThresholds) {
   // The last row of the image is row 0 of the map.
   EXPECT_EQ(map.At(0, 0), MapCell::kUnknown);
   EXPECT_EQ(map.At(0, 2), MapCell::kOccupied);
-  // With the threshold of newer files, 205 is free.
+  // With the threshold of newer files, 0.25, the pixel value 205 is free.
   EXPECT_EQ(Drawn(Read(kRamp, Replaced(kYaml, "0.196", "0.25"))), "###_/..../_###");
 }
 
 TEST_F(MapFiles, MayBeNegative) {
-  // With `negate`, d = v/255 is above 0.65 from v = 166 on, and below 0.196 up to v = 49 (0.192).
+  // With `negate`, d is v/255. It is above 0.65 from v = 166 on, and below 0.196 up to v = 49,
+  // whose d is 0.192.
   for (const char* negate : {"negate: 1", "negate: true"}) {
     EXPECT_EQ(Drawn(Read(kRamp, Replaced(kYaml, "negate: 0", negate))), ".___/####/_...");
   }
@@ -128,7 +130,7 @@ TEST_F(MapFiles, HaveTheSamePixelsInEveryFormatOfImage) {
   for (const char* png : {"gray8.png", "gray16.png", "rgb.png", "palette.png", "rgba.png"}) {
     EXPECT_EQ(Drawn(Read(ReadFile(Data(png)))), expected) << png;
   }
-  // Both colors have the mean 100, so d = 0.61.
+  // Both colors have the mean 100, so d is 1 - 100/255 = 0.61.
   const std::string around_100 = Replaced(Replaced(kYaml, "0.65", "0.609"), "0.196", "0.605");
   EXPECT_EQ(Drawn(Read(ReadFile(Data("colors.png")), Replaced(around_100, "0.609", "0.6070"))),
             "##");

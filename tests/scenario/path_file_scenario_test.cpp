@@ -57,7 +57,8 @@ TEST(PathFileScenario, StartsOnThePath) {
   EXPECT_EQ(start.speed, 4.0);
   const auto& path = scenario.plan->global.Get<PathFileOptions>().path->path;
   EXPECT_EQ(start.steering, SteeringForCurvature(ReferenceCar(), path.At(0.0).curvature));
-  // atan(2.7/20) = 0.134; a deviation of 0.05 m may straighten the path a little.
+  // The steering angle is atan(2.7/20) = 0.134 rad. A deviation of the path by 0.05 m may change
+  // this angle a little.
   EXPECT_NEAR(start.steering, 0.134, Tolerance(0.03));
   EXPECT_EQ(
       InitialState(Parse(folder, kCircle, {"mission.start.steering=0.1"}), ReferenceCar()).steering,

@@ -139,7 +139,7 @@ TEST_F(RecordScenarios, StartWhereTheRecordStarts) {
   const Scenario scenario = Read();
   const StartState start = InitialState(scenario);
   // Parabolas that are fitted over 0.1 s deviate from the circle by R (0.1 s * 0.2 1/s)^3 / 2 =
-  // 2e-5 m. Speeds deviate by 2/(0.1 s) times this distance, 4e-4 m/s.
+  // 2e-5 m. The error of a speed is 2/(0.1 s) times this distance, 4e-4 m/s.
   EXPECT_NEAR(start.pose.x, 2.0, Tolerance(2e-5));
   EXPECT_NEAR(start.pose.y, 1.0, Tolerance(2e-5));
   EXPECT_NEAR(start.pose.yaw, 0.5 * M_PI, Tolerance(1e-9));

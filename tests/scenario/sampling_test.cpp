@@ -98,8 +98,8 @@ TEST(UnitSample, OfRandomPointsIsUniform) {
       }
       EXPECT_LT(distance, 1.63 / std::sqrt(kCount));
     }
-    // The correlation of independent columns is normal with standard deviation 1 / sqrt(n); the
-    // bound is four of them.
+    // The correlation of independent columns is normally distributed with the standard deviation
+    // 1/sqrt(n). The bound is four standard deviations.
     const Eigen::VectorXd a = sample.col(0).array() - 0.5;
     const Eigen::VectorXd b = sample.col(1).array() - 0.5;
     EXPECT_LT(std::abs(a.dot(b)) / (a.norm() * b.norm()), 4.0 / std::sqrt(kCount));

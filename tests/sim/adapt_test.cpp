@@ -121,7 +121,7 @@ std::string NotesOf(const AdaptedModel& model) {
 void ExpectSameCar(const Foreign& car) {
   const CarModel adapted = AdaptedCar(car);
   const VehicleParams& params = adapted.params();
-  // Positions pass through a rotation and back, and 17 digits of text: a few roundings.
+  // The tolerance covers the rounding of a rotation and its inverse, and of numbers with 17 digits.
   const double rounding = Tolerance(1e-9);
   EXPECT_NEAR(params.wheelbase, car.wheelbase, rounding);
   EXPECT_NEAR(params.track_front, car.track_front, rounding);
@@ -142,8 +142,8 @@ void ExpectSameCar(const Foreign& car) {
         2.0 * car.wheel_mass * (0.3 * square(car.radius) + square(x - ahead) + square(0.5 * track));
   }
   EXPECT_NEAR(params.yaw_inertia, yaw, rounding * yaw);
-  // cot inner = cot bicycle - track/(2 L): the joint's range is the inner wheel's. The file gives
-  // the limit with 6 digits.
+  // The range of the joint is that of the inner wheel, with cot inner = cot bicycle - track/(2 L).
+  // The file gives the limit with 6 digits.
   const double limit = params.steering_limit;
   EXPECT_NEAR(1.0 / std::tan(car.range),
               1.0 / std::tan(limit) - 0.5 * car.track_front / car.wheelbase, Tolerance(1e-4));
@@ -201,8 +201,8 @@ TEST(Adapt, CarDrivesItsCircle) {
     plant->Step({.steering = steering, .acceleration = 2.0 * (speed - state.speed)});
     state = plant->Observe();
   }
-  // At 0.26 m/s^2 the tyres slip by a_y/(8 g) = 3 mrad, of which the axles' difference, at most a
-  // tenth, turns the car; 2 % is ample.
+  // At 0.26 m/s^2, the slip angles of the tyres are a_y/(8 g) = 3 mrad. The difference between the
+  // axles, at most a tenth of this, changes the yaw rate by less than 2 %.
   EXPECT_NEAR(state.yaw_rate / state.speed * foreign.wheelbase, std::tan(steering),
               Tolerance(0.02) * std::tan(steering));
   EXPECT_NEAR(state.speed, speed, Tolerance(0.02) * speed);

@@ -62,8 +62,8 @@ TEST(Braking, ThePriusBrakesAsHardAsItsLimitAndHoldsItsWheels) {
 }
 
 TEST(Braking, HarderThanThatAWheelLocksAndTheCarBrakesNoHarder) {
-  // Contacts lock at 10 % more than the limit. Magic Formula tyres have more friction than the
-  // contacts' 0.9 only while they roll.
+  // The wheels of the bare contacts lock at 10 % more than the limit. Magic Formula tyres have a
+  // larger friction coefficient than the contacts, 0.9, only while they roll.
   const double limit = CarWith("prius", {}).params().max_deceleration;
   const Stop on_tyres = Brake("prius", "mujoco:magic_formula", 1.1 * limit);
   EXPECT_LT(on_tyres.slip, -0.99);
@@ -74,9 +74,9 @@ TEST(Braking, HarderThanThatAWheelLocksAndTheCarBrakesNoHarder) {
 }
 
 TEST(Braking, TheBmwsPitchLocksItsRearWheelsABitBelowItsLimit) {
-  // The rear axle limits the braking of the BMW. The pitch transient reduces the load of this axle
-  // more than the steady state. At 95 % no wheel locks; after a step to the limit, the locked
-  // wheels reduce the deceleration by 5 %.
+  // The rear axle limits the braking of the BMW. While the car begins to pitch, the load of this
+  // axle is smaller than in the steady state. At 95 % of the limit, no wheel locks. After a step to
+  // the limit, the locked wheels reduce the deceleration by 5 %.
   const double limit = CarWith("bmw320i", {}).params().max_deceleration;
   for (const std::string& plant : kLaws) {
     SCOPED_TRACE(plant);

@@ -58,9 +58,9 @@ double MeasureLateral(const CarModel& car, double road, bool coasts) {
   return largest;
 }
 
-// Neglected effects: the cosine of the steering angle, at most 0.15 rad, reduces the front axle's
-// force by 1 %. Unsprung masses that do not roll, the toe angle and remaining transients are below
-// 1 % each.
+// The tolerance covers neglected effects: the cosine of the steering angle, at most 0.15 rad,
+// reduces the force of the front axle by 1 %. Unsprung masses that do not roll, the toe angle, and
+// remaining transients change the forces by less than 1 % each.
 constexpr double kNeglected = 0.025;
 
 TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatCoasts) {
@@ -77,7 +77,7 @@ TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatCoasts) {
 
 TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatKeepsItsSpeed) {
   // The front wheels of the Prius must drive against air drag and the drag of slip angles, so the
-  // inner front wheel slides. The car reaches 8 % less.
+  // inner front wheel slides. The car therefore reaches 8 % less than the diagram.
   const CarModel car = CarWith("prius", {});
   const GripModel grip = MakeGripModel(car, TyreLaw::kMagicFormula);
   const LongitudinalForces& forces = grip.forces;
@@ -137,7 +137,7 @@ TEST(CarGrip, ForcesAreThoseOfTheParameters) {
   EXPECT_EQ(forces.drive_power, car.parts().drive_power);
   EXPECT_GT(forces.rolling_mass, params.mass);
   EXPECT_LT(forces.rolling_mass, 1.1 * params.mass);
-  // At the diagram's top speed, the motor's force equals drag and rolling resistance.
+  // At the top speed of the diagram, the force of the motor equals drag and rolling resistance.
   const GgvDiagram diagram = ComputeGgv(car, TyreLaw::kAuto, {1.0});
   EXPECT_NEAR(diagram.AccelerationsAt({.speed = params.top_speed}).largest, 0.0, Tolerance(1e-6));
   // The diagram is that of the Magic Formula alone, which has more grip than the bare contacts. At

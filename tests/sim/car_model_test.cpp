@@ -295,8 +295,8 @@ CarModel Load(const std::string& model) {
   return {ComposeScene(FindModel(model, TRACKBED_SOURCE_DIR), {}), model};
 }
 
-/// Relative tolerance: the masses and positions written here agree with the files to at least 5
-/// digits.
+/// Relative tolerance for the masses and positions that this test states, which agree with the
+/// files to at least 5 digits.
 constexpr double kByHand = 1e-4;
 
 TEST(VehicleLimits, BrakingEndsWhereTheFirstAxleWouldLock) {
@@ -346,8 +346,9 @@ TEST(VehicleLimits, BrakingIsLimitedByWeakBrakesToo) {
 }
 
 TEST(VehicleLimits, TheDriveIsLimitedByItsTorqueOrItsAxlesGrip) {
-  // The motor torque limits the Prius. 1 % of the weight and the friction of four bearings, 1 N m
-  // each, are subtracted. The front wheels would slip only at 3.828 m/s^2.
+  // The torque of the motor limits the acceleration of the Prius. The rolling resistance, 1 % of
+  // the weight, and the friction of four bearings, 1 N m each, are subtracted. The front wheels
+  // would slip only at 3.828 m/s^2.
   const double rolling = 0.01 * 1317.0 * 9.81 + 4.0 / 0.31075;
   const VehicleParams prius = Load("prius").params();
   EXPECT_NEAR(prius.max_acceleration, (1645.0 / 0.31075 - rolling) / kPriusByHand.Rolling(),
@@ -370,8 +371,8 @@ TEST(VehicleLimits, TheDriveIsLimitedByItsTorqueOrItsAxlesGrip) {
 }
 
 TEST(VehicleLimits, AreTheFrictionOfTheWorseTyreLaw) {
-  // The contacts of the Prius have a friction coefficient of 0.9. At 3350 N, its front tyres have a
-  // smaller lateral and a larger longitudinal friction coefficient.
+  // The contacts of the Prius have the friction coefficient 0.9. At a load of 3350 N, the lateral
+  // friction coefficient of its front tyres is smaller, and the longitudinal one is larger.
   const double load = 0.5 * 1317.0 * 9.81 * 1.4 / 2.7;
   const VehicleParams params = Load("prius").params();
   EXPECT_NEAR(params.friction_lateral, 0.8784 - 0.06445 * (load - 4000.0) / 4000.0,

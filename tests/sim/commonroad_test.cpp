@@ -209,7 +209,8 @@ TEST_P(CommonRoad, SteadyTurns) {
     // This comparison depends on the sign of the camber. With the opposite sign, the lateral speed
     // at 15 m/s and 0.08 rad deviates by half, 0.07 m/s. This car lacks the shifts of the tyre set,
     // which change the slip angle of the rear tyres by p_hy1 + p_vy1/p_ky1 = 0.00097 rad. The
-    // published axle loads, off by 1.3 %, change the slip of 0.023 rad at 4.9 m/s^2 by 0.0003 rad.
+    // published axle loads have an error of 1.3 %, which changes the slip angle of 0.023 rad at 4.9
+    // m/s^2 by 0.0003 rad.
     EXPECT_NEAR(state.lateral_speed, lateral_speeds[i],
                 Tolerance((is_published ? 0.00127 : 0.00097) * speeds[i] + 0.003));
   }

@@ -48,8 +48,8 @@ TEST(F1tenth, HasTheParametersOfTheGym) {
 
 TEST(F1tenth, TyresHaveTheStiffnessesOfTheGym) {
   const VehicleParams& params = F1tenth().params();
-  // The gym's axle forces: mu C_S F_z alpha, with the static loads of a single-track model. The
-  // file rounds the stiffnesses to nine digits.
+  // The axle forces of f1tenth_gym are mu C_S F_z alpha, with the static loads F_z of a
+  // single-track model. The file rounds the stiffnesses to nine digits.
   const double load = kMass * kGravity / (kFront + kRear);
   const double front = kFriction * kStiffnessFront * load * kRear;
   const double rear = kFriction * kStiffnessRear * load * kFront;
@@ -61,7 +61,8 @@ TEST(F1tenth, TyresHaveTheStiffnessesOfTheGym) {
 
 TEST(F1tenth, ReachesTheAccelerationsOfTheGym) {
   const VehicleParams& params = F1tenth().params();
-  // Torques are given with four digits, half a unit of the last one of 1.904 N m and of 0.247 N m.
+  // The file gives the torques with four digits: 1.904 N m and 0.247 N m. The tolerance is half a
+  // unit of the last digit.
   EXPECT_NEAR(params.max_acceleration, kAcceleration, Tolerance(5e-4) * kAcceleration);
   EXPECT_NEAR(params.max_deceleration, kAcceleration, Tolerance(5e-4) * kAcceleration);
   // Above v_switch, the acceleration is a_max v_switch/v. The power is given with four digits.
@@ -80,7 +81,8 @@ TEST(F1tenth, StandsStillAtRest) {
   while (plant->Observe().time < 1.0) {
     plant->Step({});
   }
-  // The springs carry the sprung mass at qpos0; tyres deflect by less than 1 um more or less.
+  // In the configuration qpos0, the springs carry the sprung mass. The deflection of the tyres
+  // differs by less than 1 um.
   EXPECT_NEAR(plant->Configuration()[2], before[2], Tolerance(1e-5));
   EXPECT_NEAR(plant->Observe().pitch, 0.0, Tolerance(1e-5));
 }

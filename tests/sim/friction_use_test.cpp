@@ -12,7 +12,8 @@
 namespace trackbed {
 namespace friction_use_test {
 
-/// The largest and the smallest of the largest uses of the four wheels.
+/// The largest and the smallest value, over the four wheels, of the largest friction use of a
+/// wheel.
 struct Uses {
   double largest = 0.0;
   double of_least_used_wheel = 0.0;
@@ -48,9 +49,10 @@ TEST(FrictionUse, OfEveryCarIsWithinTheSurplusOfItsTyreOnEveryRoad) {
   for (const std::string model : {"prius", "bmw320i", "dart"}) {
     for (const double road : {1.0, 0.3, 0.1}) {
       const Uses uses = Slide(model, "mujoco:magic_formula", road, model == "dart" ? 3.0 : 15.0);
-      // A scan over all slips of the tyres gives 1.11 (Prius), 1.125 (BMW) and 1 (dart, which has
-      // no r_* coefficients). On a dry road the BMW rolls up to a camber of 0.1 rad, where its
-      // r_vy3 allows 1.158 (docs/vehicle.md).
+      // By a scan over all slips, the largest friction use is 1.11 for the tyres of the Prius,
+      // 1.125 for the BMW, and 1 for dart, which has no r_* coefficients. On a dry road, the BMW
+      // rolls up to a camber of 0.1 rad, for which its coefficient r_vy3 allows a friction use of
+      // 1.158 (docs/vehicle.md).
       const double surplus = model == "bmw320i" && road == 1.0 ? 1.16 : 1.13;
       EXPECT_LE(uses.largest, surplus) << model << ", " << road;
       EXPECT_GE(uses.of_least_used_wheel, 0.5) << model << ", " << road;

@@ -63,8 +63,8 @@ TEST(ApplyLateralForce, GivesMujocosCarTheMomentum) {
   // s. The air meets the car at up to 0.3 m/s from the side. The force of the air rises to 1/2 *
   // 1.225 * 5 * 0.3 * 5.07 = 4.7 N, which is 2.3 N on average, or 0.06 % of 4000 N.
   EXPECT_NEAR(state.lateral_speed, 400.0 / 1317.0, Tolerance(3e-4));
-  // The force acts at the center of gravity, so only the air causes a yaw rate: 0.28 m * 2.3 N *
-  // 0.1 s / 2157 kg m^2 = 3e-5 rad/s.
+  // The force acts at the center of gravity, so only the air causes a yaw rate. This yaw rate is
+  // 0.28 m * 2.3 N * 0.1 s/2157 kg m^2 = 3e-5 rad/s.
   EXPECT_NEAR(state.yaw_rate, 0.0, Tolerance(1e-4));
   EXPECT_NEAR(state.roll, 0.0, Tolerance(1e-3));
   plant->Step({});

@@ -119,7 +119,8 @@ TEST(MagicFormulaTyres, LoadTransferAndRollAreThoseOfStatics) {
       [](double t, const VehicleState& s) { return HoldSpeed(15.0, StepSteer(t, 0.03), s); },
       kNoLook);
   const VehicleParams& params = car.params();
-  // The change of the spinning wheels' angular momentum also rolls the car outward.
+  // The spinning wheels change their angular momentum in the turn, which also rolls the car
+  // outward.
   double spin = 0.0;  // [kg m^2/s]
   for (const double inertia : car.parts().spin_inertia) {
     spin += inertia * state.speed / params.wheel_radius;
@@ -246,7 +247,7 @@ TEST(MagicFormulaTyres, TurnsTheSameAtEveryTimestep) {
     ends.push_back(Drive(
         car, *plant, 4.0,
         [&](double t, const VehicleState& s) {
-          // The target of the wheels is the angle at the end of the step.
+          // The commanded wheel angle is the angle at the end of the step.
           return HoldSpeed(20.0, StepSteer(t + timestep, 0.03), s);
         },
         [&](double t, const VehicleState& s) {
@@ -282,7 +283,7 @@ TEST(MagicFormulaTyres, LeftAndRightAreMirrorImages) {
         },
         kNoLook);
   }
-  // Rounding grows to the solver's tolerance, 1e-10, over some hundred steps of a stable motion.
+  // Over some hundred steps of a stable motion, rounding grows to the solver's tolerance, 1e-10.
   EXPECT_NEAR(ends[0].pose.x, ends[1].pose.x, Tolerance(1e-6));
   EXPECT_NEAR(ends[0].pose.y, -ends[1].pose.y, Tolerance(1e-6));
   EXPECT_NEAR(ends[0].yaw_rate, -ends[1].yaw_rate, Tolerance(1e-6));
@@ -325,7 +326,8 @@ TEST(MagicFormulaTyres, TheRoadIsThatUnderEachWheel) {
   for (const char* tyre : {"mujoco:magic_formula", "mujoco:contact"}) {
     const CarModel car = CarWith("prius", {});
     const auto plant = MakePlant(tyre, {.car = car, .world = world, .start = {.speed = 15.0}});
-    std::array<double, 4> braking{};  // sums, because bare contacts bounce under braking
+    // The test adds up forces, because bare contacts bounce under braking.
+    std::array<double, 4> braking{};
     std::array<double, 4> load{};
     const VehicleState state = Drive(
         car, *plant, 0.4,

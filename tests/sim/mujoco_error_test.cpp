@@ -23,7 +23,7 @@ void ThrowOther(const char* /*message*/) {
 }
 
 /// Number of warnings that reached the global handler. The handler must not throw: since MuJoCo
-/// 3.10 a thread whose handler throws loses all later messages.
+/// 3.10, a thread whose handler throws loses all later messages of MuJoCo.
 int warnings = 0;
 void CountWarning(const char* /*message*/) {
   ++warnings;

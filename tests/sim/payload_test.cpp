@@ -50,7 +50,8 @@ TEST(Payload, MovesMassCenterOfGravityAndYawInertia) {
   EXPECT_NEAR(car.params().yaw_inertia, inertia, Tolerance(1e-8));
   EXPECT_NEAR(car.parts().cg_height, (mass * own.parts().cg_height + 250.0 * 0.7) / (mass + 250.0),
               Tolerance(1e-12));
-  // Cornering stiffness grows with load, and the payload is nearer to the rear axle.
+  // The cornering stiffness grows with the load, and the payload is nearer to the rear axle than to
+  // the front axle.
   EXPECT_GT(car.params().cornering_stiffness_rear, own.params().cornering_stiffness_rear);
   EXPECT_LT(car.params().cornering_stiffness_front, own.params().cornering_stiffness_front);
 }
@@ -89,8 +90,8 @@ TEST(Payload, LoadsTheWheelsAsStaticsSays) {
   // are below 1e-5 m/s^2.
   EXPECT_NEAR(load(0) + load(1) + load(2) + load(3), weight, Tolerance(0.05));
   // Nose up is a negative pitch: the center of gravity moves backward relative to the hubs, under
-  // which the wheels touch. The center of gravity also sinks by 2 cm on the springs. This changes
-  // the backward shift of 2 mm by a tenth, which is 1 N of 11 N.
+  // which the wheels touch. The center of gravity also sinks by 2 cm on the springs. The reduced
+  // height changes the backward shift of 2 mm by a tenth, which changes the load by 1 N of 11 N.
   const double front = p.mass * kGravity * p.cg_to_rear / p.wheelbase +
                        weight * (height - p.wheel_radius) * std::sin(state.pitch) / p.wheelbase;
   EXPECT_LT(state.pitch, -0.005);
@@ -142,8 +143,8 @@ TEST_P(LadenCar, StandsStillFromTheStart) {
   ASSERT_FALSE(plant->diverged());
   const std::vector<double> end = plant->Configuration();
   for (std::size_t i = 0; i < start.size(); ++i) {
-    // The deflection of the other tyre law differs by less than a tenth of a millimeter for a
-    // full-size car, because both are set up for the load in the file.
+    // For a full-size car, the deflections of the two tyre laws differ by less than a tenth of a
+    // millimeter, because both are set up for the load in the file.
     EXPECT_NEAR(end[i], start[i], Tolerance(3e-4 * car.params().wheel_radius))
         << car.configuration_columns()[i];
   }

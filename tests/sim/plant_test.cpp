@@ -105,7 +105,8 @@ TEST_P(EveryPlant, MirrorsWithTheSteering) {
   const VehicleState a = left->Observe();
   const VehicleState b = right->Observe();
   // The model is mirror symmetric to rounding. The remaining difference is the contact solver's
-  // tolerance (1e-10 of the energy scale m g per step, some 1e-6 m over 2000 steps).
+  // tolerance of 1e-10 times the energy scale m g in each step, which moves the car by about 1e-6 m
+  // over 2000 steps.
   const double tolerance = Tolerance(1e-5);
   EXPECT_NEAR(a.pose.x, b.pose.x, tolerance);
   EXPECT_NEAR(a.pose.y, -b.pose.y, tolerance);
@@ -273,8 +274,9 @@ TEST(MujocoPlant, SlipperyRoadLimitsBraking) {
     return plant->Observe().distance;
   };
   // A command beyond the limit makes the wheels lock or nearly lock. The stopping distance is then
-  // v^2/(2 mu g), with mu = 0.9 times the road's factor. The tolerance of 5 % covers the limit of
-  // the brake force at 1.02 m g and the load transfer, which unloads the rear axle first.
+  // v^2/(2 mu g), where mu is 0.9 times the friction factor of the road. The tolerance of 5 %
+  // covers the limit of the brake force at 1.02 m g and the load transfer, which unloads the rear
+  // axle first.
   EXPECT_NEAR(distance(0.5), 100.0 / (2.0 * 0.45 * 9.81), Tolerance(0.57));
   EXPECT_NEAR(distance(0.2), 100.0 / (2.0 * 0.18 * 9.81), Tolerance(1.42));
 }
@@ -307,8 +309,9 @@ TEST(MujocoPlant, SteeringFollowsTheActuatorClosely) {
   const auto plant = MakePlant("mujoco", PriusAt({.speed = 3.0}));
   Hold(*plant, 0.4, 3.0, 2.0);  // the wheels are still turning
   const VehicleState moving = plant->Observe();
-  // A servo with lag tau follows a ramp with a delay of rate * tau. In the model, tau is 10 ms and
-  // the coupling adds another 10 ms, so the steering lags by 0.15 rad/s * 20 ms = 0.003 rad.
+  // A servo with lag tau follows a ramp with a delay of rate * tau. The time constant tau of the
+  // model's servo is 10 ms, and the coupling of the wheels adds a lag of 10 ms. The steering angle
+  // is therefore 0.15 rad/s * 20 ms = 0.003 rad behind.
   EXPECT_NEAR(moving.steering, moving.steering_actuator, Tolerance(0.003));
   Hold(*plant, 0.4, 3.0, 3.0);
   const VehicleState resting = plant->Observe();

@@ -100,10 +100,10 @@ TEST(RoadContact, WheelsFollowTheClosedFormOverABump) {
     ASSERT_FALSE(testing::Test::HasFailure());
   }
   EXPECT_GT(highest, 0.31 + 0.099);
-  // The contact's static deflection is 2e-5 m, and the search finds the lowest point to
+  // The static deflection of a contact is 2e-5 m. The search finds the lowest point of the wheel to
   // 0.31/400^2/4 = 5e-7 m. The hump has the curvature c at its foot and crest, so the wheels
-  // accelerate vertically by c v^2 = 0.8 m/s^2. This changes the deflection by c v^2 (1 - 2 dt/t)/k
-  // = 0.8 * 0.2/4e4 = 4e-6 m.
+  // accelerate vertically by c v^2 = 0.8 m/s^2. This acceleration changes the deflection by c v^2
+  // (1 - 2 dt/t)/k = 0.8 * 0.2/4e4 = 4e-6 m.
   EXPECT_LT(worst, Tolerance(3e-5));
 }
 
@@ -141,8 +141,8 @@ TEST(RoadContact, ACarComesToRestAgainAsItStood) {
   }
   const mjtNum* q = rolling.d->qpos + car.parts().chassis_qpos;
   EXPECT_GT(q[0], 40.0);
-  // Body modes of 1.3 Hz with a damping ratio of 0.3 have decayed for 3 s, to exp(-0.3 * 8.2 * 3)
-  // of 0.05 m.
+  // Body modes of 1.3 Hz with a damping ratio of 0.3 have decayed for 3 s, from 0.05 m by the
+  // factor exp(-0.3 * 8.2 * 3).
   EXPECT_NEAR(q[2], 0.0, Tolerance(1e-4));
   EXPECT_NEAR(q[5], 0.0, Tolerance(1e-4));
   EXPECT_NEAR(q[1], 0.0, Tolerance(1e-6));  // left and right are symmetric

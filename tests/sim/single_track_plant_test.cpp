@@ -61,7 +61,7 @@ TEST(SingleTrackPlant, NeedsTyres) {
 
 // --- Closed forms --------------------------------------------------------------------------------
 
-/// r/tan(delta) after 16 s at a constant speed [1/s].
+/// Returns the yaw gain r/tan(delta) after 16 s at a constant speed [1/s].
 double Gain(const CarModel& car, double speed) {
   constexpr double kSteering = 0.01;
   const auto plant = SingleTrack(car, {.speed = speed, .steering = kSteering});
@@ -78,7 +78,8 @@ TEST(SingleTrackPlant, YawRateGainIsThatOfTheTyresInTheFile) {
     const double wheelbase = car.params().wheelbase;
     for (const double speed : {1.0, 10.0, 20.0, 30.0}) {
       const double gain = speed / (wheelbase + UndersteerGradient(front, rear) * speed * speed);
-      // The slowest mode decays at 2 1/s, to e^-32 after 16 s. The tolerance covers rounding.
+      // The slowest mode of the car decays at a rate of 2 1/s, which is a factor of e^-32 after 16
+      // s. The tolerance covers rounding.
       EXPECT_NEAR(Gain(car, speed) / gain, 1.0, Tolerance(1e-9))
           << front << ", " << rear << " at " << speed;
     }
@@ -122,7 +123,8 @@ TEST(SingleTrackPlant, AboveItsCriticalSpeedAnOversteeringCarSpins) {
     const auto straighten = [](double, const VehicleState&) { return Command{}; };
     const double before = Drive(car, *plant, 3.0, straighten, kNoLook).yaw_rate;
     const double after = Drive(car, *plant, 1.0, straighten, kNoLook).yaw_rate;
-    // The faster mode decays at about 10 1/s, to at most e^-20 of the slower mode.
+    // The faster mode decays at a rate of about 10 1/s, so at most e^-20 of it remains relative to
+    // the slower mode.
     EXPECT_NEAR(std::log(after / before), slower, Tolerance(1e-6));
   }
 }
@@ -180,9 +182,9 @@ TEST(SingleTrackPlant, DrivesTheSameAtEveryTimestep) {
     EXPECT_NEAR(state.pose.y, fine.pose.y, Tolerance(larger * std::abs(fine.pose.y)));
     EXPECT_NEAR(state.pose.yaw, fine.pose.yaw,
                 Tolerance(larger * 2.0 * std::abs(fine.pose.y) / fine.pose.x));
-    // In the second half of a step, the held angle is behind the sine. The integral of this
-    // difference is delta' timestep^2/8, which changes the yaw rate by C_f l_f/I times the
-    // integral.
+    // In the second half of a step, the held angle is behind the sine. The integral of the
+    // difference between the sine and the held angle is delta' timestep^2/8. It changes the yaw
+    // rate by C_f l_f/I times the integral.
     const double response =
         params.cornering_stiffness_front * params.cg_to_front() / params.yaw_inertia;
     EXPECT_NEAR(state.yaw_rate, fine.yaw_rate,
@@ -237,9 +239,9 @@ double SlipShare(const VehicleParams& params, double front, double rear, double 
   return slip / (params.wheelbase + slip);
 }
 
-/// Relative increase of the slip angle over that of a linear tyre, at a lateral acceleration a. The
-/// result is the Magic Formula sin(C atan(C_alpha alpha/(C D))) = F/D with F/D = a/(mu g), inverted
-/// to third order.
+/// Relative increase of the slip angle over that of a linear tyre, at the lateral acceleration a.
+/// The result is the Magic Formula sin(C atan(C_alpha alpha/(C D))) = F/D with F/D = a/(mu g),
+/// inverted to third order.
 double Softening(const MagicFormula& tyre, double acceleration) {
   const double used = acceleration / (tyre.p_dy1 * kGravity);
   return used * used * (1.0 / 6.0 + 1.0 / (3.0 * tyre.p_cy1 * tyre.p_cy1));
@@ -261,9 +263,9 @@ TEST(SingleTrackPlant, TurnsAsTheMagicFormulaCarDoes) {
       const VehicleState& linear = two.single_track.back();
       const VehicleState& physical = two.physical.back();
       EXPECT_NEAR(linear.lateral_acceleration, acceleration, Tolerance(1e-6));
-      // Softer tyres take more of the steering angle. Small angles, the drive force against the
-      // front tyres' drag, and two wheels per axle are also quadratic effects. The tolerance for
-      // all of these effects is as large as the softening of the total slip.
+      // Softer tyres take more of the steering angle. Small-angle approximations, the drive force
+      // against the front tyres' drag, and the second wheel of each axle also cause errors of
+      // second order. The tolerance for all of these errors is the softening of the total slip.
       const double softer = Softening(car.parts().tyres->axle[0], acceleration);
       const double tolerance = (share + 1.0) * softer;
       EXPECT_NEAR(physical.yaw_rate / linear.yaw_rate, 1.0, Tolerance(tolerance));
@@ -308,11 +310,12 @@ TEST(SingleTrackPlant, WeavesAsTheMagicFormulaCarDoes) {
     const double rms = std::sqrt(squares / static_cast<double>(two.physical.size()));
     // MuJoCo's car has effects that the single-track car lacks. These effects change the tyre
     // forces, and thereby the fraction of the steering angle that the slip takes. The roll angle
-    // moves the center of gravity by the height h times the angle, which changes the acceleration
-    // by omega^2 times this distance. Forces follow the slip with a delay of the relaxation length
-    // over u. The errors from roll and delay are a quarter of a period out of phase. The tyres
-    // soften. Wheels of angular momentum H on a body that rolls at omega roll cause a yaw moment M
-    // = H omega roll, equivalent to a steering angle of M (1/C_f + 1/C_r)/L.
+    // moves the center of gravity by the roll angle times the height h, which changes the
+    // acceleration by omega^2 times this distance. The tyre forces follow the slip with a delay of
+    // the relaxation length divided by u. The errors from roll and delay are a quarter of a period
+    // out of phase. The tyres soften. Wheels of angular momentum H on a body that rolls at omega
+    // roll cause a yaw moment M = H omega roll, equivalent to a steering angle of M (1/C_f +
+    // 1/C_r)/L.
     const MagicFormula& tyre = car.parts().tyres->axle[0];
     const VehicleParams& params = car.params();
     const double rolls = omega * omega * car.parts().cg_height * roll / acceleration;

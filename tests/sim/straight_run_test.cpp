@@ -195,8 +195,8 @@ TEST(Acceleration, IsThatOfTheCenterOfGravityAtItsHeight) {
       const double lateral = LeftNormal(Direction(pose.yaw)).dot(acceleration);
       largest = std::max(largest, std::abs(lateral));
       // The logged acceleration belongs to the previous step, and a second difference to its
-      // middle. Meanwhile the body turns at up to 0.5 rad/s for 2 ms, which changes 8 m/s^2 by a
-      // fraction of 1e-3. Changes within a step have the same size.
+      // middle. During the step, the body turns at up to 0.5 rad/s for 2 ms, which changes 8 m/s^2
+      // by a fraction of 1e-3. The change of the acceleration within a step is as large.
       EXPECT_NEAR(state.lateral_acceleration, lateral, Tolerance(0.03)) << i;
     }
     before = now;

@@ -175,8 +175,8 @@ TEST(SteeringLinkage, LoadsTheRackWithWhatTurnsTheWheels) {
   const double force = (*state.wheels)[0].lateral_force + (*state.wheels)[1].lateral_force;
   ASSERT_GT(force, 1000.0);
   const double given = state.steering_actuator - state.steering;
-  // Drive forces at half the track turn the wheels against each other. Their difference, and the
-  // body's roll, which inclines the axes, contribute some percent.
+  // Drive forces at half the track turn the wheels against each other. The difference of the drive
+  // forces, and the body's roll, which inclines the steering axes, contribute some percent.
   EXPECT_NEAR(given, force * kTrail / kServo, Tolerance(0.05 * force * kTrail / kServo));
 }
 

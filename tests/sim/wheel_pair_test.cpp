@@ -233,7 +233,8 @@ TEST(WheelPair, DrivesStraight) {
   // The vehicle is mirror symmetric up to the convergence of the contact solver.
   const Vec2 at = ToLocal({0.0, 0.0, 0.5}, state.pose.position());
   EXPECT_NEAR(at.y(), 0.0, Tolerance(1e-5));
-  // The speed control recovers the loss of the first steps within half a second.
+  // In the first steps, the vehicle loses speed, and within half a second the speed control makes
+  // up this distance.
   EXPECT_NEAR(at.x(), 6.0, Tolerance(0.02));
 }
 
@@ -251,7 +252,7 @@ TEST(WheelPair, ChangesItsRatioWithinRateAndLimit) {
   const auto plant = Mujoco({.speed = 0.5});
   EXPECT_NEAR(Hold(*plant, 9.0, 0.5, 0.5).steering_actuator, 0.5, Tolerance(1e-12));
   EXPECT_EQ(Hold(*plant, 9.0, 0.5, 1.0).steering_actuator, DiffDrive().params().steering_limit);
-  // The inner wheel still rolls forward, at 1 - 0.3/0.4 of the speed.
+  // The inner wheel still rolls forward, at 1 - 0.3/0.4 of the speed of the vehicle.
   EXPECT_NEAR(plant->Observe().steering, DiffDrive().params().steering_limit, Tolerance(2e-3));
 }
 
@@ -272,8 +273,8 @@ TEST(WheelPair, SpeedsUpAndSlowsDownAsAsked) {
         [&](double, const VehicleState&) { return Command{.acceleration = acceleration}; },
         [](double, const VehicleState&) {});
   };
-  // A servo with an integral part follows a ramp without lag. 1 % covers drag and rolling
-  // resistance.
+  // A servo with an integral part follows a ramp without lag. The tolerance of 1 % covers drag and
+  // rolling resistance.
   EXPECT_NEAR(drive(1.0, 1.0).speed, 2.0, Tolerance(0.01));
   EXPECT_NEAR(drive(-1.0, 1.5).speed, 0.5, Tolerance(0.01));
   // The vehicle stops without reversing.

@@ -95,8 +95,9 @@ TEST(WithGround, AHeightFieldIsTheClosedFormAtItsSamples) {
   }
 }
 
-/// Height of the center of a ball of radius `r` that rests on the ground above `p`, by a search
-/// over points. The result is too low by at most step^2/(4 r).
+/// Returns the height of the center of a ball of radius `r` that rests on the ground, above the
+/// point `p`. Searches over points at a distance of `step`. The result is too low by at most
+/// step^2/(4 r).
 double BallHeight(const Ground& ground, const Vec2& p, double r, double step) {
   double highest = -1e9;
   for (double x = -r; x <= r; x += step) {
@@ -252,7 +253,8 @@ TEST(WithWorld, ObstaclesTouchTheCar) {
 }
 
 TEST(WithWorld, ObstaclesThatMoveThroughPosesTouchTheCar) {
-  // The box comes from the side and turns toward the car. From 0.2 s on, its end touches the car.
+  // The box comes from the side and turns toward the car. From 0.2 s on, the end of the box touches
+  // the car.
   Obstacle obstacle{.footprint = {{5.5, 3.0, 0.0}, 4.0, 1.0}};
   obstacle.motion = {{0.0, {5.5, 3.0, 0.0}}, {0.2, {5.5, 3.0, 0.0}}, {0.4, {4.0, 1.5, 1.5}}};
   EXPECT_GT(LargestForce({obstacle}, {}), 1000.0);
@@ -281,8 +283,8 @@ TEST(StandingPosition, OnAGradeIsTheFlatOneTilted) {
     std::copy(qpos.begin(), qpos.end(), d->qpos);
     mj_forward(&m, d.get());
     for (const double distance : TyreDistances(car, *d, ground)) {
-      // The distance is that on flat ground: the hub height of the Prius at rest, with zero
-      // inclination of the tyres.
+      // The distance must be that on flat ground: the height of the Prius's hubs at rest, without
+      // an inclination of the tyres.
       EXPECT_NEAR(distance, 0.31073, Tolerance(1e-9)) << yaw;
     }
     const mjtNum* R = d->xmat + 9 * car.parts().chassis;
@@ -317,9 +319,9 @@ TEST(StandingPosition, AcrossABumpNoWheelIsInTheGround) {
       nearest =
           std::min(nearest, center[2] - BallHeight(ground, {center[0], center[1]}, 0.31073, 0.01));
     }
-    // Only the point below each hub is on the ground. On a slope of 0.08, the ground ahead of or
-    // behind this point may be higher by R (1 - cos 0.08) = 1 mm. The resulting change of the car's
-    // inclination hardly moves its hubs.
+    // The ground touches each wheel only at the point below the hub. On a slope of 0.08, the ground
+    // ahead of or behind this point may be higher by R (1 - cos 0.08) = 1 mm. This changes the
+    // inclination of the car, but hardly moves its hubs.
     EXPECT_GT(nearest, Tolerance(-3e-3)) << x;
     EXPECT_LT(nearest, 0.05) << x;
   }

@@ -22,7 +22,8 @@ SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file_
 SKIPPED = 77
 ROWS = 900
 NODES = ("node1", "node2")
-# All that a shell or Slurm reads as more than a letter; "packjob" would begin the options of another job.
+# All characters and words that a shell or Slurm interprets. "packjob" would begin the options of
+# another job.
 OUT = "out of $(touch evil) `touch evil` 'a' \"b\" #1 \\ %j packjob; touch evil"
 
 
@@ -156,7 +157,7 @@ def check(program, work, cluster):
     wait_for("requeued task", lambda: "PENDING" in cluster.state(f"{array}_1"))
     before = rows_of(shard)
     assert 0 < before < ROWS // 3, f"the task was killed after {before} rows"
-    # It would wait for two minutes otherwise.
+    # Without this option, the command would wait for two minutes.
     cluster.tell("scontrol", "update", f"JobId={array}_1", "StartTime=now")
     wait_for("merged study", lambda: cluster.state(merge) & {"COMPLETED", "FAILED", "CANCELLED"},
              seconds=300.0)

@@ -28,7 +28,7 @@ struct Module {
   std::vector<std::string> libraries{};
   std::vector<std::string> private_libraries{};
 
-  /// Its target without the prefix: "planning_search".
+  /// The target of a module without the prefix: "planning_search".
   [[nodiscard]] std::string name() const {
     std::string name = path;
     std::replace(name.begin(), name.end(), '/', '_');
@@ -134,9 +134,9 @@ TEST(Modules, OnlySimAndRenderIncludeMujoco) {
 }
 
 // The registry entry of a planner contains everything that other modules need. Therefore the
-// modules of scenarios and runs do not include the planner's header. Exceptions: a maneuver that
-// measures the gates of lane changes, the loop that releases the throttle there, the ground below a
-// route over roads, and the verb that checks a path file.
+// modules of scenarios and runs do not include headers of planners. Exceptions are a maneuver that
+// measures the gates of lane changes, the loop that releases the throttle at these gates, the
+// ground below a route over roads, and the verb that checks a path file.
 TEST(Modules, KnowPlannersByTheirEntriesAlone) {
   const std::vector<std::string> shared{"common/", "registry/", "replan/", "avoidance/"};
   const std::vector<std::pair<std::string, std::string>> exceptions{

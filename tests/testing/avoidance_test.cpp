@@ -86,7 +86,7 @@ TEST(ObstacleAppears, IsPassedOnANewPlanAfterTheDelay) {
     EXPECT_NEAR(SteeringForCurvature(vehicle, start.curvature), at->state.steering,
                 Tolerance(1e-12));
     EXPECT_EQ(at->tracking->cross_track, 0.0);
-    // Stations continue: between two rows the car moves 0.06 m.
+    // The station is continuous when the plan changes: between two rows, the car moves by 0.06 m.
     EXPECT_NEAR(at->tracking->s, (at - 1)->tracking->s, 0.07);
     // The commanded angle changes by at most the angle that the actuator turns in a period, plus
     // the correction of the previous cross-track error, which the new plan resets. The correction

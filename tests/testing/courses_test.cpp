@@ -95,8 +95,8 @@ TEST(SCourse, PreviewIsLeftOutsideWithoutItsSlip) {
 }
 
 TEST(SCourse, PreviewHasToLookFurtherTheFasterItGoes) {
-  // At 20 m/s, a preview distance of 4 m is 0.2 s. The car's direction of motion lags by as much,
-  // so the car diverges.
+  // At 20 m/s, a preview distance of 4 m is 0.2 s. The direction of motion of the car lags by as
+  // much, so the car diverges from its path.
   Scenario scenario = CourseAt("s_course", "prius", 20.0);
   scenario.control.steering = PreviewOptions{.distance = 4.0, .slip = true};
   EXPECT_THAT(RunScenario(scenario), testing::Not(TracksWithin(3.0)));

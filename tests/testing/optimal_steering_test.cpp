@@ -161,8 +161,8 @@ TEST_P(PaperSpeeds, MatchedByArcLengthTheCarStaysOnTheCircle) {
       RunScenario(File("paper_circle"), {fmt::format("disturb.speed_loss.speed={}", GetParam())});
   EXPECT_THAT(run, MeetsItsExpectations());
   for (const RunLog& log : run.logs) {
-    // The tolerance of +-2.3 % is that of Skackauskas et al. 2017. This tolerance covers tyre slip
-    // and body roll of MuJoCo's car.
+    // The tolerance of +-2.3 % is that of the publication, Skackauskas et al. 2017. This tolerance
+    // covers tyre slip and body roll of MuJoCo's car.
     EXPECT_NEAR(MeanSteering(log), kPi / 18.0, Tolerance(0.023 * kPi / 18.0)) << log.plant;
   }
 }

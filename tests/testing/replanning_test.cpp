@@ -126,8 +126,8 @@ TEST(FollowAndStop, KeepsItsGaps) {
     const double rear = 60.0 + 7.0 * 20.0 - 2.2;
     const double front = row.state.pose.x + vehicle.length - vehicle.rear_overhang;
     EXPECT_NEAR(row.state.speed, 7.0, 0.05);
-    // The car approaches this gap ever more slowly, because motions are replaced before their end.
-    // A station offset of up to 0.5 m remains.
+    // The car approaches this gap more and more slowly, because new motions replace earlier motions
+    // before their end. The plan may end behind this gap by a station offset of up to 0.5 m.
     EXPECT_NEAR(rear - front, 4.0 + 1.5 * 7.0, 0.5);
   }
 }
@@ -214,9 +214,9 @@ TEST(EveryPlanner, IsDrivenByEveryController) {
       base.control.steering = controller.defaults;
       const RunResult run = RunScenario(base);
       ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
-      // With steps of curvature, the open loop leaves its path and Stanley's law reacts late (see
-      // the table in docs/algorithms/control.md). These cars stop away from the goal, so their
-      // status must not be `arrived`.
+      // At steps of the curvature, a car in open loop leaves its path, and Stanley's law reacts
+      // late (see the table in docs/algorithms/control.md). These cars stop away from the goal, so
+      // their status must not be `arrived`.
       const bool is_off_after_steps = (std::string(controller.name) == "schedule" ||
                                        std::string(controller.name) == "stanley") &&
                                       planner.has_headings;

@@ -20,7 +20,7 @@ fs::path File(const std::string& name) {
   return fs::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml");
 }
 
-/// The matcher's message for a run that does not match.
+/// Returns the message of the matcher for a run that does not match.
 template <typename Matcher>
 std::string ErrorMessage(const RunResult& run, const Matcher& matcher) {
   testing::StringMatchResultListener listener;

@@ -22,8 +22,8 @@ TEST(SingleTrack, DrivesAPlanLikeTheOthersAtWalkingSpeed) {
   // Turns of radius 29 m cause a lateral acceleration of 0.33 m/s^2. The cornering stiffness of the
   // rear tyres is 20 times their load, so their slip angle is 1.7 mrad. With a preview distance of
   // 2.5 m, this is equivalent to an offset from the path of 4.2 mm. Understeer of K u^2/L = 1.1 %
-  // adds 1.1 % of 2.5^2/(2 x 29) m, which is 1.2 mm. Where turns begin and end, the offset is
-  // larger by half.
+  // adds 1.1 % of 2.5^2/(2 x 29) m to this offset, which is 1.2 mm. At the beginning and the end of
+  // a turn, the offset is larger by half.
   EXPECT_THAT(run, StaysWithin("kinematic", "single_track", Tolerance(0.008)));
   // MuJoCo's servo lags by 10 ms, so the steering angle errs by up to 1.5 mrad. This displaces the
   // car by 1.5 mm. The camber thrust of its tyres has a smaller effect.

@@ -33,8 +33,8 @@ Scenario Scaled(const std::string& name) {
 }
 
 // A chord with the length of the preview distance R = 0.25 m runs up to R^2/(8 r) = 4.6 mm inside
-// an arc of radius r >= 1.7 m. Where arcs begin and end, the car deviates from the path by up to
-// this distance. kParting bounds the effect of the dynamics.
+// an arc of radius r >= 1.7 m. At the beginning and the end of an arc, the car deviates from the
+// path by up to this distance. kParting bounds the additional deviation by the dynamics.
 constexpr double kParting = 0.002;               // [m]
 constexpr double kTracking = 0.0046 + kParting;  // [m]
 
@@ -69,8 +69,8 @@ TEST(SmallCar, StandsStill) {
   scenario.drive.plants = {"mujoco"};
   const RunResult run = RunScenario(scenario);
   ASSERT_EQ(run.logs.size(), 1U);
-  // The hubs' heights are accurate to 10 um, which is 4e-5 rad of pitch over the wheelbase; nothing
-  // else settles.
+  // The heights of the hubs are accurate to 10 um, which is 4e-5 rad of pitch over the wheelbase.
+  // The car has settled in all other respects.
   const LogRow& last = run.logs[0].rows.back();
   EXPECT_NEAR(last.state.pose.x, 0.0, Tolerance(1e-5));
   EXPECT_NEAR(last.state.pose.y, 0.0, Tolerance(1e-5));
@@ -87,8 +87,8 @@ TEST(SmallCar, DrivesThreeTurnsAndStops) {
   const RunResult run = RunScenario(Data("small_three_turns.yaml"));
   EXPECT_THAT(run, TracksWithin(Tolerance(kTracking)));
   EXPECT_THAT(run, StaysWithin("kinematic", "mujoco", Tolerance(kParting)));
-  // The run ends at a speed below 1 cm/s. With the gain of 2 1/s, the remaining position error is
-  // at most 5 mm.
+  // The run ends at a speed below 1 cm/s. With the speed control's gain of 2 1/s, the remaining
+  // position error is at most 5 mm.
   EXPECT_THAT(run, ReachesGoal(Tolerance(0.005)));
 }
 

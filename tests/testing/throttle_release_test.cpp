@@ -79,7 +79,8 @@ TEST(ThrottleRelease, GivesWayToBraking) {
   const RunResult run =
       RunCourse("kinematic", {"plan.release=2", "control.speed.braking={at: 4, deceleration: 6}"});
   EXPECT_NE(run.metrics[0].status, DriveStatus::kTimeLimit);
-  EXPECT_LT(run.metrics[0].time, 7.0);  // 12 m/s at 6 m/s^2 is 2 s after 4 s, and 1 s at rest.
+  // From 4 s on, the car brakes from 12 m/s at 6 m/s^2 for 2 s. It then rests for 1 s.
+  EXPECT_LT(run.metrics[0].time, 7.0);
   EXPECT_FALSE(run.metrics[0].maneuver->passed.value_or(false));
 }
 

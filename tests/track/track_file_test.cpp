@@ -230,8 +230,7 @@ TEST(ReadTrack, ReadsTracksOfTum) {
                              Known{"Spielberg", 864, 4318.0}, Known{"Silverstone", 1178, 5891.0}}) {
     const Track track = ReadTrack(folder / (std::string(known.name) + ".csv"));
     EXPECT_EQ(track.points().size(), known.points) << known.name;
-    // The tolerance is 0.5 % of the length, because each track operator measures along another
-    // line.
+    // The tolerance is 0.5 % of the length, because track operators measure along different lines.
     EXPECT_NEAR(track.length(), known.length, Tolerance(0.005 * known.length)) << known.name;
     EXPECT_LT(track.deviation_max(), 0.5) << known.name;
     EXPECT_LT(track.deviation_rms(), 0.05) << known.name;

@@ -51,8 +51,8 @@ TEST(Track, SmoothsByTheWavelength) {
     const double expected = kRadius * Left(factor, 1.0);
     // The relative error of the reduction has two parts. The fit uses third differences in place of
     // third derivatives, which changes the penalty by the fraction (pi/126)^2 = 6.2e-4. The fit
-    // measures chords in place of arcs, which are shorter by (5/50)^2/24 = 4.2e-4; the sixth power
-    // in the penalty makes this 2.5e-3. The sum is 3.1e-3.
+    // measures chords in place of arcs, which are longer by the fraction (5/50)^2/24 = 4.2e-4. The
+    // sixth power in the penalty multiplies this fraction by six, to 2.5e-3. The sum is 3.1e-3.
     const double taken = kRadius - expected;
     EXPECT_NEAR(track.At(0.25 * track.length()).pose.position().norm(), expected,
                 Tolerance(3.1e-3 * taken + 1e-4))

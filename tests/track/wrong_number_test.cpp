@@ -91,8 +91,8 @@ TEST(TrackOfTum, HasItsEdgesWhereAFartherLookFindsThem) {
 /// The distance between neighboring points exceeds the length by which the internal path continues
 /// past the start line.
 TEST(SparseTrack, IsMade) {
-  // The cutoff wavelength is half of the distance between the points, so a wave over all 16 points
-  // is not smoothed out.
+  // The cutoff wavelength is half of the distance between the points, so smoothing keeps a wave
+  // over all 16 points.
   constexpr double kSmoothing = 4e3;
   const Track track(EllipsePoints(20e3, 20e3, 16, 4.0, 3.0), kSmoothing);
   EXPECT_NEAR(track.length(), 2.0 * kPi * 20e3, 0.01 * track.length());

@@ -86,9 +86,9 @@ TEST(GripModel, LoadSensitiveTyresLoseGripByLoadTransfer) {
   // The friction coefficient of a wheel with the load F is mu = 1 + p (F - F0)/F0, with p = -0.1
   // and the load F0 at rest. An axle with the wheel loads F0 - d and F0 + d transmits 2 F0 - 0.2
   // d^2/F0 if both wheels reach their largest force at the same slip angle. This holds for a
-  // cornering stiffness proportional to mu F. Here the stiffness is proportional to F, so the slip
-  // angles of the largest forces differ by a fraction of 0.2 d/F0. This reduces the force by less
-  // than 1 %.
+  // cornering stiffness proportional to mu F. In this model, the stiffness is proportional to F, so
+  // the slip angles of the largest forces differ by a fraction of 0.2 d/F0. This difference reduces
+  // the force by less than 1 %.
   GripModel car = Car();
   MagicFormula tyre;
   tyre.p_cx1 = 1.6;

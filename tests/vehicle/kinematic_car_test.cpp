@@ -330,7 +330,7 @@ TEST(KinematicCar, CutOfTimeDoesNotMatter) {
 
 TEST(KinematicCar, CutOfTimeDoesNotMatterWhenTheGearChangesTheDirection) {
   // The car rolls backward at 1 m/s in the forward gear while it accelerates forward, so it is at
-  // rest after 1 s. One step of 2 s and two steps of 1 s must agree afterward.
+  // rest after 1 s. After that, one step of 2 s must agree with two steps of 1 s.
   for (const int gear : {1, -1}) {
     const KinematicState start{.speed = -1.0 * gear};
     const Command command{.acceleration = 1.0 * gear, .gear = gear};
@@ -373,9 +373,10 @@ TEST(KinematicCar, NeverRollsAgainstItsGear) {
 // ---------------------------------------------------------------------------------
 
 TEST(FullState, AccelerationsAreThoseOfTheCenterOfGravity) {
-  // Second differences of the center of gravity's position over h = 1 ms, in the car's axes. Their
-  // truncation error is h^2/12 times the fourth derivative, which is below 10 m/s^4 for these
-  // speeds, angles and rates. Their rounding error is 4 * 1e-16 * 5 m/h^2 = 2e-9.
+  // Second differences of the center of gravity's position over h = 1 ms, in the car's axes. The
+  // truncation error of a second difference is h^2/12 times the fourth derivative of the position.
+  // This derivative is below 10 m/s^4 for these speeds, angles and rates. The rounding error of a
+  // second difference is 4 * 1e-16 * 5 m/h^2 = 2e-9 m/s^2.
   constexpr double kH = 1e-3;
   Random random(25);
   for (int i = 0; i < 100; ++i) {

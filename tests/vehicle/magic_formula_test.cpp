@@ -85,7 +85,8 @@ TEST(MagicFormula, SlopesAtZeroAreTheStiffnesses) {
 }
 
 TEST(MagicFormula, PeaksAtTheFrictionOfTheRoad) {
-  // With C > 1 the sine reaches its maximum, so the largest force over all slips is mu F_z.
+  // For C > 1, the sine of the formula reaches its maximum, so the largest force over all slips is
+  // mu F_z.
   const MagicFormula tyre = Plain();
   for (const double road : {0.1, 0.5, 1.0}) {
     double along = 0.0;
@@ -153,8 +154,8 @@ TEST(MagicFormula, CombinedForceStaysOnTheEllipseOrWithinTheLawsSurplus) {
 }
 
 TEST(MagicFormula, UsesTheSameFractionOfTheEllipseOnEveryRoad) {
-  // The slips of the largest use lie between those of the scan. The use is flat there: halving the
-  // steps of the scan changes it by less than 0.002.
+  // The largest friction use may occur between two slips of the scan. Near its maximum, the
+  // friction use changes slowly: halving the steps of the scan changes it by less than 0.002.
   for (const double camber : {-0.1, -0.02, 0.0, 0.05, 0.1}) {
     const double dry = LargestUse(Bmw(), 1.0, camber);
     for (const double road : {0.05, 0.1, 0.3, 0.6}) {
@@ -239,8 +240,8 @@ TEST(MagicFormula, LoadSensitivityIsPacejkas) {
   // Load transfer between the wheels of an axle reduces the cornering stiffness of the axle.
   EXPECT_LT(CorneringStiffness(tyre, 2000.0) + CorneringStiffness(tyre, 4000.0),
             2.0 * CorneringStiffness(tyre, 3000.0));
-  // The friction coefficient changes by p_dy2 times the relative change of the load. Here p_dy2 is
-  // negative, so the coefficient falls with the load.
+  // The friction coefficient changes by p_dy2 times the relative change of the load. In these
+  // tyres, p_dy2 is negative, so the coefficient falls with the load.
   double heaviest = 0.0;
   for (int i = 0; i < 10000; ++i) {
     heaviest =

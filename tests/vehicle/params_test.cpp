@@ -71,7 +71,8 @@ TEST(AckermannAngles, KeepTheCotangentRelation) {
     const double steering = 0.01 * i;
     SCOPED_TRACE(steering);
     const FrontAngles front = AckermannAngles(car, steering);
-    // A cotangent of up to 100 amplifies an angle's rounding by 1/sin^2 = 1e4.
+    // The rounding error of an angle changes a cotangent of up to 100 by 1/sin^2 = 1e4 times as
+    // much.
     const double tolerance = Tolerance(1e-16 / std::pow(std::sin(steering), 2) * 10.0);
     EXPECT_NEAR(Cot(front.right) - Cot(front.left), 1.505 / 2.7, tolerance);
     EXPECT_NEAR(0.5 * (Cot(front.right) + Cot(front.left)), Cot(steering), tolerance);
@@ -108,8 +109,8 @@ TEST(BicycleAngle, InvertsAckermannAngles) {
 
 TEST(BicycleAngle, ReadsToeAsNearlyNothing) {
   // With a toe angle of +-epsilon, the bicycle angle of each wheel is +-epsilon (1 -+ k epsilon).
-  // The mean is at most k epsilon^2, with k = track/(2 L) = 0.279. The mean of cotangents would
-  // give 90 deg.
+  // The mean of both angles is at most k epsilon^2, with k = track/(2 L) = 0.279. The mean of the
+  // cotangents would give an angle of 90 degrees.
   const VehicleParams car = ReferenceCar();
   for (const double toe : {1e-6, -1e-6, 1e-3, -1e-3, 0.02}) {
     SCOPED_TRACE(toe);
@@ -125,7 +126,8 @@ TEST(BicycleAngle, IsTheMeanOfSmallAngles) {
     const double left = random.Uniform(-1e-4, 1e-4);
     const double right = random.Uniform(-1e-4, 1e-4);
     SCOPED_TRACE(fmt::format("left {}, right {}", left, right));
-    // The mean is exact to first order; the second-order term is k epsilon^2 with k = 0.28.
+    // The mean is exact to first order in epsilon; the term of second order is k epsilon^2, with k
+    // = 0.28.
     EXPECT_NEAR(BicycleAngle(car, {left, right}), 0.5 * (left + right), Tolerance(0.28e-8));
   }
 }

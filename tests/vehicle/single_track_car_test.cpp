@@ -108,7 +108,7 @@ TEST(SingleTrackCar, SteadyStateIsTheClosedForm) {
       SCOPED_TRACE(fmt::format("K {}, speed {}", gradient, speed));
       const double stretched = car.wheelbase + gradient * speed * std::abs(speed);
       if (stretched < 0.3 * car.wheelbase) {
-        continue;  // unstable, or too near the stability limit to settle
+        continue;  // the car is unstable, or too near the stability limit to settle
       }
       const double steering = 0.1;
       SingleTrackCar rolling = Rolling({.speed = speed, .steering = steering}, car);
@@ -293,8 +293,8 @@ TEST(SingleTrackCar, StopsStandsAndBacksUp) {
       // angle takes effect with a delay of m u/C = 30 ms.
       const double rate = kinematic.FullState().yaw_rate;
       ASSERT_NEAR(car.state().yaw_rate, rate, Tolerance(0.02 * std::abs(rate) + 0.004));
-      // The car turns by 0.46 rad over 4 m. 1 % of this angle displaces the car by 0.0046 rad * 4 m
-      // = 18 mm. The way back adds another 18 mm.
+      // 1 % of this angle displaces the car by 0.0046 rad * 4 m = 18 mm on its way. The way back
+      // displaces the car by another 18 mm.
       ASSERT_LT(Distance(car.state().pose, kinematic.state().pose), Tolerance(0.037));
     }
   };
@@ -354,7 +354,8 @@ TEST(SingleTrackCar, MirrorsAndTurnsWithItsStart) {
     const Pose2 start{3.0, -4.0, yaw};
     SingleTrackState expected = left;
     expected.pose = Compose(start, left.pose);
-    ExpectSame(driven(start, 1.0), expected, 1e-12);  // 50 m, two thousand roundings
+    // The tolerance covers two thousand roundings of positions up to 50 m.
+    ExpectSame(driven(start, 1.0), expected, 1e-12);
   }
 }
 
@@ -362,9 +363,9 @@ TEST(SingleTrackCar, MirrorsAndTurnsWithItsStart) {
 
 TEST(SingleTrackCar, AccelerationsAreThoseOfTheCenterOfGravity) {
   // Compares accelerations with second differences of the center of gravity's position over h = 1
-  // ms. Their truncation error is h^2/12 times the fourth derivative of the position. 0.1 s after
-  // the start of a steering ramp, this derivative is C_f omega/m = 8 m/s^3 divided by the tyres'
-  // time constant of 10 ms: 800 m/s^4.
+  // ms. The truncation error of a second difference is h^2/12 times the fourth derivative of the
+  // position. 0.1 s after the start of a steering ramp, this derivative is C_f omega/m = 8 m/s^3
+  // divided by the tyres' time constant of 10 ms, which is 800 m/s^4.
   constexpr double kH = 1e-3;
   Random random(33);
   for (int i = 0; i < 50; ++i) {

@@ -102,8 +102,8 @@ TEST(SteadyTurn, SteersFasterWithTyresNearTheirLimit) {
 }
 
 TEST(SteadyTurn, HasTheRateOfItsAngle) {
-  // Central differences over 2 x 1e-4 s have a relative error of order (1e-4 s/T)^2, where T is the
-  // time in which the motion changes, above 0.1 s: 1e-6. The tolerance adds rounding errors of
+  // Central differences over 2 x 1e-4 s have a relative error of about (1e-4 s/T)^2 = 1e-6, because
+  // the motion changes over a time T above 0.1 s. The tolerance also covers rounding errors of
   // 1e-16/1e-4.
   const VehicleParams car = BrushCar();
   std::mt19937 random(52);

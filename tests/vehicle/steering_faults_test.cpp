@@ -46,7 +46,8 @@ TEST(FaultySteering, TurnsByItsFactor) {
 
 TEST(FaultySteering, ShiftsByTheDelay) {
   const std::vector<double> wanted = Wander(200);
-  // 33 ms are 16.5 timesteps, rounded away from zero; 0.4 ms are less than half a timestep.
+  // 33 ms are 16.5 timesteps, which are rounded up to 17. 0.4 ms are less than half a timestep,
+  // which are rounded to 0.
   const std::vector<std::pair<double, std::size_t>> cases{{0.1, 50}, {0.033, 17}, {0.0004, 0}};
   for (const auto& [delay, steps] : cases) {
     const std::vector<double> given = PassAll({.delay = delay}, wanted, 0.25);
@@ -98,7 +99,8 @@ TEST(FaultySteering, RefusesFaultsAndAnglesThatAreNoNumbers) {
 }
 
 TEST(FaultySteering, TakesItsFaultsInOrder) {
-  // The play is that of the road wheels, so it acts after the factor, and last of all faults.
+  // The backlash is that of the road wheels, so it acts on the angle after all other faults, such
+  // as the factor.
   const std::vector<double> wanted{0.1, 0.1, 0.0, 0.0};
   const std::vector<double> given =
       PassAll({.factor = 2.0, .delay = 0.002, .backlash = 0.1}, wanted);

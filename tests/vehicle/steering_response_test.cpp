@@ -135,8 +135,8 @@ TEST(SteeringFilter, IsBehindARampByItsDelay) {
     ramp.push_back(kRate * kTimestep * i);
   }
   // A ramp that is held over each timestep is late by half a timestep on average. The output of the
-  // filter is the angle at the end of the timestep. Of the initial transient, a fraction of
-  // exp(-1.87/0.08) remains.
+  // filter is the angle at the end of the timestep. After 1.87 s, a fraction of exp(-1.87/0.08) of
+  // the initial transient remains.
   const double held = kTimestep / 2.0;
   const double expected = ramp.back() + kRate * (kTimestep - held - response.delay());
   // The lag of a held ramp differs from the exact one by T^2/(12 tau).

@@ -85,7 +85,7 @@ TEST(SteeringSchedule, TurnsStartFromTheNeutralAngleAndReturnToIt) {
 }
 
 TEST(SteeringSchedule, TurnTakesOverFromAReturn) {
-  // An S-bend with touching tangents: the second turn starts where the first one returns.
+  // In this S-bend, the second turn starts at the station at which the first turn returns.
   const SteeringSchedule schedule({{10.0, 30.0, 0.1}, {30.0, 50.0, -0.1}}, kSlope);
   const double ramp = 0.1 / kSlope;
   EXPECT_NEAR(schedule.At(30.0), 0.1, Tolerance(kRounding));
@@ -151,8 +151,8 @@ TEST(SteeringSchedule, IsTheStateMachineAndKeepsTheSlope) {
     EXPECT_EQ(knots.back().steering, 0.0);
     for (int j = 0; j < 10; ++j) {
       const double distance = random.Uniform(0.0, 110.0);
-      // StateMachine detects each of at most ten switches up to half a step early or late, with the
-      // step h = 110/20000 m. The target may change sign, so each switch causes an error of up to 2
+      // StateMachine detects each of at most ten switches up to half a step early or late. Its step
+      // is h = 110/20000 m. The target may change sign, so each switch causes an error of up to 2
       // * slope * h/2. The tolerance is 10 * h * slope.
       EXPECT_NEAR(schedule.At(distance), StateMachine(turns, kSlope, distance, 20000),
                   Tolerance(10.0 * 110.0 / 20000.0 * kSlope));
@@ -181,9 +181,9 @@ TEST(SteeringDistance, HasThePrintedTable) {
 }
 
 TEST(SteeringDistance, FitsIntoTheArcFromThePrintedRadiusOn) {
-  // The ramp fits into the arc for radii from these values on; `spare` changes its sign within the
-  // last digit. The published radius for 120 degrees is 4.841, because the author rounds 4.84045
-  // up.
+  // From these radii on, the steering ramp fits into the arc: `spare` changes its sign within the
+  // last digit of the radius. The published radius for 120 degrees is 4.841, because the author
+  // rounds 4.84045 up.
   const std::vector<std::pair<double, double>> table{
       {30.0, 10.018}, {45.0, 8.132}, {60.0, 7.002}, {90.0, 5.652}, {120.0, 4.840}};
   for (const auto& [degrees, radius] : table) {
@@ -223,9 +223,9 @@ TEST(TurnHeadingDefect, HasThePrintedValues) {
 }
 
 TEST(TurnHeadingDefect, IsOfFourthOrder) {
-  // The series of the defect is -2 ln cos d - d tan d = -d^4/6 - 4 d^6/45 - .... Below 0.1 rad, the
-  // second term is at most 0.54 % of the first term, and the third term is ten times smaller than
-  // the second.
+  // The heading defect has the series -2 ln cos d - d tan d = -d^4/6 - 4 d^6/45 - .... For the
+  // steering angle d below 0.1 rad, the second term of this series is at most 0.54 % of the first
+  // term, and the third term is ten times smaller than the second.
   const double scale = kSpeed / (2.7 * ReferenceCar().steering_rate);
   for (const double steering : {0.02, 0.05, 0.1}) {
     const double first = -scale * std::pow(steering, 4) / 6.0;
@@ -289,7 +289,7 @@ TEST(RollOut, TruncatedTurnTurnsSeventyDegrees) {
 TEST(RollOut, DrivesTheDistance) {
   const SteeringSchedule schedule({{1.0, 7.3, 0.3}}, kSlope);
   const KinematicState end = RollOut(ReferenceCar(), Start(), schedule, 23.7, 0.11);
-  EXPECT_NEAR(end.distance, 23.7, Tolerance(1e-12));  // 220 sums of rounding 2e-15
+  EXPECT_NEAR(end.distance, 23.7, Tolerance(1e-12));  // 220 sums, each rounded by 2e-15
   EXPECT_EQ(end.speed, kSpeed);
 }
 

@@ -82,8 +82,9 @@ TEST(TyreFile, HasTheOtherNumbersInSiUnits) {
   EXPECT_NEAR(*newton.vertical_damping, 60.0, Tolerance(1e-9));
   EXPECT_EQ(newton.tyre.rolling_resistance, 0.011);
   EXPECT_EQ(newton.tyre.camber_max, 0.15);
-  // sigma_kappa = p_tx1 R lambda_Fz0 lambda_sigma at the nominal load, and sigma_alpha = p_ty1
-  // sin(2 atan(1/p_ty2)) R lambda_Fz0 lambda_sigma with sin(2 atan(1/2)) = 4/5.
+  // The file's parameters give sigma_kappa = p_tx1 R lambda_Fz0 lambda_sigma at the nominal load,
+  // and sigma_alpha = p_ty1 sin(2 atan(1/p_ty2)) R lambda_Fz0 lambda_sigma, with sin(2 atan(1/2)) =
+  // 4/5.
   EXPECT_NEAR(newton.tyre.relaxation_length_x, 2.1 * 0.31 * 0.95 * 1.1, Tolerance(1e-12));
   EXPECT_NEAR(newton.tyre.relaxation_length, 2.2 * 0.8 * 0.31 * 0.95 * 0.9, Tolerance(1e-12));
   // Forces in kilonewtons.
@@ -140,12 +141,12 @@ TEST(TyreFile, ReadsWhatOtherProgramsWrite) {
     returns += c == '\n' ? "\r\n" : std::string(1, c);
   }
   EXPECT_EQ(ParseTyreFile("\xEF\xBB\xBF" + returns, "x.tir").tyre.p_ky1, plain.p_ky1);
-  // A comment without its $, an empty value, a table whose header is a comment.
+  // Files may contain a comment without a $, an empty value, or a table whose header is a comment.
   EXPECT_EQ(ParseWith("mf52.tir", "PCY1 = 1.31", "pcy1 =+1.31 shape factor").tyre.p_cy1,
             plain.p_cy1);
   EXPECT_EQ(ParseWith("mf52.tir", "PHX1 = -0.0009", "PHX1 =   $ none").tyre.p_hx1, 0.0);
   EXPECT_EQ(ParseWith("mf52.tir", "{radial width}", "! radial width").tyre.p_cy1, plain.p_cy1);
-  // Both signs reversed, as some fits have it.
+  // Some fits reverse the signs of both parameters.
   std::string reversed = TextWith("mf52.tir", "PKY1 = -19.2", "PKY1 = 19.2");
   reversed.replace(reversed.find("PKY2 = 1.75"), 11, "PKY2 = -1.75");
   EXPECT_EQ(ParseTyreFile(reversed, "x.tir").tyre.p_ky1, plain.p_ky1);

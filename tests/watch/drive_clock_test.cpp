@@ -67,7 +67,7 @@ TEST(Pace, ChangesItsSpeedWithoutAJump) {
 
 TEST(Pace, DoesNotMakeUpForTimeThatASlowSimulationLost) {
   Pace pace(1.0, false);
-  pace.KeepUp(5.0, 5.05);  // the 50 ms of delay are caught up
+  pace.KeepUp(5.0, 5.05);  // the clock catches up the delay of 50 ms
   EXPECT_EQ(pace.AllowedAt(6.0), 6.0);
   pace.KeepUp(5.0, 8.0);
   EXPECT_EQ(pace.AllowedAt(8.0), 5.0);

@@ -179,7 +179,7 @@ TEST(Watch, ShowsTwoPagesTheSameAndObeysBoth) {
   EXPECT_EQ(second.HearOf("state").at("speed"), 7.0);
   second.Say(R"({"do":"speed","speed":"max"})");
   second.Say(R"({"do":"resume"})");
-  while (first.HearOf("state").at("speed") != "max") {  // the server may report the speed 7 first
+  while (first.HearOf("state").at("speed") != "max") {  // the server may first report the speed 7
   }
   const std::vector<Page>& one = first.HearAll();
   const std::vector<Page>& other = second.HearAll();

@@ -85,8 +85,9 @@ TEST(ObstacleMotion, IsTheMotionOfAConstantVelocity) {
 
 TEST(ObstacleMotion, IsWithinTheBoundOfTheClosestApproach) {
   // Compares ApproachBetween with the smallest clearance of 2001 samples in time, between which the
-  // car and the fastest corner of a box move by at most 2 cm. The smallest clearance of all times
-  // is at most that much below the samples', and ApproachBetween at most 5 mm or 1 % above it.
+  // car and the fastest corner of a box move by at most 2 cm. The true smallest clearance is at
+  // most 2 cm below the smallest sample, and the result of ApproachBetween is at most 5 mm or 1 %
+  // above the true smallest clearance.
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int i = 0; i < 100; ++i) {

@@ -98,7 +98,7 @@ TEST(Terrain, HasTheSlopeOfItsHeight) {
         (terrain.At(p + Vec2(kStep, 0)).height - terrain.At(p - Vec2(kStep, 0)).height),
         (terrain.At(p + Vec2(0, kStep)).height - terrain.At(p - Vec2(0, kStep)).height));
     // At the border between two cells, the second derivative jumps by at most 5 1/m. Half of this
-    // jump times kStep is an error of 2.5e-5 in the slope.
+    // jump times kStep is an error of 2.5e-5 in the slope of a central difference.
     EXPECT_NEAR((terrain.At(p).slope - slope / (2.0 * kStep)).norm(), 0.0, Tolerance(5e-5));
   }
 }
