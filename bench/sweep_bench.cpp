@@ -9,7 +9,7 @@
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
-#include "trackbed/scenario/study.h"
+#include "trackbed/scenario/study_reader.h"
 
 namespace trackbed::bench {
 namespace {

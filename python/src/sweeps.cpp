@@ -18,6 +18,7 @@
 #include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/scenario/scenario_files.h"
+#include "trackbed/scenario/study_reader.h"
 
 // Runs studies on separate threads, while Python waits and shows the finished rows. The rows are
 // the same as those of RunRows.

@@ -11,6 +11,7 @@
 #include "trackbed/core/hash.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/input_files.h"
+#include "trackbed/scenario/study_check.h"
 #include "trackbed/sim/scene.h"
 
 namespace trackbed {

@@ -11,6 +11,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/falsify/falsify.h"
 #include "trackbed/identify/identify.h"
+#include "trackbed/scenario/study_reader.h"
 
 namespace trackbed::cli {
 

@@ -4,6 +4,7 @@
 
 #include "trackbed/analysis/metrics.h"
 #include "trackbed/analysis/run.h"
+#include "trackbed/scenario/study_reader.h"
 
 namespace trackbed::cli {
 

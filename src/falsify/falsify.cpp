@@ -11,6 +11,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/stopwatch.h"
 #include "trackbed/core/text_table.h"
+#include "trackbed/scenario/study_points.h"
 
 // Searches a study for a point at which the run violates an expectation. Falsification first runs
 // the nominal point. After the nominal point, a search (point_search.cpp) proposes batches of

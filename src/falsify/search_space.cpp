@@ -9,6 +9,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
+#include "trackbed/scenario/study_points.h"
 
 namespace trackbed {
 namespace {

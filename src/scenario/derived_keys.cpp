@@ -1,3 +1,5 @@
+#include "src/scenario/derived_keys.h"
+
 #include <fmt/format.h>
 #include <muParser.h>
 

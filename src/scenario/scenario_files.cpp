@@ -12,7 +12,7 @@
 #include "trackbed/scenario/identification.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/record.h"
-#include "trackbed/scenario/study.h"
+#include "trackbed/scenario/study_reader.h"
 #include "trackbed/sim/scene.h"
 
 namespace trackbed {

@@ -1,6 +1,9 @@
+#include "trackbed/scenario/study_reader.h"
+
 #include <algorithm>
 #include <sstream>
 
+#include "src/scenario/derived_keys.h"
 #include "src/scenario/study_settings.h"
 #include "src/scenario/study_visit.h"
 #include "src/scenario/variation_reader.h"
@@ -8,7 +11,6 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
-#include "trackbed/scenario/study.h"
 
 // Reads a study file. The reader visits the keys of the study (study_visit.h); callbacks read the
 // sections whose keys are keys of a scenario (variation_reader.cpp). Finally, the reader checks

@@ -12,6 +12,9 @@ namespace trackbed {
 /// completely.
 bool Replaces(const std::string& later, const std::string& earlier);
 
+/// Returns the key of an override "key=value".
+std::string OverrideKey(const Override& override_text);
+
 /// Returns all settings of a run at a grid point, in the order in which the settings are applied.
 std::vector<Setting> AllSettings(const Study& study, const std::vector<Setting>& point,
                                  std::optional<double> bisected);
@@ -19,17 +22,11 @@ std::vector<Setting> AllSettings(const Study& study, const std::vector<Setting>&
 /// Parses a YAML value as a number; returns none if the value is not a number.
 std::optional<double> NumberOf(const std::string& value);
 
-/// Evaluates the study's formulas at a point with these settings and appends the results to the
-/// settings. If a result is not finite, AddDerived throws InputError with the position of the
-/// formula.
-void AddDerived(const Study& study, std::vector<Setting>& settings);
-
-/// Checks the formulas of a study. If a formula is invalid or uses a key that the study does not
-/// set, CheckFormulas throws InputError with the position of the formula.
-void CheckFormulas(const Study& study);
-
 /// Returns settings of all keys whose values differ between runs, with at least one setting for
 /// each of these keys.
 std::vector<Setting> Varied(const Study& study);
+
+/// Returns a setting of the varied key to `value`, at the position of the key in the study's file.
+Setting SettingOf(const Variation& variation, std::string value);
 
 }  // namespace trackbed

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "trackbed/analysis/metrics.h"
+#include "trackbed/scenario/study_reader.h"
 
 namespace trackbed {
 namespace {

@@ -11,6 +11,7 @@
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/scenario/study_reader.h"
 
 /// Tests the checks of a study before it runs, and the execution of a single run.
 namespace trackbed {

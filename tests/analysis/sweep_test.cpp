@@ -13,6 +13,7 @@
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/scenario/study_check.h"
 
 namespace trackbed {
 namespace {

@@ -12,6 +12,7 @@
 #include "trackbed/analysis/sweep_rows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/falsify/counterexample.h"
+#include "trackbed/scenario/study_reader.h"
 
 namespace trackbed {
 namespace {

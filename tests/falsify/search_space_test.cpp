@@ -11,6 +11,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/falsify/falsify.h"
+#include "trackbed/scenario/study_reader.h"
 
 namespace trackbed {
 namespace {

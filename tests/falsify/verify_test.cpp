@@ -9,6 +9,8 @@
 #include "tests/support/temp_folder.h"
 #include "trackbed/analysis/metrics.h"
 #include "trackbed/core/error.h"
+#include "trackbed/scenario/study_points.h"
+#include "trackbed/scenario/study_reader.h"
 
 namespace trackbed {
 namespace {

@@ -7,7 +7,7 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/report/report.h"
-#include "trackbed/scenario/study.h"
+#include "trackbed/scenario/study_reader.h"
 
 namespace trackbed {
 namespace {

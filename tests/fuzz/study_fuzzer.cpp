@@ -1,7 +1,8 @@
 #include <algorithm>
 
 #include "tests/fuzz/target.h"
-#include "trackbed/scenario/study.h"
+#include "trackbed/scenario/study_points.h"
+#include "trackbed/scenario/study_reader.h"
 
 /// Fuzzes a study of a valid scenario.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -10,7 +10,8 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/scenario/scenario.h"
-#include "trackbed/scenario/study.h"
+#include "trackbed/scenario/study_check.h"
+#include "trackbed/scenario/study_reader.h"
 #include "trackbed/sim/car_model.h"
 
 /// Every tests/data/bad/SECTION/NAME.yaml has one fault, and NAME.expected holds the exact message.

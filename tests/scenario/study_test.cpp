@@ -1,5 +1,3 @@
-#include "trackbed/scenario/study.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,8 @@
 #include "trackbed/control/preview.h"
 #include "trackbed/core/error.h"
 #include "trackbed/scenario/keys.h"
+#include "trackbed/scenario/study_check.h"
+#include "trackbed/scenario/study_reader.h"
 
 namespace trackbed {
 namespace {

@@ -13,7 +13,7 @@
 #include "trackbed/analysis/run.h"
 #include "trackbed/analysis/sweep_records.h"
 #include "trackbed/core/text_table.h"
-#include "trackbed/scenario/study.h"
+#include "trackbed/scenario/study_points.h"
 
 /// Runs a study and writes its results to one table.
 namespace trackbed {

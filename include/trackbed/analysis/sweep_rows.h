@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "trackbed/analysis/sweep.h"
-#include "trackbed/scenario/study.h"
+#include "trackbed/scenario/study_points.h"
 
 namespace trackbed {
 

@@ -6,6 +6,7 @@
 
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/falsify/sequential_test.h"
+#include "trackbed/scenario/study_points.h"
 
 /// Simulates sampled points of a study until a claim about the fraction of passing runs is decided.
 namespace trackbed {
