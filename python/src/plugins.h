@@ -43,8 +43,8 @@ class PluginError : public MethodError {
   Kept cause_;
 };
 
-/// An exception of a plug-in that no code should handle, such as KeyboardInterrupt. It ends a
-/// study, and is raised unchanged in Python.
+/// An exception of a plug-in that no code should handle, such as KeyboardInterrupt. The
+/// exception ends a study, and is raised unchanged in Python.
 class PluginInterrupt : public RunError {
  public:
   PluginInterrupt(const std::string& message, Kept cause)

@@ -14,10 +14,11 @@ namespace trackbed {
 /// command takes effect, and calls `inner` with the predicted state (a Smith predictor, Smith
 /// 1957). T_d is the dead time. The prediction has these steps:
 ///   1. A SteeringFilter keeps the commands that are on their way to the actuator.
-///   2. The predicted car starts at the measured state. It is the linear single-track car. It is
-///      the kinematic car if the tyre coefficients are unknown, if the car is slower than 1 m/s, or
-///      as long as no measured state had a lateral speed of the rear axle.
-///   3. The car drives for T_d at constant speed. Its wheels follow the output of the filter plus
+///   2. The predicted car starts at the measured state. The predicted car is the linear
+///      single-track car, or the kinematic car if the tyre coefficients are unknown, if the car is
+///      slower than 1 m/s, or as long as no measured state had a lateral speed of the rear axle.
+///   3. The car drives for T_d at constant speed. The car's wheels follow the output of the filter
+///   plus
 ///      the difference between the measured and the modeled actuator angle at t. Through this
 ///      difference, the feedback corrects errors of the model, for example of the steering ratio.
 /// The predicted state has the wheel angle at t + T_d, and the last wanted angle as the angle of
@@ -26,12 +27,12 @@ namespace trackbed {
 ///
 /// The angle that `inner` returns is converted to a command in these steps:
 ///   1. A dead zone of a quarter of the backlash to both sides of the steady turn on the path.
-///      Without it, the command would cross the play for ever, because errors decay but never
-///      vanish. Reversals below a sixteenth of the backlash are not commanded, because noise would
-///      cross the play, too.
+///      Without the dead zone, the command would cross the play for ever, because errors decay but
+///      never vanish. Reversals below a sixteenth of the backlash are not commanded, because noise
+///      would cross the play, too.
 ///   2. Half of the backlash is added on the side to which the actuator turns.
-///   3. A lead that divides the lag by 3. It amplifies noise by the same factor. Within the play,
-///      the amplification is up to 6.
+///   3. A lead that divides the lag by 3. The lead amplifies noise by the same factor. Within the
+///      play, the amplification is up to 6.
 ///   4. The inverse of the calibration curve.
 /// The vehicle that `inner` receives has a third of the lag as SteeringResponse::time_constant, and
 /// no dead time, backlash or curve.

@@ -102,8 +102,8 @@ class OutcomeExpectations {
     return true;
   }
 
-  /// Expects an oscillation of at least half the amplitude. Its limit is 0, which every amplitude
-  /// reaches.
+  /// Expects an oscillation of at least half of the found amplitude. The scenario's limit cannot
+  /// serve as the bound, because this limit is 0, which every amplitude reaches.
   bool AddOscillation(const Check& check) {
     const double* amplitude = std::get_if<double>(&check.value);
     if (amplitude == nullptr) {

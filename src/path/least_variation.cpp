@@ -83,7 +83,8 @@ class Newton {
   std::vector<Change> changes_;
 };
 
-/// Sets the slides: to the foot of the point at a node with a point, and linear in between.
+/// Computes the slide of each node. A node with a given point moves to the foot of this point on
+/// the curve; between these nodes, the slides are interpolated linearly.
 void Newton::Slide() {
   const std::size_t count = nodes_.size();
   slides_.assign(count, 0.0);
@@ -199,7 +200,8 @@ double Newton::Iterate() {
     }
   }
   AddBound(cost, count - 1);
-  // Where the points leave the constant open, as three points do, it stays as it is.
+  // If the points do not determine the constant, as with three points, the constant stays
+  // unchanged.
   double length = 0.0;
   for (std::size_t i = 1; i < count; ++i) {
     length += nodes_[i].length;

@@ -9,9 +9,10 @@
 #include "trackbed/geometry/pose.h"
 
 // Divides points into legs of one direction of motion. Each step between two different points has a
-// progress: the distance by which the car moves forwards, negative in reverse. It follows from the
-// signs of the direction of motion at both points or, where these are missing or differ, from the
-// headings. Dynamic programming (Viterbi) finds the directions that maximize the sum of
+// progress: the distance by which the car moves forwards, negative in reverse. The sign of
+// the progress follows from the signs of the direction of motion at both points or, where these are
+// missing or differ, from the headings. Dynamic programming (Viterbi) finds the directions that
+// maximize the sum of
 //     direction * progress
 // over all steps, minus a penalty for each change of direction, plus a bonus for changes of
 // direction at points where the steps turn back. The penalty makes the legs robust to noise: while
@@ -55,8 +56,8 @@ double ProgressOf(const PathPoints& given, std::size_t from, std::size_t to) {
 /// Returns the direction of each step.
 std::vector<int> DirectionsOf(const PathPoints& given, const std::vector<Place>& places,
                               const std::vector<double>& progress, double noise) {
-  // Share of the shorter step by which turning back speaks for a change of direction. It is below
-  // 1, because directions and headings are better evidence.
+  // Share of the shorter step by which turning back speaks for a change of direction. The
+  // share is below 1, because directions and headings are better evidence.
   constexpr double kTurnShare = 0.5;
   constexpr std::array<int, 2> kDirections{1, -1};
   const auto at = [&](std::size_t place) { return given.points[places[place].first]; };

@@ -182,8 +182,8 @@ std::vector<State> ReadStates(const XMLElement& obstacle, const CommonRoadClock&
   return states;
 }
 
-/// Reads an obstacle that is given by the places that it occupies over time. Its size is the
-/// largest of these places.
+/// Reads an obstacle that is given by the places that it occupies over time. The obstacle has the
+/// size of the largest place.
 std::optional<CommonRoadObstacle> ReadOccupancies(const XMLElement& set,
                                                   const CommonRoadClock& clock,
                                                   const CommonRoadReading& reading) {

@@ -362,7 +362,8 @@ CommonRoadScenario ReadCommonRoadScenario(const std::filesystem::path& file,
       ReadCommonRoadObstacles(root, {timestep, problem.start_step}, reading, scenario.notes);
   const int line = root.FirstChildElement("planningProblem")->GetLineNum();
   const std::vector<LaneletLane> lanes = LanesOf(problem, lanelets, reading, line);
-  // The path must be long enough for the speed, which depends on the path.
+  // Compute path and speed twice: the length of the path depends on the speed, and the speed
+  // depends on the path.
   scenario.speed = std::max(problem.speed, kMinSpeed);
   for (int pass = 0; pass < 2; ++pass) {
     const double speed = std::max(scenario.speed, problem.speed);

@@ -87,7 +87,7 @@ enum class DirectionColumn {
 };
 
 /// Returns the direction of motion in a cell: 1, -1 or, if the car stands, 0. Returns nullopt if
-/// the cell is no direction.
+/// the cell does not contain a direction.
 std::optional<int> DirectionIn(const std::string& cell, DirectionColumn column);
 
 /// Converts speeds that are negative in reverse to directions of motion and speeds of at least 0.

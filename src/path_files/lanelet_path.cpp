@@ -77,8 +77,8 @@ CenterLine CenterOf(const LaneletLane& lane) {
   return CenterLine(points);
 }
 
-/// Appends the centers of the straightest successors, then a straight line, until the line is
-/// `beyond` longer.
+/// Makes a line longer by `beyond` [m]. Appends the centers of the straightest successors, and then
+/// a straight line if there are no more successors.
 void Extend(CenterLine& line, const Lanelets& lanelets, const Lanelet& last, double beyond) {
   const double end = line.length() + beyond;
   const Lanelet* at = &last;

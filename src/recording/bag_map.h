@@ -9,8 +9,8 @@ namespace trackbed {
 
 /// The map of a bag, divided for its topics.
 struct BagMap {
-  /// The map with the names of fields instead of columns. LogColumn::file is the topic of a column
-  /// in another topic than the position's.
+  /// The map with the names of fields instead of columns. If the topic of a column differs from the
+  /// topic of the position, LogColumn::file is the topic of the column.
   LogMap map;
   std::string topic;  ///< Topic of the position and of the orientation.
 };

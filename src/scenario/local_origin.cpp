@@ -27,8 +27,8 @@
 // Moves a scenario to its local origin. The function Visit of a scenario declares which keys are
 // coordinates (map_range.h), so every such key is found (place_visitor.h). The other places are in
 // the contents of files: record, track, map, road network, and path. The origin is the middle of
-// the box around all places. It consists of whole meters: a coordinate of the file minus
-// the origin, plus the origin, is the same number again, to the last bit.
+// the box around all places. The coordinates of the origin are whole meters, so that
+// a coordinate of the file minus the origin, plus the origin, is the same number to the last bit.
 namespace trackbed {
 namespace {
 
@@ -64,7 +64,7 @@ struct Bounds2 {
     }
     return distance;
   }
-  /// Returns whether a coordinate exceeds the reach of an origin at (0, 0).
+  /// Returns whether a coordinate of the bounds exceeds kOriginReach.
   [[nodiscard]] bool IsFar() const {
     return low.minCoeff() < -kOriginReach || high.maxCoeff() > kOriginReach;
   }

@@ -14,8 +14,8 @@
 // Finds the limits of a vehicle in its compiled model.
 //   Steering: the range of a joint that both front wheels follow is the bicycle angle. Otherwise
 //   the ranges of the front wheels are Ackermann angles, cot inner = cot bicycle - track/(2 L).
-//   Drive: actuators with a moment about a wheel's joint. Their torque is limited by forcerange, by
-//   ctrlrange times the gain, and by the friction of the tyres.
+//   Drive: actuators with a moment about a wheel's joint. The torque of an actuator is limited by
+//   forcerange, by ctrlrange times the gain, and by the friction of the tyres.
 namespace trackbed::adapt {
 namespace {
 

@@ -224,7 +224,7 @@ PartMasses SplitMasses(const FoundModel& found, const FoundVehicle& vehicle, boo
     SplitWheel(found, vehicle, w, is_car && (w < 2 || has_springs), parts, findings);
   }
   if (is_car) {
-    // A scaled copy of the chassis, so that both remain bodies that can exist.
+    // The rack becomes a scaled copy of the chassis, so that the inertias of both stay physical.
     parts.rack = Scaled(parts.chassis, kRackShare);
     parts.chassis = Scaled(parts.chassis, 1.0 - kRackShare);
   }

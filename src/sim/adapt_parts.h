@@ -22,7 +22,7 @@ struct PartMasses {
 PartMasses SplitMasses(const FoundModel& found, const FoundVehicle& vehicle, bool has_springs,
                        Findings& findings);
 
-/// The box around the vehicle, in the vehicle frame V. It is symmetric about y = 0.
+/// The box around the vehicle, in the vehicle frame V, symmetric about y = 0.
 struct Footprint {
   double rear = 0.0;   ///< Smallest x [m].
   double front = 0.0;  ///< Largest x [m].

@@ -52,8 +52,8 @@ class Relaxation {
 /// Consider a mass on a spring with damping tau, integrated with timestep dt, and let W = omega dt.
 /// The eigenvalues of a step solve
 ///   l^2 - (2 - W^2 - W omega tau) l + 1 - W omega tau = 0.
-/// With omega tau = 2 - W, both eigenvalues of a step are 1 - W. For W > 1, the value omega tau =
-/// 1/W is used, which yields the eigenvalues 0 and 1 - W^2.
+/// With omega tau = 2 - W, both eigenvalues are 1 - W. For W > 1, tau is chosen such that omega tau
+/// = 1/W, which yields the eigenvalues 0 and 1 - W^2.
 double Damping(double omega, double timestep) {
   const double step = omega * timestep;
   return (step < 1.0 ? 2.0 - step : 1.0 / step) / omega;

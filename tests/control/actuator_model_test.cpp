@@ -288,12 +288,13 @@ SampledLoop SampledLoopOf(const VehicleParams& car, const LqrOptions& options, d
   a(0, 0) = 1.0;
   a(0, 1) = way;
   a(1, 1) = 1.0;
-  a(0, kStates - 2) = 0.5 * way * turn;  // c_(k-n) acts in this period
+  a(0, kStates - 2) = 0.5 * way * turn;  // the command c_(k-n) acts in this period
   a(1, kStates - 2) = turn;
   a(2, 0) = -kPeriod * k[0];
   a(2, 1) = -kPeriod * k[1];
   a(2, 2) = 1.0;
-  a(2, kStates - 1) = -kPeriod * (k[2] + k[3]);  // the measured angle is c_(k-1-n)
+  a(2, kStates - 1) =
+      -kPeriod * (k[2] + k[3]);  // the measured steering angle is the command c_(k-1-n)
   for (int i = 3; i < kStates; ++i) {
     a(i, i - 1) = 1.0;
   }

@@ -396,7 +396,8 @@ TEST(OptimalSteering, SolvesTheLinearProblemOfAStraight) {
 TEST(OptimalSteering, KeepsItsOwnLimitAndTheCars) {
   const OptimalSteeringOptions narrow{.max_steering = 0.05};
   EXPECT_NEAR(Steer(narrow, Bend(), {10.0, 3.0, 0.0}, 10.0), -0.05, Tolerance(1e-6));
-  // The limit also applies to the path's own steering angle, used within the deviation limit.
+  // Within the deviation limit, the controller uses the steering angle of the path. The steering
+  // limit applies to this angle, too.
   const OptimalSteeringOptions blind{.deviation_limit = 1e3, .max_steering = 0.05};
   EXPECT_EQ(Steer(blind, Bend(), Bend().At(25.0).pose, 25.0), 0.05);
   const OptimalSteeringOptions wide{.horizon = 20.0, .max_steering = 1.4};

@@ -174,8 +174,8 @@ TEST(SequentialTest, EndsSoonFarFromTheClaim) {
 TEST(SequentialTest, CountsManyTrials) {
   const SequentialTest test = After(0.99, 99000, 1000);
   // If the true pass rate equals the claimed rate, neither likelihood ratio becomes high. By
-  // Laplace's method, both likelihood ratios are about sqrt(pi/2 P (1 - P)/n)/(1 - P). Below the
-  // claimed rate, the last factor is P instead of 1 - P.
+  // Laplace's method, both likelihood ratios are about sqrt(pi/2 P (1 - P)/n)/(1 - P). For pass
+  // rates below the claimed rate, the divisor 1 - P is P instead.
   const double width = std::sqrt(std::acos(-1.0) / 2.0 * 0.99 * 0.01 / 1e5);
   EXPECT_NEAR(std::exp(test.LogAbove()) * 0.01 / width, 1.0, 0.03);
   EXPECT_NEAR(std::exp(test.LogBelow()) * 0.99 / width, 1.0, 0.03);

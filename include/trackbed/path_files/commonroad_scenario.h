@@ -72,15 +72,15 @@ bool IsCommonRoadScenario(const std::string& text);
 
 /// Reads a CommonRoad scenario of version 2017a, 2018b or 2020a.
 ///
-/// The route changes lanes only between adjacent lanelets with the same driving direction. It meets
-/// a lanelet's center, after the start or a lane change, along a quintic polynomial whose lateral
-/// acceleration is at most 1.5 m/s^2 where the road is long enough.
+/// The route changes lanes only between adjacent lanelets with the same driving direction. The
+/// route joins a lanelet's center, after the start or a lane change, along a quintic polynomial
+/// whose lateral acceleration is at most 1.5 m/s^2 where the road is long enough.
 ///
-/// What does not fit is approximated, with a note: discs and polygons become their smallest
-/// enclosing boxes, sets of occupied places become boxes at the middle of their time, states with
-/// intervals the middle of the intervals. Does not read traffic signs, traffic lights, stop lines,
-/// speed limits and environment obstacles. If there are several planning problems or goals, reads
-/// the first.
+/// Properties that Trackbed does not model are approximated, with a note: discs and polygons become
+/// their smallest enclosing boxes, sets of occupied places become boxes at the middle of their
+/// time, states with intervals the middle of the intervals. Does not read traffic signs, traffic
+/// lights, stop lines, speed limits and environment obstacles. If there are several planning
+/// problems or goals, reads the first.
 ///
 /// Throws InputError, with line and element, if the file is not a CommonRoad scenario, a number is
 /// not finite or out of range, there is no planning problem, the start is more than 5 m from every

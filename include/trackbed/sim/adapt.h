@@ -54,9 +54,9 @@ struct AdaptedModel {
 /// support it. The proposed file has the total mass, center of gravity and inertia of the model at
 /// its initial configuration qpos0. Other joints are locked.
 ///
-/// A URDF file is read by MuJoCo. Its meshes must be .stl or .obj files in the folder of the file,
-/// in the ROS package that contains the file, or in AdaptOptions::asset_folders; other meshes are
-/// dropped, with a note.
+/// MuJoCo reads URDF files. The meshes of a URDF file must be .stl or .obj files in the folder of
+/// the file, in the ROS package that contains the file, or in AdaptOptions::asset_folders; other
+/// meshes are dropped, with a note.
 ///
 /// Errors: throws InputError if the file cannot be read or does not compile. Throws InputError,
 /// with a question and the option that answers it, if the model has no vehicle with four wheels or

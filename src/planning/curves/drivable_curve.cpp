@@ -114,11 +114,11 @@ class GentleWord {
 
     [[nodiscard]] bool IsNothing() const { return std::abs(sweep) <= kNoTurn; }
     [[nodiscard]] double Length() const { return IsNothing() ? 0.0 : sweep / curvature; }
-    /// By how much it leads along the straight in the middle.
+    /// Distance from the start to the end of the turn along the straight in the middle [m].
     [[nodiscard]] double Along() const {
       return outside * std::cos(sweep) + (IsNothing() ? 0.0 : std::sin(sweep) / curvature);
     }
-    /// By how much it leads across it: the straight outside, and an arc's 1 - cos.
+    /// Distance from the start to the end of the turn across the straight in the middle [m].
     [[nodiscard]] double Across() const {
       const double half = std::sin(0.5 * sweep);
       return outside * std::sin(sweep) + (IsNothing() ? 0.0 : 2.0 * half * half / curvature);

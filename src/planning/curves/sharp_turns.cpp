@@ -44,7 +44,7 @@ class SharpEnd {
     const double turned = 0.5 * state_ * state_ / circle.sharpness;
     neutral_ = state.pose.yaw + order * std::copysign(turned, state_);
     for (const int side : {-1, 1}) {
-      // Where the curvature is 0 on the clothoid to `side`.
+      // The point at which the curvature is 0 on the clothoid to `side`.
       Side& own = sides_[side < 0 ? 0 : 1];
       own.side = side;
       own.yaw = state.pose.yaw - order * side * turned;
@@ -168,7 +168,8 @@ class SharpWords {
 
 /// Searches alpha for the shortest word. Where the straight has a length >= 0, small turns change f
 /// more slowly than the straight does: f' = -u - l/4, where u is the length of the straight and l
-/// that of both turns. So f has at most one root where the straight exists, near a knot.
+/// that of both turns. Therefore f has at most one root in a range of alpha in
+/// which the straight has a length >= 0, and this root is near a knot.
 class AlphaSearch {
  public:
   AlphaSearch(const SharpWords& words, double limit) : words_(words), limit_(limit) {

@@ -314,7 +314,7 @@ TEST(LimitProfile, LimitsTheJerk) {
     }
     const Beyond beyond = FindBeyond(stations, smooth.speeds, 1.0);
     // The jerk limit stops when a squared speed changes by less than 1e-4 of its value. For squares
-    // below 2000 m^2/s^2 and an interval of 1 m, this is 0.1 m/s^2.
+    // below 2000 m^2/s^2 and an interval of 1 m, the acceleration then errs by up to 0.1 m/s^2.
     EXPECT_LT(beyond.driving, Tolerance(0.1)) << run;
     EXPECT_LT(beyond.braking, Tolerance(0.1)) << run;
   }

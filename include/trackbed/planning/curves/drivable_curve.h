@@ -16,9 +16,9 @@
 /// above, since atan(L kappa) <= L kappa.
 ///
 /// An arc of a shortest curve is short if it has no room for its ramps. The car then turns by phi
-/// on an arc of the smaller curvature kappa = sqrt(omega phi/(4 L v)), whose length is 4 S. Length
-/// and curvature of this arc tend to zero with phi. Turns due to rounding therefore need no
-/// threshold.
+/// on an arc of the smaller curvature kappa = sqrt(omega phi/(4 L v)), whose length is 4 S. If phi
+/// tends to zero, the length and the curvature of this arc tend to zero. Turns due to rounding
+/// therefore need no threshold.
 namespace trackbed {
 
 /// States how the car drives a curve between two poses.

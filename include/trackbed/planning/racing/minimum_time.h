@@ -78,12 +78,12 @@ struct MinimumTimeLine {
 /// the car cannot keep moving.
 ///
 /// Guarantees: the lap time on the line (LapTime) is never longer than on the line of least
-/// curvature for the same b. At two points or more per knot, the line keeps the distance b from the
-/// edges, to within 1e-6 m. On one machine, the same arguments always yield a bit-identical line.
-/// The problem is not convex, so that the line is only a local minimum. The function ignores
-/// slopes, banks and changes of friction along the track. Throws RunError if the program was built
-/// without IPOPT. Computing time: 5 to 20 quadratic programs, each 1.4 s per kilometer of track,
-/// for track points 5 m apart.
+/// curvature for the same b. At checked points, two or more per knot, the line keeps the distance b
+/// from the edges, to within 1e-6 m. On one machine, the same arguments always yield a
+/// bit-identical line. The problem is not convex, so that the line is only a local minimum. The
+/// function ignores slopes, banks and changes of friction along the track. Throws RunError if the
+/// program was built without IPOPT. Computing time: 5 to 20 quadratic programs, each 1.4 s per
+/// kilometer of track, for track points 5 m apart.
 MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimits& limits,
                                 int iterations = 40);
 
