@@ -18,14 +18,20 @@ find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 find_package(PNG REQUIRED)
 include(${CMAKE_CURRENT_LIST_DIR}/Mujoco.cmake)
 
-# IPOPT's pkg-config file is not used, because it requires libraries that only a static IPOPT needs.
-if(TRACKBED_IPOPT AND NOT TARGET ipopt::ipopt)
-  find_path(IPOPT_INCLUDE_DIR IpStdCInterface.h PATH_SUFFIXES coin coin-or REQUIRED)
-  find_library(IPOPT_LIBRARY ipopt REQUIRED)
-  add_library(ipopt::ipopt UNKNOWN IMPORTED)
-  set_target_properties(ipopt::ipopt PROPERTIES IMPORTED_LOCATION ${IPOPT_LIBRARY}
-                                                INTERFACE_INCLUDE_DIRECTORIES ${IPOPT_INCLUDE_DIR})
-endif()
+# Defines the imported target TARGET for a library whose own package is not used. ARGN: further
+# arguments of find_path.
+function(trackbed_find_library target header library)
+  if(TARGET ${target})
+    return()
+  endif()
+  string(REGEX REPLACE "::.*" "" prefix ${target})
+  string(TOUPPER ${prefix} prefix)
+  find_path(${prefix}_INCLUDE_DIR ${header} ${ARGN} REQUIRED)
+  find_library(${prefix}_LIBRARY ${library} REQUIRED)
+  add_library(${target} UNKNOWN IMPORTED)
+  set_target_properties(${target} PROPERTIES IMPORTED_LOCATION ${${prefix}_LIBRARY}
+                                             INTERFACE_INCLUDE_DIRECTORIES ${${prefix}_INCLUDE_DIR})
+endfunction()
 
 # libzip's CMake package is not used, because it requires programs that Debian packages separately.
 if(NOT TARGET libzip::zip)
@@ -38,38 +44,12 @@ endif()
 
 # dlib's CMake package is not used, because it adds libraries that are not needed here, such as
 # SQLite.
-if(NOT TARGET dlib::dlib)
-  find_path(DLIB_INCLUDE_DIR dlib/global_optimization.h REQUIRED)
-  find_library(DLIB_LIBRARY dlib REQUIRED)
-  add_library(dlib::dlib UNKNOWN IMPORTED)
-  set_target_properties(dlib::dlib PROPERTIES IMPORTED_LOCATION ${DLIB_LIBRARY}
-                                              INTERFACE_INCLUDE_DIRECTORIES ${DLIB_INCLUDE_DIR})
-endif()
-
+trackbed_find_library(dlib::dlib dlib/global_optimization.h dlib)
 # libcsv has neither a pkg-config file nor a CMake package.
-if(NOT TARGET csv::csv)
-  find_path(CSV_INCLUDE_DIR csv.h REQUIRED)
-  find_library(CSV_LIBRARY csv REQUIRED)
-  add_library(csv::csv UNKNOWN IMPORTED)
-  set_target_properties(csv::csv PROPERTIES IMPORTED_LOCATION ${CSV_LIBRARY}
-                                            INTERFACE_INCLUDE_DIRECTORIES ${CSV_INCLUDE_DIR})
-endif()
-
+trackbed_find_library(csv::csv csv.h csv)
 # Libraries that read bags of ROS 2. The CMake package of zstd and the pkg-config file of lz4 are not
 # used, because not every Debian release has them.
 find_package(fastcdr REQUIRED)
 find_package(SQLite3 3.40 REQUIRED)
-if(NOT TARGET lz4::lz4)
-  find_path(LZ4_INCLUDE_DIR lz4frame.h REQUIRED)
-  find_library(LZ4_LIBRARY lz4 REQUIRED)
-  add_library(lz4::lz4 UNKNOWN IMPORTED)
-  set_target_properties(lz4::lz4 PROPERTIES IMPORTED_LOCATION ${LZ4_LIBRARY}
-                                            INTERFACE_INCLUDE_DIRECTORIES ${LZ4_INCLUDE_DIR})
-endif()
-if(NOT TARGET zstd::zstd)
-  find_path(ZSTD_INCLUDE_DIR zstd.h REQUIRED)
-  find_library(ZSTD_LIBRARY zstd REQUIRED)
-  add_library(zstd::zstd UNKNOWN IMPORTED)
-  set_target_properties(zstd::zstd PROPERTIES IMPORTED_LOCATION ${ZSTD_LIBRARY}
-                                              INTERFACE_INCLUDE_DIRECTORIES ${ZSTD_INCLUDE_DIR})
-endif()
+trackbed_find_library(lz4::lz4 lz4frame.h lz4)
+trackbed_find_library(zstd::zstd zstd.h zstd)
