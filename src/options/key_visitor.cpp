@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "trackbed/core/error.h"
+#include "trackbed/options/number_visitor.h"
 
 namespace trackbed {
 namespace {
@@ -96,82 +97,27 @@ class NumberFinder final : public KeyVisitor {
 };
 
 /// Throws an error for the first number that is NaN or out of range.
-class RangeChecker final : public KeyVisitor {
+class RangeChecker final : public NumberVisitor {
  public:
   explicit RangeChecker(std::string owner) : owner_(std::move(owner)) {}
 
-  [[nodiscard]] Mode mode() const override { return Mode::kWrite; }
-  void Field(const Key& key, double& value, Need, Range range) override {
-    CheckNumber(key, value, range);
-  }
-  void Field(const Key& key, std::optional<double>& value, Range range) override {
-    if (value) {
-      CheckNumber(key, *value, range);
-    }
-  }
-  void Field(const Key&, std::optional<bool>&) override {}
-  void Field(const Key&, bool&, Need) override {}
-  void Field(const Key& key, int& value, Need, Range range) override {
-    CheckNumber(key, value, range);
-  }
-  void Field(const Key&, std::uint64_t&, Need) override {}
-  void Field(const Key&, std::string&, Need, const Names&) override {}
-  void Field(const Key&, std::optional<std::string>&) override {}
-  void Field(const Key&, std::vector<std::string>&, Need, const Names&) override {}
-  void Field(const Key& key, std::vector<Vec2>& value, Need, const PairShape& shape) override {
-    for (const Vec2& pair : value) {
-      CheckNumber(key, pair.x(), shape.first);
-      CheckNumber(key, pair.y(), shape.second);
-    }
-  }
-  void Field(const Key& key, std::vector<double>& value, Need, Range range) override {
-    for (const double number : value) {
-      CheckNumber(key, number, range);
-    }
-  }
-  void Identifier(const Key&, std::string&) override {}
-  void Pair(const Key& key, int& first, int& second, Range range) override {
-    CheckNumber(key, first, range);
-    CheckNumber(key, second, range);
-  }
-
  protected:
-  bool VisitSection(const Key& key, Need, bool present, const Inside& inside) override {
-    if (present) {
-      Within(key.name, inside);
-    }
-    return present;
+  void Number(const Key& key, double& value, const Range& range) override {
+    const bool allowed =
+        std::isfinite(value) && value >= range.min && value <= range.max && !(value <= range.above);
+    TRACKBED_REQUIRE(allowed, "{}: {}{}{} is {}; must be finite{}{}", owner_, place(),
+                     place().empty() ? "" : ".", key.name, value,
+                     AllowedBy(range).empty() ? "" : ", ", AllowedBy(range));
   }
-  void VisitList(const Key& key, std::size_t size, const std::function<void(std::size_t)>&,
-                 const std::function<void(KeyVisitor&, std::size_t)>& visit) override {
-    for (std::size_t i = 0; i < size; ++i) {
-      Within(fmt::format("{}[{}]", key.name, i), [&](KeyVisitor& keys) { visit(keys, i); });
-    }
-  }
-  void VisitMethod(const Key& key, Need, const Methods& methods) override {
-    if (methods.selected) {
-      Within(key.name, methods.visit_selected);
-      Within(key.name, methods.rest);
+  void Pairs(const Key& key, std::vector<Vec2>& pairs, const PairShape& shape) override {
+    for (Vec2& pair : pairs) {
+      Number(key, pair.x(), shape.first);
+      Number(key, pair.y(), shape.second);
     }
   }
 
  private:
-  void Within(const std::string& key, const Inside& inside) {
-    const std::string outside = prefix_;
-    prefix_ += key + ".";
-    inside(*this);
-    prefix_ = outside;
-  }
-
-  void CheckNumber(const Key& key, double value, Range range) const {
-    const bool allowed =
-        std::isfinite(value) && value >= range.min && value <= range.max && !(value <= range.above);
-    TRACKBED_REQUIRE(allowed, "{}: {}{} is {}; must be finite{}{}", owner_, prefix_, key.name,
-                     value, AllowedBy(range).empty() ? "" : ", ", AllowedBy(range));
-  }
-
   std::string owner_;
-  std::string prefix_;  // section name that precedes each visited key, with a dot at the end
 };
 
 }  // namespace
