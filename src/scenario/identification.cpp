@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -114,17 +113,6 @@ void CheckRecordNames(const Identification& study, const YAML::Node& root, Reade
   }
 }
 
-void Throw(ReaderContext& context) {
-  if (context.problems.empty()) {
-    return;
-  }
-  std::stable_sort(context.problems.begin(), context.problems.end(),
-                   [](const Problem& a, const Problem& b) {
-                     return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-                   });
-  throw InputError(context.problems);
-}
-
 }  // namespace
 
 Identification ReadIdentification(const fs::path& file,
@@ -136,18 +124,18 @@ Identification ReadIdentification(const fs::path& file,
   YamlReader reader(context, root, "");
   Visit(reader, study);
   reader.Finish();
-  Throw(context);
+  context.ThrowProblems();
   CheckParameters(study, root, context);
-  Throw(context);
+  context.ThrowProblems();
   const fs::path folder = file.parent_path();
   study.fit_scenarios =
       ReadRecords(study.fit, "fit", folder, asset_folders, nullptr, root, context);
   const Scenario* first = study.fit_scenarios.empty() ? nullptr : &study.fit_scenarios.front();
   study.held_out_scenarios =
       ReadRecords(study.held_out, "held_out", folder, asset_folders, first, root, context);
-  Throw(context);
+  context.ThrowProblems();
   CheckRecordNames(study, root, context);
-  Throw(context);
+  context.ThrowProblems();
   return study;
 }
 

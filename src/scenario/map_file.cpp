@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -74,13 +73,7 @@ RosMapKeys ReadRosMapKeys(const fs::path& file) {
         NodeAt(root, "free_thresh").Mark(), "free_thresh",
         fmt::format("{} is above occupied_thresh, {}", map.free_thresh, map.occupied_thresh));
   }
-  if (!context.problems.empty()) {
-    std::stable_sort(context.problems.begin(), context.problems.end(),
-                     [](const Problem& a, const Problem& b) {
-                       return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-                     });
-    throw InputError(context.problems);
-  }
+  context.ThrowProblems();
   return map;
 }
 

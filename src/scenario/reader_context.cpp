@@ -27,4 +27,17 @@ bool ReaderContext::Read(std::string_view dotted) const {
   });
 }
 
+void ReaderContext::SortProblems() {
+  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
+    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+  });
+}
+
+void ReaderContext::ThrowProblems() {
+  if (!problems.empty()) {
+    SortProblems();
+    throw InputError(problems);
+  }
+}
+
 }  // namespace trackbed

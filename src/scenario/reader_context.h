@@ -30,6 +30,11 @@ struct ReaderContext {
 
   /// Returns whether the key was read; for a list, whether every element was read.
   [[nodiscard]] bool Read(std::string_view dotted) const;
+
+  /// Sorts the problems by their positions in the file.
+  void SortProblems();
+  /// Throws InputError with the sorted problems; does nothing if there are no problems.
+  void ThrowProblems();
 };
 
 }  // namespace trackbed

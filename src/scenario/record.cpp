@@ -47,13 +47,7 @@ LogMap ReadLogMap(const std::filesystem::path& file) {
       context.AddError(NodeAt(root, key).Mark(), key, std::move(message));
     }
   }
-  if (!context.problems.empty()) {
-    std::stable_sort(context.problems.begin(), context.problems.end(),
-                     [](const Problem& a, const Problem& b) {
-                       return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-                     });
-    throw InputError(context.problems);
-  }
+  context.ThrowProblems();
   return map;
 }
 

@@ -164,10 +164,7 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
       add_error(key, std::move(message));
     }
   }
-  std::stable_sort(context.problems.begin(), context.problems.end(),
-                   [](const Problem& a, const Problem& b) {
-                     return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-                   });
+  context.SortProblems();
   context.problems.insert(context.problems.end(), of_inputs.begin(), of_inputs.end());
   if (!context.problems.empty()) {
     throw InputError(context.problems);

@@ -61,13 +61,7 @@ class StudyReader {
     if (context_.problems.empty()) {
       CheckStudy(study);
     }
-    if (!context_.problems.empty()) {
-      std::stable_sort(context_.problems.begin(), context_.problems.end(),
-                       [](const Problem& a, const Problem& b) {
-                         return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-                       });
-      throw InputError(context_.problems);
-    }
+    context_.ThrowProblems();
     return std::move(file.study);
   }
 
