@@ -19,6 +19,7 @@
 #include "trackbed/report/report.h"
 #include "trackbed/scenario/log_map_text.h"
 #include "trackbed/scenario/record.h"
+#include "trackbed/scenario/record_scenario.h"
 
 namespace trackbed::cli {
 namespace {

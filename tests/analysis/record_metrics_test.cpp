@@ -21,6 +21,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/recording/import_log.h"
 #include "trackbed/scenario/record.h"
+#include "trackbed/scenario/record_scenario.h"
 
 namespace trackbed {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "tests/support/temp_folder.h"
 #include "trackbed/control/playback.h"
+#include "trackbed/scenario/record_scenario.h"
 
 namespace trackbed {
 namespace {

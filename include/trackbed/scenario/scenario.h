@@ -282,14 +282,6 @@ std::string OptionDefaults(const AvoiderOptions& options);
 std::string OptionDefaults(const ControllerOptions& options);
 std::string OptionDefaults(const ManeuverOptions& options);
 
-/// Makes a scenario that replays a recorded drive. The only plant is kRecordedPlant; override
-/// drive.plants to replay the recorded drive on other plants. The scenario has the name of the
-/// recorded drive, and the gain of the speed controller is 20/s. The prediction windows are 1, 2
-/// and 5 s long; lengths that exceed the recorded drive are omitted. The control period equals the
-/// time between two recorded samples if that time is a whole number of timesteps. `model` is the
-/// car model, as in VehicleSpec::model.
-Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::string& model);
-
 /// Returns the recording that the scenario replays, or null if the scenario replays no recording.
 /// The scenario owns the returned recording.
 const Recording* FindRecording(const Scenario& scenario);
