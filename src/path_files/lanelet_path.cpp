@@ -149,7 +149,8 @@ std::vector<Vec2> LaneletPath(const Lanelets& lanelets, const std::vector<Lanele
     const Offset offset{from.offset, std::tan(turn),
                         std::min(ChangeLength(from.offset, speed),
                                  std::max(line.length() - from.station, kSpacing))};
-    // The offset of the aim, which begins to grow `change` before the aim.
+    // The path leaves the center line at the distance `change` before the aim, to reach the aim's
+    // offset.
     double aim_offset = 0.0;
     double aim_at = 0.0;
     double change = 1.0;

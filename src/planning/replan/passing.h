@@ -68,8 +68,8 @@ std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongReques
 /// its rear is the safe distance ahead of the leader's front, and returns to the route. The whole
 /// maneuver must keep the safe distance from all obstacles, which are extrapolated at constant
 /// velocity, and must leave the distance in which the car brakes to a stop at the end of the route.
-/// When the car stops there, the leader must still be the distance behind that the car itself would
-/// keep from a leader.
+/// When the car stops there, the distance to the leader behind must be at least the distance that
+/// the car itself would keep from a leader.
 std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
                        const AlongSettings& settings, const FrenetLimits& limits,
                        const Leader& leader, const FrenetMotion& motion);
