@@ -4,25 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "trackbed/bag/mcap_format.h"
+
 namespace trackbed {
 namespace {
-
-/// Opcodes that identify the kinds of records in an MCAP file.
-enum : char {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kMessageIndex = 0x07,
-  kChunkIndex = 0x08,
-  kStatistics = 0x0B,
-  kSummaryOffset = 0x0E,
-  kDataEnd = 0x0F,
-};
-
-const std::string kMagic{"\x89MCAP0\r\n"};
 
 /// Maximum size of a chunk [bytes]. Chunks are small, because a viewer must load a whole chunk to
 /// show a single point in time.
@@ -40,8 +25,8 @@ void PutText(std::string& out, const std::string& text) {
   out += text;
 }
 
-void PutRecord(std::string& out, char code, const std::string& content) {
-  out += code;
+void PutRecord(std::string& out, mcap::Opcode code, const std::string& content) {
+  out += static_cast<char>(code);
   Put<std::uint64_t>(out, content.size());
   out += content;
 }
@@ -59,11 +44,11 @@ std::string Dumped(const nlohmann::json& content) {
 
 }  // namespace
 
-McapWriter::McapWriter() : out_(kMagic) {
+McapWriter::McapWriter() : out_(mcap::kMagic) {
   std::string header;
   PutText(header, "");  // the empty profile means that the file conforms to no MCAP profile
   PutText(header, "trackbed");
-  PutRecord(out_, kHeader, header);
+  PutRecord(out_, mcap::kHeader, header);
 }
 
 std::uint16_t McapWriter::AddChannel(const std::string& topic, const std::string& schema,
@@ -77,8 +62,8 @@ std::uint16_t McapWriter::AddChannel(const std::string& topic, const std::string
     PutText(record, schema);
     PutText(record, "jsonschema");
     PutText(record, text);
-    PutRecord(schema_records_, kSchema, record);
-    PutRecord(out_, kSchema, record);
+    PutRecord(schema_records_, mcap::kSchema, record);
+    PutRecord(out_, mcap::kSchema, record);
   }
   const auto channel = static_cast<std::uint16_t>(counts_.size());
   counts_.push_back(0);
@@ -88,8 +73,8 @@ std::uint16_t McapWriter::AddChannel(const std::string& topic, const std::string
   PutText(record, topic);
   PutText(record, "json");
   Put<std::uint32_t>(record, 0);  // size 0 of the metadata map, because the channel has no metadata
-  PutRecord(channel_records_, kChannel, record);
-  PutRecord(out_, kChannel, record);
+  PutRecord(channel_records_, mcap::kChannel, record);
+  PutRecord(out_, mcap::kChannel, record);
   return channel;
 }
 
@@ -108,7 +93,7 @@ void McapWriter::AddMessage(std::uint16_t channel, double time, const nlohmann::
   Put<std::uint64_t>(record, nanoseconds);
   Put<std::uint64_t>(record, nanoseconds);
   record += Dumped(message);
-  PutRecord(chunk_, kMessage, record);
+  PutRecord(chunk_, mcap::kMessage, record);
   if (chunk_.size() >= kChunkBytes) {
     CloseChunk();
   }
@@ -126,7 +111,7 @@ void McapWriter::CloseChunk() {
   Put(record, Checksum(chunk_));
   PutText(record, "");  // the empty compression name means that the chunk is not compressed
   Put<std::uint64_t>(record, chunk_.size());
-  PutRecord(out_, kChunk, record + chunk_);
+  PutRecord(out_, mcap::kChunk, record + chunk_);
   const std::size_t end = out_.size();
 
   std::string offsets;
@@ -141,7 +126,7 @@ void McapWriter::CloseChunk() {
     record.clear();
     Put(record, channel);
     PutText(record, places);
-    PutRecord(out_, kMessageIndex, record);
+    PutRecord(out_, mcap::kMessageIndex, record);
   }
 
   record.clear();
@@ -154,7 +139,7 @@ void McapWriter::CloseChunk() {
   PutText(record, "");
   Put<std::uint64_t>(record, chunk_.size());
   Put<std::uint64_t>(record, chunk_.size());
-  PutRecord(chunk_index_records_, kChunkIndex, record);
+  PutRecord(chunk_index_records_, mcap::kChunkIndex, record);
   ++chunks_;
   chunk_.clear();
   chunk_messages_.clear();
@@ -184,19 +169,20 @@ std::string McapWriter::Statistics() const {
 /// summary in the file [bytes].
 std::string McapWriter::SummaryAt(std::size_t start) {
   std::string statistics;
-  PutRecord(statistics, kStatistics, Statistics());
+  PutRecord(statistics, mcap::kStatistics, Statistics());
   std::string summary;
   std::string offsets;
   for (const auto& [code, records] :
-       {std::pair{kSchema, schema_records_}, std::pair{kChannel, channel_records_},
-        std::pair{kStatistics, statistics}, std::pair{kChunkIndex, chunk_index_records_}}) {
+       {std::pair{mcap::kSchema, schema_records_}, std::pair{mcap::kChannel, channel_records_},
+        std::pair{mcap::kStatistics, statistics},
+        std::pair{mcap::kChunkIndex, chunk_index_records_}}) {
     if (records.empty()) {
       continue;
     }
-    std::string offset(1, code);
+    std::string offset(1, static_cast<char>(code));
     Put<std::uint64_t>(offset, start + summary.size());
     Put<std::uint64_t>(offset, records.size());
-    PutRecord(offsets, kSummaryOffset, offset);
+    PutRecord(offsets, mcap::kSummaryOffset, offset);
     summary += records;
   }
   std::string footer;
@@ -206,10 +192,10 @@ std::string McapWriter::SummaryAt(std::size_t start) {
   // The checksum covers all bytes from the start of the summary to the checksum itself, including
   // the first fields of the footer.
   std::string checked = summary;
-  checked += kFooter;
+  checked += static_cast<char>(mcap::kFooter);
   Put<std::uint64_t>(checked, footer.size() + sizeof(std::uint32_t));
   Put(footer, Checksum(checked + footer));
-  PutRecord(summary, kFooter, footer);
+  PutRecord(summary, mcap::kFooter, footer);
   return summary;
 }
 
@@ -217,9 +203,10 @@ std::string McapWriter::Finish() {
   CloseChunk();
   std::string end;
   Put(end, Checksum(out_));
-  PutRecord(out_, kDataEnd, end);
+  PutRecord(out_, mcap::kDataEnd, end);
   out_ += SummaryAt(out_.size());
-  return out_ + kMagic;
+  out_ += mcap::kMagic;
+  return out_;
 }
 
 }  // namespace trackbed

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "src/bag/sources.h"
+#include "trackbed/bag/mcap_format.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
@@ -20,17 +21,6 @@
 // messages.
 namespace trackbed {
 namespace {
-
-constexpr std::string_view kMagic = "\x89MCAP0\r\n";
-enum Opcode : unsigned char {
-  kFooter = 2,
-  kSchema = 3,
-  kChannel = 4,
-  kMessage = 5,
-  kChunk = 6,
-  kStatistics = 11,
-  kDataEnd = 15,
-};
 
 /// Reads the fields of a record, and refuses to read beyond its end.
 class RecordReader {
@@ -81,10 +71,10 @@ class McapReader {
   }
 
   void Read() {
-    if (ReadAt(0, kMagic.size()) != kMagic) {
+    if (ReadAt(0, mcap::kMagic.size()) != mcap::kMagic) {
       RefuseBag(file_, "no MCAP file: its first bytes are not those of MCAP");
     }
-    std::uint64_t at = kMagic.size();
+    std::uint64_t at = mcap::kMagic.size();
     while (!at_end_) {
       constexpr std::size_t kHead = 9;  // opcode and length
       const std::string head = ReadAt(at, kHead);
@@ -101,8 +91,8 @@ class McapReader {
         return;
       }
       // The summary after the data repeats schemas and channels.
-      const bool is_used =
-          (!in_summary_ && opcode > kFooter && opcode <= kChunk) || opcode == kStatistics;
+      const bool is_used = (!in_summary_ && opcode > mcap::kFooter && opcode <= mcap::kChunk) ||
+                           opcode == mcap::kStatistics;
       if (is_used) {
         if (length > kMaxChunkBytes) {
           RefuseBag(file_, fmt::format("a record of {} bytes; must be at most {}", length,
@@ -110,8 +100,8 @@ class McapReader {
         }
         TakeRecord(opcode, ReadAt(at, length), false);
       }
-      in_summary_ = in_summary_ || opcode == kDataEnd;
-      at_end_ = opcode == kFooter;
+      in_summary_ = in_summary_ || opcode == mcap::kDataEnd;
+      at_end_ = opcode == mcap::kFooter;
       at += length;
     }
   }
@@ -151,24 +141,24 @@ class McapReader {
 
   void TakeRecord(unsigned char opcode, std::string_view data, bool in_chunk) {
     RecordReader record(data, file_);
-    if (opcode == kSchema) {
+    if (opcode == mcap::kSchema) {
       const auto id = record.Read<std::uint16_t>();
       Schema schema{.name = std::string(record.Text()), .definition = {}};
       const bool is_ros2msg = record.Text() == "ros2msg";
       const std::string_view definition = record.Text();
       schema.definition = is_ros2msg ? std::string(definition) : "";
       schemas_[id] = std::move(schema);
-    } else if (opcode == kChannel) {
+    } else if (opcode == mcap::kChannel) {
       TakeChannel(record);
-    } else if (opcode == kMessage) {
+    } else if (opcode == mcap::kMessage) {
       TakeMessage(record);
-    } else if (opcode == kStatistics) {
+    } else if (opcode == mcap::kStatistics) {
       const auto stated = record.Read<std::uint64_t>();
       if (stated != messages_) {
         RefuseBag(file_,
                   fmt::format("damaged: it states {} messages and has {}", stated, messages_));
       }
-    } else if (opcode == kChunk) {
+    } else if (opcode == mcap::kChunk) {
       if (in_chunk) {
         RefuseBag(file_, "a chunk contains a chunk");
       }
