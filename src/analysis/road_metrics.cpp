@@ -14,18 +14,6 @@ namespace {
 constexpr double kSpacing = 0.5;  // [m] between sampled stations, and between outline points
 constexpr double kBin = 8.0;      // [m]
 
-/// Returns the numbers of the outermost drivable lanes of a section, the left one first; 0 and 0 if
-/// no lane is drivable.
-std::pair<int, int> OutermostLanes(const LaneSection& section) {
-  std::pair<int, int> found{0, 0};
-  for (const Lane& lane : section.lanes) {  // the lanes are ordered from left to right
-    if (lane.id != 0 && IsDrivable(lane)) {
-      found = {found.first == 0 ? lane.id : found.first, lane.id};
-    }
-  }
-  return found;
-}
-
 Vec2 PointAt(const Road& road, double s, double t) {
   const RoadPosition place = PositionAt(road, s, t);
   return {place.x, place.y};

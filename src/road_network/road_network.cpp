@@ -206,6 +206,16 @@ bool IsDrivable(const Lane& lane) {
   return std::find(kTypes.begin(), kTypes.end(), lane.type) != kTypes.end();
 }
 
+std::pair<int, int> OutermostLanes(const LaneSection& section) {
+  std::pair<int, int> found{0, 0};
+  for (const Lane& lane : section.lanes) {  // the lanes are ordered from left to right
+    if (lane.id != 0 && IsDrivable(lane)) {
+      found = {found.first == 0 ? lane.id : found.first, lane.id};
+    }
+  }
+  return found;
+}
+
 bool FollowsRoad(const Road& road, int lane) {
   return (lane < 0) != road.left_hand_traffic;
 }

@@ -211,6 +211,10 @@ bool IsLevel(const Road& road);
 /// "mwyEntry", "mwyExit".
 bool IsDrivable(const Lane& lane);
 
+/// Returns the numbers of the outermost drivable lanes of a section, the left lane first; 0 and 0,
+/// the center lane, if no lane is drivable.
+std::pair<int, int> OutermostLanes(const LaneSection& section);
+
 /// Whether traffic on the lane moves in the direction of growing s. Returns true for the right
 /// lanes of a road with right-hand traffic, and for the left lanes of a road with left-hand
 /// traffic.

@@ -12,18 +12,6 @@ namespace {
 
 constexpr double kNodeSpacing = 1.0;  // [m]
 
-/// Returns the numbers of the outermost drivable lanes of a section, or 0, the center lane, if no
-/// lane is drivable.
-std::pair<int, int> OutermostLanes(const LaneSection& section) {
-  std::pair<int, int> found{0, 0};
-  for (const Lane& lane : section.lanes) {  // the lanes are ordered from left to right
-    if (lane.id != 0 && IsDrivable(lane)) {
-      found = {found.first == 0 ? lane.id : found.first, lane.id};
-    }
-  }
-  return found;
-}
-
 /// Returns the smooth step function, which rises from 0 at u = 0 to 1 at u = 1.
 double SmoothStep(double u) {
   const double v = std::clamp(u, 0.0, 1.0);
