@@ -223,6 +223,24 @@ struct ModelOptions {
   AdaptOptions answers;
 };
 
+/// An option with a number above 0 that answers a question of AdaptModel.
+struct AdaptNumber {
+  const char* flag;
+  std::optional<double> AdaptOptions::*value;
+  const char* help;
+  const char* type;
+};
+
+constexpr std::array<AdaptNumber, 4> kAdaptNumbers{
+    {{"--wheel-radius", &AdaptOptions::wheel_radius, "With --adapt: the radius of all wheels [m]",
+      "R"},
+     {"--steering-limit", &AdaptOptions::steering_limit,
+      "With --adapt: the largest bicycle angle [rad]", "ANGLE"},
+     {"--steering-rate", &AdaptOptions::steering_rate,
+      "With --adapt: the largest rate of the bicycle angle [rad/s]", "RATE"},
+     {"--drive-torque", &AdaptOptions::drive_torque,
+      "With --adapt: the largest torque on all driven wheels together [N m]", "TORQUE"}}};
+
 void AddAdaptOptions(const Command& command, ModelOptions& options) {
   command.AddFlag("--adapt", options.adapt,
                   "Propose a car file for a model that was written for another program, MJCF or "
@@ -231,34 +249,21 @@ void AddAdaptOptions(const Command& command, ModelOptions& options) {
       .AddOption("--body", options.answers.body,
                  "With --adapt: the vehicle, if the file has several")
       .TypeName("NAME");
-  command
-      .AddOption("--wheel-radius", options.answers.wheel_radius,
-                 "With --adapt: the radius of all wheels [m]")
-      .TypeName("R");
-  command
-      .AddOption("--steering-limit", options.answers.steering_limit,
-                 "With --adapt: the largest bicycle angle [rad]")
-      .TypeName("ANGLE");
-  command
-      .AddOption("--steering-rate", options.answers.steering_rate,
-                 "With --adapt: the largest rate of the bicycle angle [rad/s]")
-      .TypeName("RATE");
-  command
-      .AddOption("--drive-torque", options.answers.drive_torque,
-                 "With --adapt: the largest torque on all driven wheels together [N m]")
-      .TypeName("TORQUE");
+  for (const AdaptNumber& number : kAdaptNumbers) {
+    command.AddOption(number.flag, options.answers.*number.value, number.help)
+        .TypeName(number.type);
+  }
   command.AddFlag("--front-steering", options.answers.steers_front_only,
                   "With --adapt: lock the rear wheels of a vehicle that steers all wheels");
 }
 
 void CheckOptions(const ModelOptions& options) {
   const AdaptOptions& answers = options.answers;
-  RequireAbove0("--wheel-radius", answers.wheel_radius);
-  RequireAbove0("--steering-limit", answers.steering_limit);
-  RequireAbove0("--steering-rate", answers.steering_rate);
-  RequireAbove0("--drive-torque", answers.drive_torque);
-  const bool answered = !answers.body.empty() || answers.wheel_radius || answers.steering_limit ||
-                        answers.steering_rate || answers.drive_torque || answers.steers_front_only;
+  bool answered = !answers.body.empty() || answers.steers_front_only;
+  for (const AdaptNumber& number : kAdaptNumbers) {
+    RequireAbove0(number.flag, answers.*number.value);
+    answered = answered || answers.*number.value;
+  }
   if (answered && !options.adapt) {
     throw InputError(Problem{.message =
                                  "--body, --wheel-radius, --steering-limit, --steering-rate, "
