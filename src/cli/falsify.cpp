@@ -239,10 +239,7 @@ void AddFalsify(const Command& command) {
   command.AddPositional("study", options->file, "Study file with a search")
       .Required()
       .TypeName("STUDY");
-  command
-      .AddOption("-j,--jobs", options->jobs, "Runs in parallel (default: one per hardware thread)")
-      .Range(1, 1000)
-      .TypeName("N");
+  AddJobs(command, options->jobs, "Runs in parallel");
   command.AddOption("-o,--out", options->out, "Output folder (default: out/<study>)")
       .TypeName("DIR");
   command

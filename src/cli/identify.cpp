@@ -136,11 +136,7 @@ void AddIdentify(const Command& command) {
       .TypeName("STUDY");
   command.AddOption("-o,--out", options->out, "Output folder (default: out/<name>)")
       .TypeName("DIR");
-  command
-      .AddOption("-j,--jobs", options->jobs,
-                 "Windows simulated in parallel (default: one per hardware thread)")
-      .Range(1, 1000)
-      .TypeName("N");
+  AddJobs(command, options->jobs, "Windows simulated in parallel");
   AddAllowAssets(command, options->asset_folders);
   command.AddFlag("--report", options->report, "Also write report.html in the folder");
   command.AddFlag("-q,--quiet", options->quiet, "Print errors only");

@@ -19,6 +19,12 @@ void AddAllowAssets(const Command& command, std::vector<std::string>& folders) {
       .TypeName("DIR");
 }
 
+void AddJobs(const Command& command, int& jobs, const std::string& what) {
+  command.AddOption("-j,--jobs", jobs, what + " (default: one per hardware thread)")
+      .Range(1, 1000)
+      .TypeName("N");
+}
+
 std::vector<fs::path> Paths(const std::vector<std::string>& names) {
   return {names.begin(), names.end()};
 }

@@ -194,10 +194,7 @@ int Sweep(const SweepVerbOptions& options) {
 void AddSweep(const Command& command) {
   const auto options = std::make_shared<SweepVerbOptions>();
   command.AddPositional("study", options->file, "Study file").Required().TypeName("STUDY");
-  command
-      .AddOption("-j,--jobs", options->jobs, "Runs in parallel (default: one per hardware thread)")
-      .Range(1, 1000)
-      .TypeName("N");
+  AddJobs(command, options->jobs, "Runs in parallel");
   command.AddOption("-o,--out", options->out, "Output folder (default: out/<study>)")
       .TypeName("DIR");
   command

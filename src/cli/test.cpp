@@ -141,11 +141,7 @@ void AddTest(const Command& command) {
       .TypeName("SCENARIO...");
   command.AddOption("--junit", options->junit, "Also write the results as JUnit XML")
       .TypeName("FILE");
-  command
-      .AddOption("-j,--jobs", options->jobs,
-                 "Scenarios to run in parallel (default: one per hardware thread)")
-      .Range(1, 1000)
-      .TypeName("N");
+  AddJobs(command, options->jobs, "Scenarios to run in parallel");
   options->scenario.AddTo(command);
   command.AddExample("Two shipped scenarios, with results for a CI server",
                      "trackbed test three_turns paper_circle --junit results.xml");

@@ -90,10 +90,7 @@ void AddVerify(const Command& command) {
       .Range(0.5, 0.999999)
       .ShowDefault()
       .TypeName("C");
-  command
-      .AddOption("-j,--jobs", options->jobs, "Runs in parallel (default: one per hardware thread)")
-      .Range(1, 1000)
-      .TypeName("N");
+  AddJobs(command, options->jobs, "Runs in parallel");
   command.AddOption("-o,--out", options->out, "Output folder (default: out/<study>_verify)")
       .TypeName("DIR");
   command.AddFlag("--restart", options->restart,
