@@ -23,8 +23,8 @@ namespace {
 
 /// Successive given points at the same position.
 struct Place {
-  std::size_t first = 0;  // Index of the first of these points.
-  std::size_t last = 0;   // Index of the last of these points.
+  std::size_t first = 0;  // Index of the first point at the position.
+  std::size_t last = 0;   // Index of the last point at the position.
 };
 
 std::vector<Place> PlacesOf(const PathPoints& given) {

@@ -106,7 +106,7 @@ TurnLayout LayOutTurn(const TurnManeuver& maneuver, const VehicleParams& vehicle
 std::array<Vec2, 8> ControlPoints(const TurnManeuver& maneuver, const TurnLayout& layout,
                                   const VehicleParams& vehicle, double final_y);
 
-/// The search tree that the listing's search computes.
+/// The search tree that the published code listing computes.
 struct LiteralTree {
   /// Nodes of the search tree. The cost of a node is the length of the path through the nearest
   /// node, not through the node's parent (defect L10 of the listing).

@@ -159,7 +159,7 @@ struct Plan {
   /// steering rate between the samples.
   bool sampled = false;
   PlannedLaps laps;  ///< Laps of a plan on a track.
-  /// Roads on whose lanes the plan leads; null if the plan does not follow lanes.
+  /// Roads whose lanes the plan follows; null if the plan does not follow lanes.
   std::shared_ptr<const RoadNetwork> roads{};
   std::vector<TreeNode> tree;  ///< Nodes of all RRT and RRT* trees, one tree after the other.
 
