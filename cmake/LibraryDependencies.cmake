@@ -33,15 +33,12 @@ function(trackbed_find_library target header library)
                                              INTERFACE_INCLUDE_DIRECTORIES ${${prefix}_INCLUDE_DIR})
 endfunction()
 
-# libzip's CMake package is not used, because it requires programs that Debian packages separately.
-if(NOT TARGET libzip::zip)
-  find_path(ZIP_INCLUDE_DIR zip.h REQUIRED)
-  find_library(ZIP_LIBRARY zip REQUIRED)
-  add_library(libzip::zip UNKNOWN IMPORTED)
-  set_target_properties(libzip::zip PROPERTIES IMPORTED_LOCATION ${ZIP_LIBRARY}
-                                               INTERFACE_INCLUDE_DIRECTORIES ${ZIP_INCLUDE_DIR})
+# IPOPT's pkg-config file is not used, because it requires libraries that only a static IPOPT needs.
+if(TRACKBED_IPOPT)
+  trackbed_find_library(ipopt::ipopt IpStdCInterface.h ipopt PATH_SUFFIXES coin coin-or)
 endif()
-
+# libzip's CMake package is not used, because it requires programs that Debian packages separately.
+trackbed_find_library(libzip::zip zip.h zip)
 # dlib's CMake package is not used, because it adds libraries that are not needed here, such as
 # SQLite.
 trackbed_find_library(dlib::dlib dlib/global_optimization.h dlib)
