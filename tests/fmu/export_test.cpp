@@ -261,15 +261,11 @@ TEST(Fmu, RefusesDamagedStates) {
   Bytes longer = bytes;
   longer.push_back(0);
   EXPECT_EQ(host.Deserialize(longer), nullptr);
-  // Every byte of the commands counts: another command gives another motion.
-  for (std::size_t at = 0; at < bytes.size(); at += 7) {
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
     Bytes changed = bytes;
     changed[at] ^= 0x40U;
-    fmi3FMUState read = host.Deserialize(changed);
-    if (read != nullptr) {
-      EXPECT_EQ(host.Restore(read), fmi3OK);
-      host.Free(read);
-    }
+    ASSERT_EQ(host.Deserialize(changed), nullptr) << "byte " << at;
+    ASSERT_EQ(host.status, fmi3Error);
   }
 }
 

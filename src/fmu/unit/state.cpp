@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -13,7 +14,8 @@
 // outside of this process, and a simulation is reproducible bit for bit. A hash of the last row of
 // the log shows whether the simulation was.
 //
-// Layout: kMark, the token, then numbers and counts of 8 bytes in the byte order of the machine.
+// Layout: kMark, the token, then numbers and counts of 8 bytes in the byte order of the machine,
+// the hash of the row, and the hash of all bytes before it.
 namespace trackbed::fmu {
 namespace {
 
@@ -109,11 +111,15 @@ std::string Unit::Serialize(const State& state) const {
     Append(commands, bytes);
   }
   bytes += state.loop ? HashOf(*state.loop) : "";
-  return bytes;
+  return bytes + Sha256(bytes);
 }
 
 State Unit::Deserialize(std::string_view bytes) const {
-  Reader reader(bytes);
+  const std::size_t size = bytes.size() - std::min(bytes.size(), kHashLength);
+  if (Sha256(bytes.substr(0, size)) != bytes.substr(size)) {
+    Refuse("the serialized state is damaged or cut off");
+  }
+  Reader reader(bytes.substr(0, size));
   if (reader.Text(kMark.size()) != kMark) {
     Refuse("these bytes are no serialized state of this version of Trackbed");
   }
