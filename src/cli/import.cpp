@@ -142,8 +142,7 @@ void AddImport(const Command& command) {
       .TypeName("MODEL");
   AddAllowAssets(command, options->asset_folders);
   command.AddFlag("--align", options->align,
-                  "Shift the measured speed, yaw rate and accelerations by their delay behind the "
-                  "motion of the pose");
+                  "Shift the measured signals by their delay behind the motion of the pose");
   command.AddFlag("--report", options->report, "Also write report.html in the run folder");
   command.AddFlag("--mcap", options->mcap, "Also write run.mcap (Foxglove) in the run folder");
   command.AddFlag("-q,--quiet", options->quiet, "Print errors only");

@@ -4,19 +4,43 @@
 #include <vector>
 
 #include "src/recording/log_rows.h"
+#include "src/recording/signal_delay.h"
 #include "trackbed/recording/log_map.h"
 #include "trackbed/recording/recorded_drive.h"
 
 namespace trackbed {
 
-/// Estimates the delays of the measured speed, yaw rate and accelerations behind the motion of the
-/// pose (FindDelay), and returns a note for each delay that exceeds its uncertainty. If `map.align`
-/// is true, also shifts the times of these signals in `rows` by their delays. The samples of
-/// `drive` contain the motion that was computed from the pose; `start` is the time of the first
-/// sample since the first row of the log [s].
+/// The clock of a signal compared with the clock of the pose.
+struct SignalClock {
+  LogSignal signal = kSpeedSignal;
+  SignalDelay found{};
+  /// Delay [s] above which the signal counts as delayed: three standard errors, or the mean
+  /// distance of the rows of the signal or of the pose if that is more. A logger that writes the
+  /// last value of a signal into each row delays the signal by up to the distance of two rows.
+  double uncertainty = 0.0;
+
+  [[nodiscard]] bool differs() const;
+};
+
+/// Estimates the delays of all signals of a log that can be compared with the motion (FindDelay):
+///   speed          against the derivative of the position along the car
+///   yaw_rate       against the derivative of the yaw
+///   accelerometer  against the derivatives of the speeds along and across the car in the turning
+///                  car, at the place of the accelerometer. Measured speeds and yaw rates are
+///                  shifted by their delays for this comparison.
+///   steering, steering_command  the yaw rate against speed times the tangent of the angle; here
+///                  the delay is that of the yaw rate, and negative if the steering is logged late.
+/// The samples of `drive` contain the motion that was computed from the pose; `start` is the time
+/// of the first sample since the first row of the log [s].
+std::vector<SignalClock> MeasureClocks(const LogRows& rows, const LogMap& map,
+                                       const RecordedDrive& drive, double start);
+
+/// Returns a note for each signal that is delayed by more than its uncertainty. If `map.align` is
+/// true, also shifts the times of these signals in `rows` onto the clock of the pose.
 ///
-/// Also notes by how much the yaw rate follows the steering angle and the steering command. These
-/// signals are never shifted, because the response of the car is a part of their delay.
+/// Steering angles and commands are shifted only if the yaw rate precedes them, which no car can
+/// do, and then by as much as the yaw rate precedes them. A yaw rate that follows the steering is
+/// the response of the car, or a delay, or both; a note states its delay.
 std::vector<std::string> CompareClocks(LogRows& rows, const LogMap& map, const RecordedDrive& drive,
                                        double start);
 

@@ -1,16 +1,21 @@
 #include "src/recording/signal_delay.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <map>
 
-#include "trackbed/geometry/pose.h"
-
-// Estimates a delay by least squares: a scan over whole samples finds the smallest sum of squared
-// residuals, and a parabola through the sums at this delay and at both neighbors refines the delay.
+// Estimates a delay by least squares: a scan over whole samples computes the sum of squared
+// residuals for each delay. The slope of a cubic that is fitted to the sums around the chosen delay
+// refines the delay. The cubic extends over the delays that still explain nine tenths of the
+// signal, so noise of neighboring delays averages out. The standard error is that of an extremum
+// estimator with correlated residuals (Newey and West 1987).
 namespace trackbed {
 namespace {
+
+/// Least share of the signal's variance that the reference must explain.
+constexpr double kLeastExplained = 0.1;
 
 /// Least-squares line signal = a reference + b through pairs of values.
 struct Line {
@@ -18,6 +23,7 @@ struct Line {
   double b = 0.0;
   double residuals = 0.0;  // sum of squared residuals
   double variance = 0.0;   // sum of squared deviations of the signal from its mean
+  double count = 0.0;
 };
 
 /// The samples from which delays are estimated: the same samples of the signal at every delay.
@@ -60,11 +66,32 @@ class Scan {
       yy += dy * (y - mean_y);
     });
     if (!(xx > 0.0)) {
-      return {.residuals = yy, .variance = yy};
+      return {.residuals = yy, .variance = yy, .count = n};
     }
     const double a = xy / xx;
-    return {a, mean_y - a * mean_x, std::max(0.0, yy - a * xy), yy};
+    return {.a = a,
+            .b = mean_y - a * mean_x,
+            .residuals = std::max(0.0, yy - a * xy),
+            .variance = yy,
+            .count = n};
   }
+
+  /// Returns the slope of the reference at the sample `index`, per sample (CubicWeights).
+  [[nodiscard]] double Slope(std::size_t index, const std::vector<double>& weights) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      sum += weights[k] * (reference_[index + k + 1] - reference_[index - k - 1]);
+    }
+    return sum;
+  }
+
+  /// Returns the reference `part` of a sample before the sample `index`, from -1 to 1.
+  [[nodiscard]] double Before(std::size_t index, double part) const {
+    return part > 0.0 ? std::lerp(reference_[index], reference_[index - 1], part)
+                      : std::lerp(reference_[index], reference_[index + 1], -part);
+  }
+
+  [[nodiscard]] int reach() const { return reach_; }
 
  private:
   const std::vector<double>& reference_;
@@ -73,37 +100,194 @@ class Scan {
   int reach_;
 };
 
-/// Returns the standard error of the delay, in samples.
-double StandardError(const Scan& scan, int delay, const Line& line,
-                     const std::vector<double>& reference) {
-  double n = 0.0;
-  double squares = 0.0;   // sum of squared signal values
-  double products = 0.0;  // sum of products of neighboring residuals
-  double last = 0.0;
-  Vec2 mean = Vec2::Zero();                           // of the reference and of its derivative
-  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();  // co-moments about the mean
-  scan.ForPairs(delay, 1, [&](double x, double y, std::size_t index) {
-    const double residual = y - line.a * x - line.b;
-    products += n > 0.0 ? residual * last : 0.0;
-    last = residual;
+/// Returns the correlation of neighboring residuals, from 0 to 0.999.
+double NeighborCorrelation(const std::vector<double>& values) {
+  double products = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    squares += values[i] * values[i];
+    products += i > 0 ? values[i] * values[i - 1] : 0.0;
+  }
+  constexpr double kLargest = 0.999;
+  return squares > 0.0 ? std::clamp(products / squares, 0.0, kLargest) : 0.0;
+}
+
+/// Returns the variance of the sum of correlated values with the mean 0 (Newey and West 1987). The
+/// number of lags is that of Andrews (1991) for the values' correlation at the first lag.
+double VarianceOfSum(const std::vector<double>& values) {
+  const double n = static_cast<double>(values.size());
+  const double rho = NeighborCorrelation(values);
+  const double alpha = 4.0 * rho * rho / ((1.0 - rho * rho) * (1.0 - rho * rho));
+  const auto lags = static_cast<std::size_t>(std::min(1.1447 * std::cbrt(alpha * n), 0.1 * n));
+  double sum = 0.0;
+  for (std::size_t k = 0; k <= lags; ++k) {
+    double covariance = 0.0;
+    for (std::size_t i = k; i < values.size(); ++i) {
+      covariance += values[i] * values[i - k];
+    }
+    const double weight = 1.0 - static_cast<double>(k) / static_cast<double>(lags + 1);
+    sum += (k == 0 ? 1.0 : 2.0 * weight) * covariance;
+  }
+  return sum;
+}
+
+/// Returns weights w_k such that the sum of w_k (f(k) - f(-k)) over k from 1 to `width` is the
+/// slope at 0 of the least-squares cubic through values f at the places from -`width` to `width`
+/// (Savitzky and Golay 1964); of the parabola if `width` is 1.
+std::vector<double> CubicWeights(int width) {
+  double s2 = 0.0;  // sums of powers of the places
+  double s4 = 0.0;
+  double s6 = 0.0;
+  for (int k = 1; k <= width; ++k) {
+    const double square = static_cast<double>(k) * k;
+    s2 += 2.0 * square;
+    s4 += 2.0 * square * square;
+    s6 += 2.0 * square * square * square;
+  }
+  std::vector<double> weights;
+  for (int k = 1; k <= width; ++k) {
+    const double place = k;
+    weights.push_back(width == 1 ? place / s2
+                                 : (s6 * place - s4 * place * place * place) / (s2 * s6 - s4 * s4));
+  }
+  return weights;
+}
+
+/// Minimum of the sum of squared residuals over the delay, in samples.
+struct Minimum {
+  int middle = 0;      // nearest whole delay
+  double delay = 0.0;  // delay at the minimum
+  double bend = 0.0;   // second derivative
+};
+
+/// Finds the delay near `middle` at which the cubic through the sums of squared residuals, within
+/// `width` samples of this delay, has no slope. The slope is interpolated linearly between samples.
+Minimum FindMinimum(const Scan& scan, int middle, int width, int stride) {
+  std::map<int, double> sums;
+  const auto sum_at = [&](int delay) {
+    const auto [at, is_new] = sums.try_emplace(delay, 0.0);
+    if (is_new) {
+      at->second = scan.Fit(delay, stride).residuals;
+    }
+    return at->second;
+  };
+  const std::vector<double> weights = CubicWeights(width);
+  const auto slope_at = [&](int delay) {
+    double slope = 0.0;
+    for (int k = 1; k <= width; ++k) {
+      slope += weights[static_cast<std::size_t>(k - 1)] * (sum_at(delay + k) - sum_at(delay - k));
+    }
+    return slope;
+  };
+  Minimum minimum{.middle = middle, .delay = static_cast<double>(middle)};
+  // The minimum is within the width of the cubic.
+  for (int step = 0; step < 2 * width; ++step) {
+    const double slope = slope_at(minimum.middle);
+    const int toward = slope > 0.0 ? -1 : 1;
+    const double next = slope_at(minimum.middle + toward);
+    minimum.bend = (next - slope) * toward;
+    if (!(minimum.bend > 0.0)) {
+      return minimum;
+    }
+    const double part = -slope / minimum.bend;
+    minimum.delay = minimum.middle + std::clamp(part, -1.0, 1.0);
+    if (std::abs(part) <= 0.5 || std::abs(minimum.middle + toward) + width + 1 > scan.reach()) {
+      return minimum;
+    }
+    minimum.middle += toward;
+  }
+  return minimum;
+}
+
+/// Returns the standard error of the delay at the minimum of a cubic over +-`width`, in samples.
+double StandardError(const Scan& scan, const Minimum& minimum, int width, int stride) {
+  const Line line = scan.Fit(minimum.middle, stride);
+  // Sums over groups of scores have the same variance of their sum, and bound the cost.
+  constexpr std::size_t kMaxScores = 20000;
+  const std::size_t group = 1 + static_cast<std::size_t>(line.count) / kMaxScores;
+  const std::vector<double> weights = CubicWeights(width);
+  std::vector<double> scores;
+  std::size_t count = 0;
+  double squares = 0.0;  // sum of squared signal values
+  double slopes = 0.0;   // sum of squared slopes
+  const double part = minimum.delay - minimum.middle;
+  scan.ForPairs(minimum.middle, stride, [&](double /*x*/, double y, std::size_t index) {
+    if (count++ % group == 0) {
+      scores.push_back(0.0);
+    }
+    const double slope = scan.Slope(index, weights);
+    scores.back() += (y - line.a * scan.Before(index, part) - line.b) * slope;
     squares += y * y;
-    n += 1.0;
-    const Vec2 values(x, 0.5 * (reference[index + 1] - reference[index - 1]));
-    const Vec2 off = values - mean;
-    mean += off / n;
-    moments += off * (values - mean).transpose();
+    slopes += slope * slope;
   });
-  // The part of the derivative that neither a change of a nor a change of b can replace. For a
-  // reference that is linear in time, this part is zero, and no delay can be found.
-  const double own = moments(1, 1) - moments(0, 1) * moments(0, 1) / moments(0, 0);
-  constexpr double kLargestCorrelation = 0.999;
-  const double rho =
-      line.residuals > 0.0 ? std::clamp(products / line.residuals, 0.0, kLargestCorrelation) : 0.0;
   // Logs have at least this relative rounding error.
   constexpr double kRounding = 1e-6;
-  const double sigma =
-      std::sqrt(line.residuals / std::max(1.0, n - 3.0)) + kRounding * std::sqrt(squares / n);
-  return sigma / (line.a * std::sqrt(std::max(0.0, own))) * std::sqrt((1.0 + rho) / (1.0 - rho));
+  const double rounding = kRounding * kRounding * squares / line.count * slopes;
+  const double information = 0.5 * minimum.bend / line.a;
+  return information > 0.0 ? std::sqrt(VarianceOfSum(scores) + rounding) / information
+                           : std::numeric_limits<double>::infinity();
+}
+
+/// Returns the number of independent samples that contain as much information as the samples of the
+/// scan.
+double IndependentSamples(const Scan& scan, int delay, const Line& line, int stride) {
+  std::vector<double> residuals;
+  scan.ForPairs(delay, stride, [&](double x, double y, std::size_t /*index*/) {
+    residuals.push_back(y - line.a * x - line.b);
+  });
+  const double rho = NeighborCorrelation(residuals);
+  return line.count * (1.0 - rho) / (1.0 + rho);
+}
+
+/// Returns the delay in samples whose sum of squared residuals is least. Periodic motion fits
+/// nearly as well at other delays, one period apart. Of the minima that are not significantly worse
+/// than the least one, and separated from it by significantly worse delays, returns that with the
+/// smallest absolute delay.
+int BestDelay(const Scan& scan, const std::vector<Line>& lines, int stride) {
+  const int reach = scan.reach();
+  const auto at = [&](int delay) -> const Line& {
+    return lines[static_cast<std::size_t>(delay + reach)];
+  };
+  int least = 0;
+  for (int delay = -reach; delay <= reach; ++delay) {
+    if (at(delay).a > 0.0 && at(delay).residuals < at(least).residuals) {
+      least = delay;
+    }
+  }
+  // Likelihood ratio test with one degree of freedom at three standard deviations.
+  constexpr double kSignificant = 9.0;
+  const double independent = IndependentSamples(scan, least, at(least), stride);
+  const double worst = at(least).residuals * std::exp(kSignificant / std::max(1.0, independent));
+  int best = least;
+  const int none = reach + 1;
+  int valley = none;  // least of the neighboring delays that are not significantly worse
+  for (int delay = -reach; delay <= reach; ++delay) {
+    if (at(delay).a > 0.0 && at(delay).residuals <= worst) {
+      valley = valley != none && at(valley).residuals <= at(delay).residuals ? valley : delay;
+    }
+    if (delay == reach || at(delay + 1).residuals > worst) {
+      best = std::abs(valley) < std::abs(best) ? valley : best;
+      valley = none;
+    }
+  }
+  return best;
+}
+
+/// Returns the largest distance from the delay `best` within which all delays explain at least nine
+/// tenths of what the best delay explains; at least 1.
+int WidthOfCubic(const std::vector<Line>& lines, int reach, int best) {
+  constexpr double kExplained = 0.9;
+  const auto explained = [&](int delay) {
+    const Line& line = lines[static_cast<std::size_t>(delay + reach)];
+    return line.a > 0.0 ? line.variance - line.residuals : 0.0;
+  };
+  const double least = kExplained * explained(best);
+  int width = 1;
+  while (std::abs(best) + width + 2 < reach && explained(best - width - 1) >= least &&
+         explained(best + width + 1) >= least) {
+    ++width;
+  }
+  return width;
 }
 
 }  // namespace
@@ -116,30 +300,25 @@ std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
   if (count < 4 * reach) {
     return std::nullopt;
   }
-  // The scan takes at most this number of samples, which bounds its cost. The chosen delay is then
-  // refined over all samples.
+  // The scan and the refinement take at most these numbers of samples, which bounds their cost.
   constexpr int kScanned = 20000;
+  constexpr int kRefined = 200000;
   const Scan scan(reference, signal, valid, reach);
   const int stride = 1 + count / kScanned;
-  int best = 0;
-  double least = scan.Fit(0, stride).residuals;
+  std::vector<Line> lines;
   for (int delay = -reach; delay <= reach; ++delay) {
-    const Line line = scan.Fit(delay, stride);
-    if (line.a > 0.0 && line.residuals < least) {
-      least = line.residuals;
-      best = delay;
-    }
+    lines.push_back(scan.Fit(delay, stride));
   }
-  const Line line = scan.Fit(best, 1);
-  const bool explained = line.residuals < 0.5 * line.variance;
+  const int best = BestDelay(scan, lines, stride);
+  const Line& line = lines[static_cast<std::size_t>(best + reach)];
+  const bool explained = line.residuals < (1.0 - kLeastExplained) * line.variance;
   if (!(line.a > 0.0) || !explained || std::abs(best) == reach) {
     return std::nullopt;
   }
-  const double before = scan.Fit(best - 1, 1).residuals;
-  const double after = scan.Fit(best + 1, 1).residuals;
-  const double bend = before - 2.0 * line.residuals + after;
-  const double part = bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
-  return SignalDelay{(best + part) * period, StandardError(scan, best, line, reference) * period};
+  const int width = WidthOfCubic(lines, reach, best);
+  const int fine = 1 + count / kRefined;
+  const Minimum minimum = FindMinimum(scan, best, width, fine);
+  return SignalDelay{minimum.delay * period, StandardError(scan, minimum, width, fine) * period};
 }
 
 }  // namespace trackbed

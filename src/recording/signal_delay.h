@@ -18,14 +18,18 @@ inline constexpr double kMaxSignalDelay = 1.0;
 ///   signal(t) = a reference(t - tau) + b + noise,
 /// where tau minimizes the sum of squared residuals over the valid samples. The constants a > 0 and
 /// b are free, so a wrong scale or offset of the signal has no effect. The standard error is
-///   sigma / (a |d|) sqrt((1 + rho)/(1 - rho)),
-/// with the standard deviation sigma of the residuals, their correlation rho between neighboring
-/// samples, and the part d of the reference's derivative that is orthogonal to the reference and to
-/// a constant.
+///   sqrt(V)/H,  V = variance of sum_i e_i x'_i,  H = a |sum_i (x_i - mean) x''_i|,
+/// with the residuals e and the reference x. V is estimated from the correlation of the products
+/// e_i x'_i over time (Newey and West 1987), because smoothed noise is correlated. H is the
+/// curvature of the correlation of signal and reference, and therefore not increased by noise of
+/// the reference. For a reference that is linear in time, H is 0 and the standard error infinite.
+///
+/// Periodic motion fits at several delays. If the sums of squared residuals of these delays do not
+/// differ significantly (three standard deviations), the smallest absolute delay is returned.
 ///
 /// All samples have the same distance `period` [s] in time. Returns nullopt if the model explains
-/// less than half of the signal's variance, if the best delay exceeds kMaxSignalDelay, or if there
-/// are fewer than 4 kMaxSignalDelay/period samples. The cost is at most 0.1 s.
+/// less than a tenth of the signal's variance, if the best delay exceeds kMaxSignalDelay, or if
+/// there are fewer than 4 kMaxSignalDelay/period samples. The cost is at most 0.3 s.
 std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
                                      const std::vector<double>& signal,
                                      const std::vector<bool>& valid, double period);

@@ -509,7 +509,8 @@ TEST(ImportLog, NoticesAndRemovesTheDelayOfASignal) {
   map.yaw_rate->column = "r";
   EXPECT_THAT(Import(csv, map).notes, Contains(testing::ContainsRegex(
                                           "yaw_rate lags the motion of the pose by 0.23[0-9]* s "
-                                          "[+]- 0.01 s: shift it with --align, or set "
+                                          "[(]standard error [0-9.e-]+ s[)]: shift it with "
+                                          "--align, or set "
                                           "yaw_rate.delay: 0.23")));
   map.align = true;
   const RecordedDrive aligned = Import(csv, map);

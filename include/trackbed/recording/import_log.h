@@ -39,12 +39,12 @@ namespace trackbed {
 /// columns are only listed in the notes. Throws RunError in the same cases as ReadFile.
 ///
 /// Delays of at most 1 s between the pose and the measured speed, yaw rate and accelerations are
-/// estimated by least squares, and noted with their uncertainty if they exceed it. If `map.align`
-/// is true, these signals are shifted by their delay. The delay of the yaw rate behind the steering
-/// angle is noted, too, but never removed, because the response of the car is a part of it. Drift
-/// is not removed. The import takes 1 us
-/// per row and 5 us per sample. The file is read once as a stream, and each number that is kept
-/// needs 16 bytes of memory.
+/// estimated with their standard errors, and noted if they exceed three standard errors and the
+/// mean distance of two rows. If `map.align` is true, these signals are shifted onto the clock of
+/// the pose. The delay of the yaw rate behind the steering is noted, too, but not removed, because
+/// the response of the car is a part of it; a steering signal that lags the yaw rate is shifted.
+/// Drift is not removed. The import takes 1 us per row and 10 us per sample. The file is read once
+/// as a stream, and each number that is kept needs 16 bytes of memory.
 RecordedDrive ImportLog(const std::filesystem::path& log, const LogMap& map);
 
 }  // namespace trackbed
