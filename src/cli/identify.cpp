@@ -119,6 +119,9 @@ int RunIdentification(const IdentifyOptions& options) {
     Print("{}: {}, cost {:.4g} -> {:.4g} over {} windows of {:.3g} s, in {}\n", study.name,
           result.interrupted ? Colorize(Tone::kDoubtful, "interrupted") : SafeText{"finished"},
           result.start_cost, result.cost, result.windows, study.horizon, out.string());
+    for (const std::string& note : result.notes) {
+      Print("  {}\n", Colorize(Tone::kDoubtful, note));
+    }
     PrintParameters(result);
     PrintRecords(result);
   }

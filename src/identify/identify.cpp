@@ -12,6 +12,8 @@
 #include "src/identify/linear_model.h"
 #include "src/identify/residuals.h"
 #include "trackbed/core/error.h"
+#include "trackbed/drive/drive.h"
+#include "trackbed/recording/record_clocks.h"
 #include "trackbed/sim/car_parameters.h"
 
 // Identifies parameters of a car model from recorded drives (records). The cost is the sum of the
@@ -47,6 +49,42 @@ constexpr double kStrongCorrelation = 0.95;
   throw InputError(problems);
 }
 
+/// Adds the default parameter steering_offset to the study (identify.h).
+Identification WithSteeringOffset(Identification study) {
+  constexpr std::size_t kMaxParameters = 40;
+  const auto is_offset = [](const IdentifiedParameter& parameter) {
+    return parameter.name == kSteeringOffset;
+  };
+  const auto is_prescribed = [](const Scenario& scenario) {
+    return scenario.drive.steering == SteeringInput::kPrescribed;
+  };
+  const auto& parameters = study.parameters;
+  const auto& scenarios = study.fit_scenarios;
+  if (!study.steering_offset || parameters.size() >= kMaxParameters ||
+      std::any_of(parameters.begin(), parameters.end(), is_offset) ||
+      std::any_of(scenarios.begin(), scenarios.end(), is_prescribed) ||
+      LoadCar(scenarios.front()).params().kind != VehicleKind::kSteered) {
+    return study;
+  }
+  constexpr double kLargest = 0.1;  // Bound of the offset [rad].
+  study.parameters.push_back({.name = kSteeringOffset, .from = -kLargest, .to = kLargest});
+  return study;
+}
+
+/// Returns notes on fitted records whose signals do not have the clock of the pose.
+std::vector<std::string> NotesOf(const std::vector<Scenario>& scenarios) {
+  std::vector<std::string> notes;
+  for (const Scenario& scenario : scenarios) {
+    for (const std::string& note : ClockNotes(*scenario.record->data)) {
+      notes.push_back(
+          fmt::format("{}: {}: parameters of the car, such as a lag of the steering, "
+                      "would explain this delay; set align: true in the map of the log",
+                      scenario.name, note));
+    }
+  }
+  return notes;
+}
+
 bool IsAt(double value, double bound, const IdentifiedParameter& parameter) {
   // Distance that still counts as equal, as a fraction of the parameter's range.
   constexpr double kBoundTolerance = 1e-4;
@@ -55,11 +93,19 @@ bool IsAt(double value, double bound, const IdentifiedParameter& parameter) {
 
 /// Returns the free parameter with the largest standard deviation, if this standard deviation is
 /// larger than that of a uniform distribution between the parameter's bounds. Returns none if the
-/// records determine all parameters.
-std::optional<std::size_t> LeastDetermined(const Eigen::MatrixXd& covariance) {
+/// records determine all parameters. If the free parameter `first` is not determined, returns
+/// `first`.
+std::optional<std::size_t> LeastDetermined(const Eigen::MatrixXd& covariance,
+                                           std::optional<std::size_t> first) {
   std::optional<std::size_t> least;
   // Standard deviation of a uniform distribution over an interval of length 1.
   double worst = 1.0 / std::sqrt(12.0);
+  if (first) {
+    const auto i = static_cast<Eigen::Index>(*first);
+    if (!(std::sqrt(covariance(i, i)) <= worst)) {
+      return first;
+    }
+  }
   for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
     const double deviation = std::sqrt(covariance(i, i));
     if (!(deviation <= worst)) {
@@ -68,6 +114,14 @@ std::optional<std::size_t> LeastDetermined(const Eigen::MatrixXd& covariance) {
     }
   }
   return least;
+}
+
+/// Returns the place of a value in a list; none if the list does not have the value.
+std::optional<std::size_t> PlaceOf(std::optional<std::size_t> value,
+                                   const std::vector<std::size_t>& list) {
+  const auto found = value ? std::find(list.begin(), list.end(), *value) : list.end();
+  return found == list.end() ? std::nullopt
+                             : std::optional(static_cast<std::size_t>(found - list.begin()));
 }
 
 double Correlation(const Eigen::MatrixXd& covariance, std::size_t a, std::size_t b) {
@@ -129,9 +183,10 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
 }
 
 /// Estimates the parameters. Fix parameters that the records do not determine, one after the other,
-/// until the records determine all free parameters.
+/// until the records determine all free parameters. The parameter `added`, if any, is fixed before
+/// all others.
 void Estimate(Estimator& estimator, const ResidualModel& model, ProgressCounter& work,
-              IdentificationResult& result) {
+              std::optional<std::size_t> added, IdentificationResult& result) {
   const Identification& study = result.study;
   for (const std::size_t i : estimator.FixInertParameters()) {
     result.parameters[i].status = ParameterStatus::kNotIdentified;
@@ -164,7 +219,7 @@ void Estimate(Estimator& estimator, const ResidualModel& model, ProgressCounter&
     }
     const Eigen::MatrixXd covariance = Covariance(
         study, Linearize(study, model, estimator.best(), inside, [&] { work.Count(); }), inside);
-    const std::optional<std::size_t> least = LeastDetermined(covariance);
+    const std::optional<std::size_t> least = LeastDetermined(covariance, PlaceOf(added, inside));
     const auto error_of = [&](std::size_t a) {
       const auto i = static_cast<Eigen::Index>(a);
       const IdentifiedParameter& parameter = study.parameters[inside[a]];
@@ -232,7 +287,8 @@ const ParameterEstimate* IdentificationResult::Find(const std::string& name) con
   return found == parameters.end() ? nullptr : &*found;
 }
 
-void CheckIdentification(const Identification& study) {
+void CheckIdentification(const Identification& asked) {
+  const Identification study = WithSteeringOffset(asked);
   try {
     const ResidualModel model(study, 1);
     static_cast<void>(model.CarsAt(StartValues(study, model.car())));
@@ -241,11 +297,12 @@ void CheckIdentification(const Identification& study) {
   }
 }
 
-IdentificationResult Identify(const Identification& study, const IdentificationHooks& hooks) {
-  TRACKBED_REQUIRE(!study.parameters.empty() && !study.fit_scenarios.empty(),
+IdentificationResult Identify(const Identification& asked, const IdentificationHooks& hooks) {
+  TRACKBED_REQUIRE(!asked.parameters.empty() && !asked.fit_scenarios.empty(),
                    "Identify: {} parameters, {} scenarios to fit; at least one of each",
-                   study.parameters.size(), study.fit_scenarios.size());
+                   asked.parameters.size(), asked.fit_scenarios.size());
   const auto begun = std::chrono::steady_clock::now();
+  const Identification study = WithSteeringOffset(asked);
   IdentificationResult result{.study = study};
   const ResidualModel model(result.study, std::max(1, hooks.threads), hooks.interrupted);
   ProgressCounter work(hooks, study.starts * study.evaluations);
@@ -257,12 +314,15 @@ IdentificationResult Identify(const Identification& study, const IdentificationH
     }
     result.start_cost = estimator.best_cost();
     result.windows = static_cast<int>(model.windows());
+    result.notes = NotesOf(study.fit_scenarios);
     for (std::size_t i = 0; i < study.parameters.size(); ++i) {
       result.parameters.push_back(
           {.parameter = study.parameters[i], .start = estimator.start()[i]});
     }
     try {
-      Estimate(estimator, model, work, result);
+      const std::size_t count = asked.parameters.size();
+      Estimate(estimator, model, work,
+               study.parameters.size() > count ? std::optional(count) : std::nullopt, result);
     } catch (const Interrupted&) {
       result.interrupted = true;
       for (ParameterEstimate& estimate : result.parameters) {

@@ -112,6 +112,7 @@ ordered_json ToJson(const IdentificationResult& result) {
       {"windows", {{"horizon_s", study.horizon}, {"count", result.windows}}},
       {"cost", {{"start", OrNull(result.start_cost)}, {"fitted", OrNull(result.cost)}}},
       {"evaluations", result.evaluations}};
+  json["notes"] = result.notes;
   json["cost"]["of_starts"] = ordered_json::array();
   for (const double cost : result.start_costs) {
     json["cost"]["of_starts"].push_back(OrNull(cost));

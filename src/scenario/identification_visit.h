@@ -16,7 +16,8 @@ inline void Visit(KeyVisitor& a, ParameterPrior& prior) {
 inline void Visit(KeyVisitor& a, IdentifiedParameter& parameter) {
   a.Field({"name", "",
            "of a number under <custom> in the model, such as p_ky1_front or steering_curve[1]; or "
-           "mass, cg_to_rear, cg_height, yaw_inertia, steering_rate, steering_limit, drive_torque"},
+           "mass, cg_to_rear, cg_height, yaw_inertia, steering_rate, steering_limit, drive_torque, "
+           "steering_offset"},
           parameter.name, Need::kRequired);
   a.Field({"from", "", "lower bound, in the parameter's unit"}, parameter.from, Need::kRequired);
   a.Field({"to", "", "upper bound, in the parameter's unit"}, parameter.to, Need::kRequired);
@@ -66,6 +67,9 @@ inline void Visit(KeyVisitor& a, Identification& study) {
   a.Field({"loss_scale", "", "from how many deviations on they count less"}, study.loss_scale,
           Need::kOptional, kPositive);
   a.List({"parameters", "", "what is estimated"}, study.parameters);
+  a.Field({"steering_offset", "",
+           "also estimate a constant steering offset, unless it is one of the parameters"},
+          study.steering_offset, Need::kOptional);
   a.Field({"starts", "", "the search begins so often: first at `start`, then at random points"},
           study.starts, Need::kOptional, Range{.min = 1.0, .max = 1000.0});
   a.Field({"evaluations", "", "of the cost, about, from each start: then the search ends"},

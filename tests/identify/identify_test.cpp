@@ -101,6 +101,7 @@ class IdentifiedCar : public testing::Test {
     Identification study{.name = "study", .plant = plant};
     study.parameters = std::move(parameters);
     study.fit_scenarios = {Record(std::move(drive), plant)};
+    study.steering_offset = false;
     study.starts = 1;
     study.loss = RobustLoss::kSquared;
     study.file = "study.yaml";
@@ -256,6 +257,67 @@ TEST_F(IdentifiedCar, WeighsPriorsAgainstWindows) {
           .parameters.front()
           .value,
       0.08, 1e-4);
+}
+
+TEST_F(IdentifiedCar, FindsASteeringOffsetByDefault) {
+  for (const double offset : {-0.017, 0.0, 0.012}) {
+    Identification study =
+        Study("single_track", Drive("single_track", {{.name = kSteeringOffset, .value = offset}}),
+              {FiveParameters()[0]});
+    study.steering_offset = true;
+    const ParameterEstimate& estimate = *Identify(study).Find(kSteeringOffset);
+    // The residuals vanish at the truth, and the search ends when its steps are below 1e-4 of the
+    // width of the bounds, 0.2 rad.
+    EXPECT_NEAR(estimate.value, offset, Tolerance(2e-4) * 0.2) << offset;
+    ASSERT_TRUE(estimate.standard_error) << estimate.remark;
+    EXPECT_EQ(estimate.status, ParameterStatus::kIdentified);
+  }
+}
+
+TEST_F(IdentifiedCar, LeavesTheSteeringOffsetToTheStudy) {
+  Identification study =
+      Study("single_track", Drive("single_track", kTruth), {FiveParameters()[0]});
+  study.evaluations = 1;
+  EXPECT_EQ(Identify(study).Find(kSteeringOffset), nullptr);  // steering_offset: false
+  study.steering_offset = true;
+  study.parameters.push_back({.name = kSteeringOffset, .from = -0.01, .to = 0.01});
+  EXPECT_EQ(Identify(study).parameters.size(), 2U);
+  study.parameters.pop_back();
+  study.fit_scenarios.front().drive.steering = SteeringInput::kPrescribed;
+  EXPECT_EQ(Identify(study).Find(kSteeringOffset), nullptr);
+}
+
+TEST_F(IdentifiedCar, FixesTheOffsetBeforeACurveThatExplainsIt) {
+  // All angles of the curve together have the effect of the offset.
+  std::string xml = ReadFile(model_);
+  xml.insert(xml.find("<custom>") + 8,
+             R"(<numeric name="steering_curve" data="-0.4 -0.4 -0.1 -0.1 0.1 0.1 0.4 0.4"/>)");
+  model_ = folder_.Write("curve.xml", xml);
+  std::vector<IdentifiedParameter> parameters;
+  for (const char* name :
+       {"steering_curve[1]", "steering_curve[3]", "steering_curve[5]", "steering_curve[7]"}) {
+    const double own = CarParameterValue(Base(), name);
+    parameters.push_back({.name = name, .from = own - 0.05, .to = own + 0.05});
+  }
+  Identification study = Study("single_track", Drive("single_track", {}), parameters);
+  study.steering_offset = true;
+  const IdentificationResult result = Identify(study);
+  EXPECT_EQ(result.Find(kSteeringOffset)->status, ParameterStatus::kNotIdentified);
+  EXPECT_EQ(result.Find("steering_curve[3]")->status, ParameterStatus::kIdentified);
+}
+
+TEST_F(IdentifiedCar, NotesASignalThatLagsThePose) {
+  RecordedDrive drive = Drive("single_track", kTruth, {}, 30.0);
+  EXPECT_THAT(Identify(Study("single_track", drive, {FiveParameters()[2]})).notes,
+              testing::IsEmpty());
+  const RecordedDrive on_time = drive;
+  for (RecordedSample& sample : drive.samples) {
+    sample.yaw_rate = on_time.At(sample.time - 0.36).yaw_rate;
+  }
+  const IdentificationResult result = Identify(Study("single_track", drive, {FiveParameters()[2]}));
+  EXPECT_THAT(result.notes, testing::ElementsAre(
+                                HasSubstr("drive: yaw_rate lags the motion of the pose by 0.36")));
+  EXPECT_EQ(ToJson(result)["notes"][0], result.notes[0]);
 }
 
 TEST_F(IdentifiedCar, PlacesUnknownParameters) {

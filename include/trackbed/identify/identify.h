@@ -23,6 +23,13 @@
 /// takes Gauss-Newton steps within a trust region. Each step solves a quadratic program with the
 /// parameters' bounds as constraints (NLopt's SLSQP).
 ///
+/// Unless the study has `steering_offset: false`, the constant `steering_offset` of the car
+/// (sim/car_parameters.h) is estimated besides the parameters of the study, between -0.1 and 0.1
+/// rad. If the records do not determine the offset and other parameters at once, the offset is
+/// fixed before the others. The offset is left out if the study names it as a parameter or has 40
+/// parameters, if a record has prescribed steering, which bypasses the offset, and for vehicles
+/// without steered wheels.
+///
 /// Standard errors are computed as for an M-estimator with windows as independent clusters (Huber
 /// 1967; White 1980). The covariance matrix is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p), where g_i is
 /// the gradient of window i, n the number of windows, p the number of parameters, and H the
@@ -83,6 +90,9 @@ struct IdentificationResult {
   int windows = 0;
   int evaluations = 0;  ///< Number of times that the cost was evaluated.
   bool interrupted = false;
+  /// Faults of the records that bias the estimates, such as "drive: yaw_rate lags the motion of the
+  /// pose by 0.36 s ..." (recording/record_clocks.h).
+  std::vector<std::string> notes;
   /// Fitted model as XML, with comments that state the estimates and the source of each estimate.
   Scene model;
   std::vector<IdentifiedRecord> records;

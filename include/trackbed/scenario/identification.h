@@ -70,6 +70,8 @@ struct Identification {
   /// Scale of the robust loss function, as a multiple of the expected deviation.
   double loss_scale = 2.0;
   std::vector<IdentifiedParameter> parameters;
+  /// Whether a constant steering offset is estimated besides `parameters` (identify.h).
+  bool steering_offset = true;
   /// Number of searches: the first search begins at the parameters' `start` values, the others at
   /// random values within the bounds.
   int starts = 2;
