@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/control/tracking.h"
+#include "trackbed/control/surroundings.h"
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/single_track_car.h"
 #include "trackbed/vehicle/steering_actuator.h"
@@ -150,13 +151,6 @@ class ActuatorModel {
   double angle_;
 };
 
-/// Whether the rear axle moves sideways, as no axle of a kinematic car does.
-bool Slips(const ControlInput& input) {
-  constexpr double kRounding = 1e-9;
-  const double turning = input.vehicle.cg_to_rear * input.state.yaw_rate;
-  return std::abs(input.state.lateral_speed - turning) > kRounding * (1.0 + std::abs(turning));
-}
-
 /// Drives the kinematic car or the linear single-track car from a measured state.
 class PredictedCar {
  public:
@@ -193,7 +187,7 @@ class PredictedCar {
   std::optional<SingleTrackCar> single_track_;
 };
 
-class ActuatorCompensation final : public SteeringController {
+class ActuatorCompensation final : public SteeringController, public SeesSurroundings {
  public:
   ActuatorCompensation(std::unique_ptr<SteeringController> inner, ActuatorKnowledge knowledge)
       : inner_(std::move(inner)), knowledge_(knowledge) {}
@@ -209,7 +203,7 @@ class ActuatorCompensation final : public SteeringController {
       return inner_->Steer(Ahead(input, vehicle, input.state));
     }
     vehicle.steering_response.time_constant = input.vehicle.steering_response.time_constant / kLead;
-    slips_ = slips_ || Slips(input);
+    slips_ = slips_ || RearAxleSlips(input);
     if (!model_) {
       model_.emplace(input.vehicle, input.period, input.state.steering_actuator);
     }
@@ -223,6 +217,11 @@ class ActuatorCompensation final : public SteeringController {
 
   std::optional<double> Accelerate(const ControlInput& input) override {
     return inner_->Accelerate(input);
+  }
+  void See(const Surroundings& surroundings) override {
+    if (auto* const sees = dynamic_cast<SeesSurroundings*>(inner_.get())) {
+      sees->See(surroundings);
+    }
   }
   [[nodiscard]] std::vector<std::string> Columns() const override { return inner_->Columns(); }
   [[nodiscard]] std::vector<double> Values() const override { return inner_->Values(); }

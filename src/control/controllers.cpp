@@ -14,6 +14,7 @@
 #include "trackbed/control/schedule.h"
 #include "trackbed/control/stanley.h"
 #include "trackbed/control/steering_profile.h"
+#include "trackbed/control/surroundings.h"
 #include "trackbed/options/registry.h"
 
 namespace trackbed {
@@ -43,7 +44,7 @@ Registry<ControllerEntry>& ControllerRegistry() {
 }
 
 /// Rejects invalid vehicle states before the controller computes a steering angle.
-class ValidatingController final : public SteeringController {
+class ValidatingController final : public SteeringController, public SeesSurroundings {
  public:
   explicit ValidatingController(std::unique_ptr<SteeringController> inner)
       : inner_(std::move(inner)) {}
@@ -56,6 +57,12 @@ class ValidatingController final : public SteeringController {
   std::optional<double> Accelerate(const ControlInput& input) override {
     Check(input);
     return inner_->Accelerate(input);
+  }
+
+  void See(const Surroundings& surroundings) override {
+    if (auto* const sees = dynamic_cast<SeesSurroundings*>(inner_.get())) {
+      sees->See(surroundings);
+    }
   }
 
   [[nodiscard]] std::vector<std::string> Columns() const override { return inner_->Columns(); }

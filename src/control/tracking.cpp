@@ -23,6 +23,12 @@ double CurvatureAfterLag(const ControlInput& input) {
   return ahead.direction == here.direction ? ahead.curvature : here.curvature;
 }
 
+bool RearAxleSlips(const ControlInput& input) {
+  constexpr double kRounding = 1e-9;
+  const double turning = input.vehicle.cg_to_rear * input.state.yaw_rate;
+  return std::abs(input.state.lateral_speed - turning) > kRounding * (1.0 + std::abs(turning));
+}
+
 CarScale ComputeCarScale(const VehicleParams& vehicle) {
   constexpr double kWheelbase = 2.7;             // [m]
   constexpr double kSteeringRate = 2.65 / 17.6;  // [rad/s]

@@ -22,6 +22,9 @@ Tracking ProjectOntoPath(const ControlInput& input);
 /// without preview that steers by this curvature turns the lagging wheels in time.
 double CurvatureAfterLag(const ControlInput& input);
 
+/// Returns whether the rear axle moves sideways, as no axle of a kinematic car does.
+bool RearAxleSlips(const ControlInput& input);
+
 /// Scales of a car relative to the Prius, for which the default gains and weights were chosen. If
 /// lengths and times are measured in these scales, cars of any wheelbase and steering rate behave
 /// alike.

@@ -34,6 +34,7 @@ LoopCore::LoopCore(Plant& plant, const SteeringController& controller, const Fea
                   .vehicle = config.vehicle,
                   .control_period = config.control_period,
                   .goal_tolerance = config.goal_tolerance * config.vehicle.length}),
+      surroundings_(config.world, config.vehicle),
       faults_(config.disturbances, {.timestep = config.timestep,
                                     .start_steering = start_.steering_actuator,
                                     .speed = config.speed,
@@ -66,6 +67,7 @@ void LoopCore::BeginPeriod() {
   row_.measured = faults_.Measure(state_.pose);
   const bool at_rest = tick_ > 0 && Rests(state_);
   row_.tracking = FollowPlan(state_, at_rest);
+  surroundings_.BeginPeriod(state_, sequencer_.plan());
   status_ = Ending(state_, at_rest);
   if (!status_) {
     return;
@@ -108,12 +110,14 @@ std::optional<Projection> LoopCore::FollowPlan(const VehicleState& state, bool a
     const Projection at{sequencer_.station(), tracking->cross_track, tracking->heading_error};
     if (std::optional<FeasiblePlan> next = monitor_->Update(state, sequencer_.plan(), at)) {
       sequencer_.Replace(*next, state);
+      surroundings_.ForgetPath();
       recorder_.AddPlanChange({state.time, sequencer_.offset(), sequencer_.plan()});
       continues_past_obstacle_ = sequencer_.plan().blocked.empty();
       tracking = sequencer_.Project(state);
     }
   }
   if (at_rest && sequencer_.Advance(state)) {
+    surroundings_.ForgetPath();
     tracking = sequencer_.Project(state);
   }
   sequencer_.stationary_steer().Update(state.steering_actuator, state.time);
@@ -179,6 +183,9 @@ bool LoopCore::CarCoasts() const {
 void LoopCore::Control(SteeringController& controller, const ControlInput& input) {
   throttle_released_ = throttle_released_ || (config_.coasts_from && row_.tracking &&
                                               row_.tracking->s >= *config_.coasts_from);
+  if (auto* const sees = dynamic_cast<SeesSurroundings*>(&controller)) {
+    sees->See(surroundings_);
+  }
   command_.steering = Steer(controller, input);
   command_.acceleration = Accelerate(controller, input);
   TRACKBED_REQUIRE(std::isfinite(command_.steering) && std::isfinite(command_.acceleration),

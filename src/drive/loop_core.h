@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/drive/fault_injector.h"
+#include "src/drive/loop_surroundings.h"
 #include "src/drive/recorder.h"
 #include "src/drive/replanning_monitor.h"
 #include "src/drive/segment_sequencer.h"
@@ -45,7 +46,10 @@ class LoopCore {
            const LoopConfig& config, bool keeps_rows = true);
   /// Copies a loop; the copy steps `plant`, which must be in the same state as the plant of
   /// `other`.
-  LoopCore(const LoopCore& other, Plant& plant) : LoopCore(other) { plant_ = &plant; }
+  LoopCore(const LoopCore& other, Plant& plant) : LoopCore(other) {
+    plant_ = &plant;
+    surroundings_.BeginPeriod(state_, sequencer_.plan());
+  }
   LoopCore& operator=(const LoopCore&) = delete;
   ~LoopCore() = default;
 
@@ -122,6 +126,7 @@ class LoopCore {
   VehicleParams controlled_;  // Parameters of the nominal vehicle, which the controller assumes.
   int steps_;                 // Number of plant steps per control period.
   SegmentSequencer sequencer_;
+  LoopSurroundings surroundings_;
   std::optional<ReplanningMonitor> monitor_;
   FaultInjector faults_;
   Recorder recorder_;
