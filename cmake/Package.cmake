@@ -52,7 +52,7 @@ list(JOIN depends ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 set(suggests
     g++ libfmt-dev libeigen3-dev libboost-dev nlohmann-json3-dev libyaml-cpp-dev libtinyxml2-dev libproj-dev
     libmuparser-dev libnlopt-dev libnlopt-cxx-dev libssl-dev libpng-dev libdlib-dev libcsv-dev
-    libfastcdr-dev libsqlite3-dev liblz4-dev libzstd-dev libzip-dev)
+    libfastcdr-dev libsqlite3-dev liblz4-dev libtbb-dev libzip-dev libzstd-dev)
 if(TRACKBED_IPOPT)
   list(APPEND suggests coinor-libipopt-dev)
 endif()

@@ -25,6 +25,7 @@ set(pkg_config_names
     PNG::PNG=libpng
     Boost::headers=
     Threads::Threads=-pthread
+    TBB::tbb=tbb
     OpenSSL::Crypto=libcrypto
     csv::csv=-lcsv
     libzip::zip=libzip

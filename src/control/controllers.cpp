@@ -5,6 +5,7 @@
 #include "src/control/actuator_model.h"
 #include "trackbed/control/lqr.h"
 #include "trackbed/control/mpc.h"
+#include "trackbed/control/mppi.h"
 #include "trackbed/control/optimal_steering.h"
 #include "trackbed/control/playback.h"
 #include "trackbed/control/preview.h"
@@ -32,6 +33,7 @@ Registry<ControllerEntry>& ControllerRegistry() {
                                                            RearAxleFeedbackController(),
                                                            LqrController(),
                                                            MpcController(),
+                                                           MppiController(),
                                                            ConstantSteering(),
                                                            StepSteering(),
                                                            RampSteering(),

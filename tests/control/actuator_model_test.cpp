@@ -187,7 +187,7 @@ std::vector<ControllerEntry> Followers() {
   std::vector<ControllerEntry> all;
   for (const ControllerEntry& entry : Controllers()) {
     if (entry.needs_plan && entry.station == StationSource::kProjection) {
-      all.push_back(entry);
+      all.push_back(WithFewSamples(entry));
     }
   }
   return all;

@@ -6,6 +6,7 @@
 
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/control/controllers.h"
+#include "trackbed/control/mppi.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/single_track_car.h"
@@ -20,6 +21,21 @@ inline VehicleParams ReferenceCarWithTyres() {
   car.cornering_stiffness_rear = 110000.0;
   car.steering_lag = 0.01;
   return car;
+}
+
+/// Returns the entry with fewer roll-outs of mppi, which general properties do not need.
+inline ControllerEntry WithFewSamples(ControllerEntry entry) {
+  if (entry.defaults.Is<MppiOptions>()) {
+    entry.defaults = MppiOptions{.samples = 8, .steps = 25};
+  }
+  return entry;
+}
+
+/// Returns all registered controllers, with fewer roll-outs of mppi.
+inline std::vector<ControllerEntry> ControllersWithFewSamples() {
+  std::vector<ControllerEntry> all = Controllers();
+  std::transform(all.begin(), all.end(), all.begin(), WithFewSamples);
+  return all;
 }
 
 struct LoopSetup {

@@ -301,7 +301,7 @@ TEST_P(EveryController, GivesTheSameEachTime) {
             Steer(GetParam().defaults, path, pose, 5.0));
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, EveryController, ::testing::ValuesIn(Controllers()),
+INSTANTIATE_TEST_SUITE_P(Table, EveryController, ::testing::ValuesIn(ControllersWithFewSamples()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Controllers, HaveNamesAndOptionsOfTheirOwn) {

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "src/control/error_model.h"
+#include "src/control/obstacle_cells.h"
+#include "src/control/tracking.h"
+#include "trackbed/control/steering_controller.h"
+#include "trackbed/control/surroundings.h"
+
+namespace trackbed {
+
+/// Settings of the roll-outs, with all defaults replaced.
+struct RollOutSettings {
+  /// Whether the tyres slip; false for a kinematic car. Cars without tyre coefficients never slip.
+  bool slips = true;
+  int steps = 50;          ///< Number of steps of a roll-out, >= 1.
+  double step = 0.02;      ///< Duration of a step [s], > 0.
+  ErrorWeights weights{};  ///< Weights of the deviation from the path.
+  double margin = 0.0;     ///< Clearance below which obstacles cost [m], >= 0.
+  double grip = 1.0;       ///< Fraction of the lateral grip that is free of cost [1].
+};
+
+/// State of the predicted car. Positions are in the frame A, the path's pose at the station of the
+/// car at the beginning of the roll-out.
+struct RolledCar {
+  double x = 0.0;  ///< Rear axle [m].
+  double y = 0.0;
+  double yaw = 0.0;                   ///< Heading [rad].
+  double lateral_speed = 0.0;         ///< Lateral speed of the center of gravity [m/s].
+  double yaw_rate = 0.0;              ///< [rad/s]
+  double lateral_acceleration = 0.0;  ///< Of the last step [m/s^2].
+  double actuator = 0.0;              ///< Steering angle of the actuator [rad].
+  double wheels = 0.0;                ///< Steering angle of the wheels [rad].
+  double station = 0.0;               ///< Station relative to that of the car at the start [m].
+  double cross_track = 0.0;           ///< Offset e from the path [m].
+  double heading_error = 0.0;         ///< Heading error psi relative to the path [rad].
+};
+
+/// Simulates a car along a path, and sums up the cost. Symbols: see MppiOptions.
+class RollOuts {
+ public:
+  /// Prepares the roll-outs of a control period. `tracking` is the deviation of the car from its
+  /// path, and `actuator` the angle from which the commands start [rad]. `surroundings` may be
+  /// null.
+  void Prepare(const ControlInput& input, const Tracking& tracking, double actuator,
+               const Surroundings* surroundings, const RollOutSettings& settings);
+
+  /// Returns the cost of a motion. `rate_of(k, car)` is the wanted steering rate [rad/s] in the
+  /// step k from 0; it is limited to the car's rate.
+  template <typename RateOf>
+  [[nodiscard]] double Cost(const RateOf& rate_of) const {
+    RolledCar car = start_;
+    double cost = 0.0;
+    for (int k = 0; k < settings_.steps; ++k) {
+      const double rate = std::clamp(rate_of(k, car), -rate_limit_, rate_limit_);
+      Advance(k, rate, car);
+      cost += weights_.steering_rate * rate * rate + StageCost(k, car);
+    }
+    return cost + RemainingCost(car);
+  }
+
+  /// Returns the steering rate with which lqr would steer the car [rad/s].
+  [[nodiscard]] double RegulatorRate(const RolledCar& car) const;
+  /// Returns the largest steering rate [rad/s].
+  [[nodiscard]] double rate_limit() const { return rate_limit_; }
+
+ private:
+  /// The path at a node, with the steady turn there.
+  struct Node {
+    double x = 0.0;
+    double y = 0.0;
+    double yaw = 0.0;
+    double cosine = 1.0;  // Of the direction of motion.
+    double sine = 0.0;
+    double curvature = 0.0;  // Mean curvature to the next node, in the direction of motion [1/m].
+    SteadyTurn steady{};
+    EdgeDistances edges{};
+  };
+  /// What all roll-outs have in common in a step.
+  struct Stage {
+    double speed = 0.0;                      // Signed speed at the end of the step [m/s].
+    double station = 0.0;                    // Planned station at the end of the step [m].
+    std::array<double, 2> stiffness{};       // Of the axles [N/rad].
+    std::array<double, 2> friction_force{};  // Largest lateral force of the axles [N].
+  };
+
+  void PrepareStages(const ControlInput& input, const Surroundings* surroundings);
+  void PrepareNodes(const ControlInput& input, const Tracking& tracking,
+                    const Surroundings* surroundings);
+  void PrepareRegulator(const ControlInput& input, const Tracking& tracking);
+  void PrepareObstacles(const Tracking& tracking, const Surroundings* surroundings);
+  [[nodiscard]] Stage StageAt(double speed, double acceleration, double road) const;
+
+  void Advance(int k, double rate, RolledCar& car) const;
+  void Slide(const Stage& stage, double speed, RolledCar& car) const;
+  void Project(RolledCar& car) const;
+  /// Returns the place of a station among the nodes.
+  [[nodiscard]] double PlaceOf(double station) const;
+  [[nodiscard]] SteadyTurn SteadyAt(double station) const;
+  /// Returns the deviation z of the car from the steady turn on the path.
+  [[nodiscard]] ErrorModel::Vector DeviationOf(const RolledCar& car) const;
+  [[nodiscard]] double StageCost(int k, const RolledCar& car) const;
+  /// Returns the cost of small distances from obstacles and edges.
+  [[nodiscard]] double ClosenessCost(int k, const RolledCar& car) const;
+  [[nodiscard]] double GapToEdges(const RolledCar& car) const;
+  [[nodiscard]] double RemainingCost(const RolledCar& car) const;
+
+  static constexpr int kNodes = 128;
+
+  RollOutSettings settings_;
+  VehicleParams vehicle_;
+  ErrorWeights weights_;
+  Regulator regulator_;
+  double largest_offset_ = 0.0;  // Offset beyond which the remaining cost grows linearly [m].
+  int direction_ = 1;
+  bool slips_ = false;  // Whether the car has tyres.
+  bool has_edges_ = false;
+  double rate_limit_ = 0.0;
+  double lag_decay_ = 0.0;  // Factor by which the lag of the wheels decays in a step.
+  double lag_ = 0.0;        // [s]
+  double grip_ = 0.0;       // Lateral acceleration that is free of cost [m/s^2].
+  double first_ = 0.0;      // Station of the first node [m].
+  double spacing_ = 1.0;    // Distance between nodes [m].
+  std::vector<Node> nodes_;
+  std::vector<Stage> stages_;
+  ObstacleCells obstacles_;
+  RolledCar start_;
+};
+
+}  // namespace trackbed
