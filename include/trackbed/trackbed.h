@@ -27,6 +27,7 @@
 #include "trackbed/control/controllers.h"                   // IWYU pragma: export
 #include "trackbed/control/lqr.h"                           // IWYU pragma: export
 #include "trackbed/control/mpc.h"                           // IWYU pragma: export
+#include "trackbed/control/mppi.h"                          // IWYU pragma: export
 #include "trackbed/control/optimal_steering.h"              // IWYU pragma: export
 #include "trackbed/control/playback.h"                      // IWYU pragma: export
 #include "trackbed/control/preview.h"                       // IWYU pragma: export
@@ -36,6 +37,7 @@
 #include "trackbed/control/schedule.h"                      // IWYU pragma: export
 #include "trackbed/control/stanley.h"                       // IWYU pragma: export
 #include "trackbed/control/steering_profile.h"              // IWYU pragma: export
+#include "trackbed/control/surroundings.h"                  // IWYU pragma: export
 #include "trackbed/drive/closed_loop.h"                     // IWYU pragma: export
 #include "trackbed/drive/drive.h"                           // IWYU pragma: export
 #include "trackbed/drive/stepped_loop.h"                    // IWYU pragma: export
