@@ -26,7 +26,7 @@ inline VehicleParams ReferenceCarWithTyres() {
 /// Returns the entry with fewer roll-outs of mppi, which general properties do not need.
 inline ControllerEntry WithFewSamples(ControllerEntry entry) {
   if (entry.defaults.Is<MppiOptions>()) {
-    entry.defaults = MppiOptions{.samples = 8, .steps = 25};
+    entry.defaults = MppiOptions{.samples = 16};
   }
   return entry;
 }
