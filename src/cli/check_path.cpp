@@ -92,7 +92,7 @@ PathCheckOptions CheckOptions(const Scenario& scenario, const CarModel& car) {
 }
 
 void PrintCheck(const Scenario& scenario, const FittedPath& fitted, const PathCheck& check,
-                const PathFileOptions& plan) {
+                const std::string& all_notes) {
   constexpr std::size_t kMaxFaults = 10;
   Print("{}: {} at {:.3g} m/s with {}\n", scenario.name,
         check.drivable() ? Colorize(Tone::kGood, "drivable") : Colorize(Tone::kBad, "not drivable"),
@@ -110,7 +110,7 @@ void PrintCheck(const Scenario& scenario, const FittedPath& fitted, const PathCh
   if (!fitted.reversals.empty()) {
     Print("  the path turns back on itself{}\n", ReversalRemedy(fitted, "use --max-deviation"));
   }
-  std::istringstream notes(plan.notes.value_or(""));
+  std::istringstream notes(all_notes);
   for (std::string note; std::getline(notes, note);) {
     Print("  {}\n", note);
   }
@@ -152,15 +152,21 @@ int CheckPathFile(const CheckPathOptions& options) {
   }
   const CarModel car = LoadCar(scenario);
   const PathCheckOptions check_options = CheckOptions(scenario, car);
-  const FittedPath& fitted = *plan->path;
+  // Check the path that a plan would follow.
+  const std::optional<SteerableFit> steerable = FitWithinSteering(*plan->path, car.unladen());
+  const FittedPath& fitted = steerable ? steerable->path : *plan->path;
   const PathCheck check = CheckPath(fitted, car.unladen(), check_options);
-  const PathCheckTitle title{scenario.name, scenario.vehicle.model, plan->notes.value_or("")};
+  std::string notes = plan->notes.value_or("");
+  if (steerable) {
+    notes += (notes.empty() ? "" : "\n") + steerable->note;
+  }
+  const PathCheckTitle title{scenario.name, scenario.vehicle.model, notes};
   if (options.json) {
     const nlohmann::ordered_json json = PathCheckJson(title, fitted, check, check_options);
     Print("{}\n",
           Lines{json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)});
   } else if (!options.scenario.quiet) {
-    PrintCheck(scenario, fitted, check, *plan);
+    PrintCheck(scenario, fitted, check, notes);
   }
   if (!options.report.empty()) {
     const fs::path page = options.report;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "src/path/fit_once.h"
 #include "src/path/given_shape.h"
 #include "src/path/least_variation.h"
 #include "src/path/leg_fit.h"
@@ -24,9 +25,8 @@
 // curvatures that agree with the points are followed instead (given_shape.cpp).
 
 namespace trackbed {
-namespace {
 
-void CheckArguments(const PathPoints& given, const PathFitOptions& options) {
+void CheckFitArguments(const PathPoints& given, const PathFitOptions& options) {
   TRACKBED_REQUIRE(
       std::isfinite(options.max_deviation) && options.max_deviation > 0.0 &&
           (!options.resample || (std::isfinite(*options.resample) && *options.resample > 0.0)),
@@ -51,6 +51,8 @@ void CheckArguments(const PathPoints& given, const PathFitOptions& options) {
     }
   }
 }
+
+namespace {
 
 /// Returns the largest difference between the given headings and the headings of the path [rad].
 double HeadingDifference(const FittedPath& fitted) {
@@ -207,15 +209,20 @@ FittedPath JoinLegs(const std::vector<Leg>& legs, const std::vector<FittedPath>&
   return joined;
 }
 
-/// Fits a path as FitPath does, without a search for a larger deviation if the fit fails.
-FittedPath FitOnce(PathPoints given, const PathFitOptions& options,
-                   double max_curvature = kUnbounded) {
+}  // namespace
+
+FittedPath FitOnce(PathPoints given, const PathFitOptions& options, double max_curvature,
+                   std::optional<double> start_yaw) {
   const std::vector<Leg> legs = FindLegs(given, options.max_deviation);
+  EndHeadings start;
+  if (start_yaw && !options.closed) {
+    start.begin = CarHeading(*start_yaw, legs.front().direction);
+  }
   FittedPath fitted;
   if (std::optional<FittedPath> followed = FollowGiven(given, legs, options)) {
     fitted = std::move(*followed);
   } else if (legs.size() == 1) {
-    fitted = FitLeg(PointsOf(given, legs.front()), options, {}, max_curvature);
+    fitted = FitLeg(PointsOf(given, legs.front()), options, start, max_curvature);
     if (legs.front().direction < 0) {
       fitted = JoinLegs(legs, {std::move(fitted)});
     }
@@ -229,7 +236,8 @@ FittedPath FitOnce(PathPoints given, const PathFitOptions& options,
     }
     fitted = JoinLegs(legs, fits);
     if (fitted.reversals.empty()) {
-      const std::vector<EndHeadings> headings = HeadingsOfLegs(given, legs, fits);
+      std::vector<EndHeadings> headings = HeadingsOfLegs(given, legs, fits);
+      headings.front().begin = start.begin;
       for (std::size_t i = 0; i < legs.size(); ++i) {
         fits[i] = FitLeg(std::move(fits[i].given), options, headings[i], max_curvature);
       }
@@ -253,6 +261,8 @@ FittedPath FitOnce(PathPoints given, const PathFitOptions& options,
   fitted.heading_difference = HeadingDifference(fitted);
   return fitted;
 }
+
+namespace {
 
 /// Returns a number above 0, rounded up to two digits.
 double RoundedUp(double number) {
@@ -350,12 +360,12 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
 FittedPath FitPathWithin(PathPoints given, const PathFitOptions& options, double max_curvature) {
   TRACKBED_REQUIRE(max_curvature > 0.0, "FitPathWithin: a curvature of {} 1/m; must be above 0",
                    max_curvature);
-  CheckArguments(given, options);
+  CheckFitArguments(given, options);
   return FitOnce(std::move(given), options, max_curvature);
 }
 
 FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
-  CheckArguments(given, options);
+  CheckFitArguments(given, options);
   try {
     FittedPath fitted = FitOnce(given, options);
     if (!fitted.reversals.empty()) {

@@ -8,7 +8,6 @@
 #include <sstream>
 #include <utility>
 
-#include "src/planning/path_file/steerable_fit.h"
 #include "trackbed/core/error.h"
 #include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/common/course_schedule.h"
@@ -186,11 +185,8 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
     plan.reason = "no path was read from a file";
     return plan;
   }
-  std::optional<FittedPath> steerable;
-  if (request.infeasible != InfeasiblePolicy::kAllow) {
-    steerable = SteerableFit(*options.path, request.vehicle);
-  }
-  const FittedPath& fitted = steerable ? *steerable : *options.path;
+  const std::optional<SteerableFit> steerable = FitWithinSteering(*options.path, request.vehicle);
+  const FittedPath& fitted = steerable ? steerable->path : *options.path;
   if (!fitted.reversals.empty()) {
     const HeadingJump& first = fitted.reversals.front();
     plan.status = PlanStatus::kUTurn;
@@ -240,11 +236,7 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
   }
   plan.notes.push_back(Describe(fitted));
   if (steerable) {
-    plan.notes.push_back(
-        fmt::format("the path is fitted with at most the car's curvature of {:.4g} 1/m; otherwise "
-                    "its curvature would be up to {:.4g} 1/m",
-                    CurvatureForSteering(request.vehicle, request.vehicle.steering_limit),
-                    LargestCurvature(options.path->path)));
+    plan.notes.push_back(steerable->note);
   }
   return plan;
 }
