@@ -43,7 +43,7 @@ void CheckFitArguments(const PathPoints& given, const PathFitOptions& options) {
   for (const int direction : given.direction) {
     TRACKBED_REQUIRE(std::abs(direction) <= 1, "FitPath: a direction {}", direction);
   }
-  for (const auto* list : {&given.yaw, &given.curvature, &given.speed}) {
+  for (const auto* list : {&given.yaw, &given.curvature, &given.speed, &given.time}) {
     TRACKBED_REQUIRE(list->empty() || list->size() == given.points.size(),
                      "FitPath: {} entries for {} points", list->size(), given.points.size());
     for (const double number : *list) {

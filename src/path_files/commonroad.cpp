@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "src/path_files/commonroad_xml.h"
 #include "src/path_files/formats.h"
@@ -27,6 +29,9 @@ PathFile RouteOfScenario(const CommonRoadScenario& scenario) {
 
 using tinyxml2::XMLElement;
 
+/// Largest magnitude of a time step's number; others are ignored.
+constexpr double kMaxTimeStep = 1e9;
+
 /// Returns the first XML element that contains a trajectory, such as the element ksTrajectory.
 const XMLElement* FindTrajectory(const XMLElement& root, std::size_t& count) {
   const XMLElement* first = nullptr;
@@ -47,6 +52,34 @@ void TakeVelocities(PathPoints& points) {
   if (points.direction.empty() && !points.yaw.empty() && !points.speed.empty()) {
     points.direction.assign(points.points.size(), 1);
   }
+}
+
+/// Takes the times of the states, which are numbers of time steps. A solution does not contain the
+/// duration of a time step; the positions and velocities give it.
+void TakeTimeSteps(PathFile& found, std::vector<double> steps, const std::string& file) {
+  const PathPoints& points = found.points;
+  const bool is_rising =
+      std::adjacent_find(steps.begin(), steps.end(), std::greater_equal<>()) == steps.end();
+  if (!is_rising || steps.size() != points.points.size() || steps.size() != points.speed.size()) {
+    return;
+  }
+  double length = 0.0;
+  double steps_times_speed = 0.0;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+    length += (points.points[i + 1] - points.points[i]).norm();
+    steps_times_speed += 0.5 * (points.speed[i] + points.speed[i + 1]) * (steps[i + 1] - steps[i]);
+  }
+  // Rounded to milliseconds, because the integration of the velocities is not exact.
+  const double duration = std::round(1e3 * length / steps_times_speed) * 1e-3;
+  if (!(steps_times_speed > 0.0) || !(duration > 0.0)) {
+    return;
+  }
+  for (double& step : steps) {
+    step *= duration;
+  }
+  found.notes.push_back(
+      fmt::format("time steps of {:.4g} s, computed from positions and velocities", duration));
+  TakeTimes(found, std::move(steps), file);
 }
 
 }  // namespace
@@ -73,10 +106,17 @@ PathFile ReadCommonRoad(const std::filesystem::path& path, const std::string& te
   const CommonRoadReading velocity{path, kMaxPathSpeed};
   PathFile found;
   PathPoints& points = found.points;
+  std::vector<double> steps;
   for (const XMLElement* state = trajectory->FirstChildElement(); state != nullptr;
        state = state->NextSiblingElement()) {
     points.points.push_back(PointIn(*state, position));
     points.lines.push_back(state->GetLineNum());
+    const XMLElement* time = state->FirstChildElement("time");
+    if (double step = 0.0; time != nullptr &&
+                           time->QueryDoubleText(&step) == tinyxml2::XML_SUCCESS &&
+                           std::abs(step) <= kMaxTimeStep) {
+      steps.push_back(step);
+    }
     // A state of the point-mass model has velocities along both axes instead of an orientation.
     const auto vx = NumberOfChild(*state, "xVelocity", velocity);
     const auto vy = NumberOfChild(*state, "yVelocity", velocity);
@@ -103,6 +143,7 @@ PathFile ReadCommonRoad(const std::filesystem::path& path, const std::string& te
   found.notes.push_back(fmt::format(
       "CommonRoad {} of {} states{}", trajectory->Name(), points.points.size(),
       trajectories > 1 ? fmt::format(", the first of {}", trajectories) : std::string()));
+  TakeTimeSteps(found, std::move(steps), file);
   return found;
 }
 

@@ -118,7 +118,7 @@ class CsvPath {
     if (!found_.speed_problems.empty()) {
       points.speed.clear();
     } else if (columns_[kTime]) {
-      TakeTimes(found_, times_, file_.string());
+      TakeTimes(found_, std::move(times_), file_.string());
     }
     FinishHeadings(has_speeds);
   }

@@ -71,11 +71,15 @@ nlohmann::json ParseYamlText(const std::string& text, const std::string& file);
 double NumberOf(const nlohmann::json& value, const std::string& key, double largest,
                 const std::string& file);
 
-/// Evaluates the times at which the points are reached [s]. If the points have no speeds, computes
-/// the speed at each point from the times. If the times do not increase, or if the car stands for
-/// some time between the ends of the path, except where it turns back, drops the speeds and adds a
-/// problem that names the point to PathFile::speed_problems.
-void TakeTimes(PathFile& found, const std::vector<double>& times, const std::string& file);
+/// Stores the times at which the points are reached, from 0 [s]. If the points have no speeds,
+/// computes the speed at each point from the times. If the times do not increase, or if a computed
+/// speed is out of range, drops the speeds and the times and adds a problem that names the point to
+/// PathFile::speed_problems.
+void TakeTimes(PathFile& found, std::vector<double> times, const std::string& file);
+
+/// Takes the stamps of ROS messages [s], one for each point, as TakeTimes does. Ignores stamps that
+/// are all equal, as those of a planner that does not set them.
+void TakeStamps(PathFile& found, std::vector<double> stamps, const std::string& file);
 
 /// The meaning of the numbers in a column of directions of motion. In each, words such as "D", "R",
 /// "forward" and "reverse" are allowed, too.

@@ -165,7 +165,7 @@ PathFile PathOfGlobeFile(const fs::path& file, GlobeFile lines, const PathMap& m
   found.notes.insert(found.notes.begin(),
                      fmt::format("{}{}", lines.format, which) + ", " + projected.note);
   if (!times.empty() && times.size() == positions.size()) {
-    TakeTimes(found, times, file.string());
+    TakeTimes(found, std::move(times), file.string());
   } else if (!times.empty()) {
     found.speed_problems.push_back(
         {.file = file.string(),

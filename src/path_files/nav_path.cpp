@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "src/path_files/formats.h"
 #include "trackbed/core/error.h"
@@ -35,6 +37,27 @@ double Yaw(const json& orientation, const std::string& key, const std::string& f
   return std::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
 }
 
+/// Returns the stamp in the header of a PoseStamped as seconds since the second `*first`, which is
+/// set by the first stamp; nullopt if the pose has no stamp.
+std::optional<double> StampOf(const json& stamped, std::optional<double>& first) {
+  const auto member = [](const json& value, const char* name) -> const json* {
+    return value.is_object() && value.contains(name) ? &value.at(name) : nullptr;
+  };
+  const json* header = member(stamped, "header");
+  const json* stamp = header != nullptr ? member(*header, "stamp") : nullptr;
+  // ROS 2 writes sec and nanosec, ROS 1 secs and nsecs.
+  for (const auto& [seconds, nanoseconds] :
+       {std::pair("sec", "nanosec"), std::pair("secs", "nsecs")}) {
+    const json* whole = stamp != nullptr ? member(*stamp, seconds) : nullptr;
+    const json* rest = stamp != nullptr ? member(*stamp, nanoseconds) : nullptr;
+    if (whole != nullptr && whole->is_number() && rest != nullptr && rest->is_number()) {
+      first = first.value_or(whole->get<double>());
+      return whole->get<double>() - *first + 1e-9 * rest->get<double>();
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 PathFile ReadNavPath(const std::filesystem::path& path, const json& message) {
@@ -48,6 +71,8 @@ PathFile ReadNavPath(const std::filesystem::path& path, const json& message) {
   }
   PathFile found;
   std::size_t oriented = 0;
+  std::optional<double> first_second;
+  std::vector<double> stamps;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string key = fmt::format("poses[{}].pose", i);
     // An element of `poses` is a PoseStamped, which contains a header and a pose. In other
@@ -60,6 +85,9 @@ PathFile ReadNavPath(const std::filesystem::path& path, const json& message) {
     found.points.points.emplace_back(
         NumberOf(Member(position, "x", place, file), place + ".x", kMaxPosition, file),
         NumberOf(Member(position, "y", place, file), place + ".y", kMaxPosition, file));
+    if (const std::optional<double> stamp = StampOf(poses[i], first_second)) {
+      stamps.push_back(*stamp);
+    }
     if (pose.contains("orientation")) {
       found.points.yaw.push_back(Yaw(pose["orientation"], key + ".orientation", file));
       ++oriented;
@@ -84,6 +112,7 @@ PathFile ReadNavPath(const std::filesystem::path& path, const json& message) {
       (*header)["frame_id"].is_string()) {
     found.notes.push_back("frame " + (*header)["frame_id"].get<std::string>());
   }
+  TakeStamps(found, std::move(stamps), file);
   return found;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "src/path_files/formats.h"
 #include "trackbed/bag/bag.h"
@@ -32,20 +33,31 @@ class PoseColumns {
           orientation_ = {{*place("orientation.x"), *place("orientation.y"),
                            *place("orientation.z"), *place("orientation.w")}};
         }
-        return;
+        break;
       }
+    }
+    const auto seconds = std::find(columns.begin(), columns.end(), "header.stamp.sec");
+    const auto nanoseconds = std::find(columns.begin(), columns.end(), "header.stamp.nanosec");
+    if (seconds != columns.end() && nanoseconds != columns.end()) {
+      stamp_ = {{static_cast<std::size_t>(seconds - columns.begin()),
+                 static_cast<std::size_t>(nanoseconds - columns.begin())}};
     }
   }
 
   [[nodiscard]] bool are_there() const { return position_.has_value(); }
 
   /// Adds the pose to the points. Returns false if a number is not finite or too large.
-  bool Take(const std::vector<double>& row, PathPoints& points) const {
+  bool Take(const std::vector<double>& row, PathPoints& points) {
     const Vec2 position(row[(*position_)[0]], row[(*position_)[1]]);
     if (!position.allFinite() || position.cwiseAbs().maxCoeff() > kMaxPosition) {
       return false;
     }
     points.points.push_back(position);
+    if (stamp_) {
+      const double second = row[(*stamp_)[0]];
+      first_second_ = first_second_.value_or(second);
+      stamps_.push_back(second - *first_second_ + 1e-9 * row[(*stamp_)[1]]);
+    }
     if (orientation_) {
       const auto& at = *orientation_;
       const double x = row[at[0]];
@@ -62,8 +74,10 @@ class PoseColumns {
     return true;
   }
 
-  /// Drops headings that a writer has not set.
-  void Finish(PathPoints& points) const {
+  /// Drops headings that a writer has not set, and evaluates the stamps.
+  void Finish(PathFile& found, const std::string& file) {
+    PathPoints& points = found.points;
+    TakeStamps(found, std::move(stamps_), file);
     if (!has_heading_ || points.yaw.size() != points.points.size()) {
       points.yaw.clear();
     }
@@ -72,7 +86,10 @@ class PoseColumns {
  private:
   std::optional<std::array<std::size_t, 2>> position_;
   std::optional<std::array<std::size_t, 4>> orientation_;
-  mutable bool has_heading_ = false;
+  std::optional<std::array<std::size_t, 2>> stamp_;  // seconds and nanoseconds
+  std::optional<double> first_second_;               // seconds of the first stamp [s]
+  std::vector<double> stamps_;                       // since first_second_ [s]
+  bool has_heading_ = false;
 };
 
 /// Returns the topic that the user names, or the only topic of paths.
@@ -109,10 +126,10 @@ BagTopic TopicOfPath(const std::filesystem::path& file, const PathMap& map) {
 PathFile ReadPathBag(const std::filesystem::path& file, const PathMap& map) {
   const BagTopic topic = TopicOfPath(file, map);
   const BagMessage message(topic.type, topic.definition);
-  const PoseColumns own(message.columns());
-  const PoseColumns of_elements(message.element_columns());
+  PoseColumns own(message.columns());
+  PoseColumns of_elements(message.element_columns());
   const bool is_path = !own.are_there();
-  const PoseColumns& columns = is_path ? of_elements : own;
+  PoseColumns& columns = is_path ? of_elements : own;
   if (!columns.are_there()) {
     Refuse(file, topic.name, fmt::format("messages of the type {} have no position", topic.type));
   }
@@ -140,7 +157,7 @@ PathFile ReadPathBag(const std::filesystem::path& file, const PathMap& map) {
       }
     }
   });
-  columns.Finish(found.points);
+  columns.Finish(found, file.string());
   found.notes.push_back(
       fmt::format("rosbag2, topic {} ({}), {}", topic.name, topic.type,
                   is_path ? fmt::format("the first of {} messages", topic.messages)

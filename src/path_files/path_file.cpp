@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -138,56 +139,50 @@ void Refuse(const fs::path& file, const std::string& key, std::string message, i
       Problem{.file = file.string(), .line = line, .key = key, .message = std::move(message)});
 }
 
-void TakeTimes(PathFile& found, const std::vector<double>& times, const std::string& file) {
+void TakeTimes(PathFile& found, std::vector<double> times, const std::string& file) {
   PathPoints& points = found.points;
-  const auto drop_speeds = [&](std::size_t point, std::string message) {
+  const bool has_speeds = !points.speed.empty();
+  const auto drop = [&](std::size_t point, std::string message) {
     points.speed.clear();
     found.speed_problems.push_back({.file = file,
                                     .line = points.lines.empty() ? 0 : points.lines[point],
                                     .key = "time",
                                     .message = std::move(message)});
   };
-  const bool has_speeds = !points.speed.empty();
-  std::size_t standing_since = 0;  // first of the latest points that have the same position
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {
     const double duration = times[i + 1] - times[i];
     if (duration <= 0.0) {
-      drop_speeds(i + 1, fmt::format("{} s of point {} must be above the previous point's {} s",
-                                     times[i + 1], i + 2, times[i]));
+      drop(i + 1, fmt::format("{} s of point {} must be above the previous point's {} s",
+                              times[i + 1], i + 2, times[i]));
       return;
     }
-    const double distance = (points.points[i + 1] - points.points[i]).norm();
-    if (distance > 0.0) {
-      // At a cusp, the car stops anyway.
-      const auto turns_back = [&] {
-        return (points.points[i + 1] - points.points[i])
-                   .dot(points.points[standing_since] - points.points[standing_since - 1]) < 0.0;
-      };
-      if (standing_since > 0 && standing_since < i && !turns_back()) {
-        drop_speeds(standing_since,
-                    fmt::format("the car stands for {:.4g} s at point {}; path_file cannot wait on "
-                                "the way: divide the path at this point, or remove the points {} "
-                                "to {}, at which the car stands",
-                                times[i] - times[standing_since], standing_since + 1,
-                                standing_since + 2, i + 1));
-        return;
-      }
-      standing_since = i + 1;
+    if (has_speeds) {
+      continue;
     }
-    if (!has_speeds) {
-      const double speed = distance / duration;
-      if (speed > kMaxPathSpeed) {
-        drop_speeds(i + 1,
-                    fmt::format("{:.4g} m/s from point {} to the next; must be at most {} m/s",
-                                speed, i + 1, kMaxPathSpeed));
-        return;
-      }
-      points.speed.push_back(speed);
+    const double speed = (points.points[i + 1] - points.points[i]).norm() / duration;
+    if (speed > kMaxPathSpeed) {
+      drop(i + 1, fmt::format("{:.4g} m/s from point {} to the next; must be at most {} m/s", speed,
+                              i + 1, kMaxPathSpeed));
+      return;
     }
+    points.speed.push_back(speed);
   }
   if (!has_speeds && !points.speed.empty()) {
     points.speed.push_back(points.speed.back());
   }
+  const double first = times.empty() ? 0.0 : times.front();
+  for (double& time : times) {
+    time -= first;
+  }
+  points.time = std::move(times);
+}
+
+void TakeStamps(PathFile& found, std::vector<double> stamps, const std::string& file) {
+  const auto different = std::adjacent_find(stamps.begin(), stamps.end(), std::not_equal_to<>());
+  if (stamps.size() != found.points.points.size() || different == stamps.end()) {
+    return;
+  }
+  TakeTimes(found, std::move(stamps), file);
 }
 
 bool IsNavPathYaml(const fs::path& file) {

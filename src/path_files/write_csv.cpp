@@ -19,6 +19,7 @@ std::string PathCsv(const PathPoints& points) {
   add("yaw_rad", points.yaw);
   add("curvature_radpm", points.curvature);
   add("speed_mps", points.speed);
+  add("t_s", points.time);
   if (!points.direction.empty()) {
     columns.emplace_back("direction");
   }

@@ -158,17 +158,68 @@ TEST(PathCsv, ReadsThePathBesideInvalidSpeeds) {
   EXPECT_THAT(found.notes, ::testing::Contains(HasSubstr("column kappa is ignored: line 2")));
 }
 
-// The recorded car stands still at some points. A path may have zero speed at its ends, but the car
-// cannot wait between them.
-TEST(PathCsv, RefusesToWaitOnTheWay) {
-  EXPECT_THAT(
-      SpeedProblem("t,x,y,v\n0,0,0,3\n1,3,0,0\n2,3,0,0\n4,3,0,0\n5,6,0,3\n"),
-      AllOf(HasSubstr("3: time: the car stands for 3 s at point 2"), HasSubstr("points 3 to 4")));
+// The recorded car stands at some points: without a column of speeds, its speed there is 0.
+TEST(PathCsv, KeepsTheTimesOfACarThatStands) {
+  const PathPoints waits =
+      Read("p.csv", "t,x,y,v\n10,0,0,3\n11,3,0,0\n12,3,0,0\n14,3,0,0\n15,6,0,3\n");
+  EXPECT_EQ(waits.speed, (std::vector<double>{3.0, 0.0, 0.0, 0.0, 3.0}));
+  EXPECT_EQ(waits.time, (std::vector<double>{0.0, 1.0, 2.0, 4.0, 5.0}));
   const PathPoints ends = Read("p.csv", "t,x,y\n0,0,0\n2,0,0\n3,3,0\n4,6,0\n9,6,0\n");
   EXPECT_EQ(ends.speed, (std::vector<double>{0.0, 3.0, 3.0, 0.0, 0.0}));
-  // At a cusp, the car stops, so a pause is allowed there.
-  const PathPoints cusp = Read("p.csv", "t,x,y\n0,0,0\n1,3,0\n4,3,0\n5,1,0\n");
-  EXPECT_EQ(cusp.speed, (std::vector<double>{3.0, 0.0, 2.0, 2.0}));
+  EXPECT_EQ(ends.time, (std::vector<double>{0.0, 2.0, 3.0, 4.0, 9.0}));
+  EXPECT_EQ(Read("p.csv", "x,y,v\n0,0,1\n3,0,1\n").time, std::vector<double>());
+  // The times are kept in the run folder.
+  const PathPoints again = Read("path.csv", PathCsv(waits));
+  EXPECT_EQ(again.time, waits.time);
+  EXPECT_EQ(again.speed, waits.speed);
+  EXPECT_THAT(SpeedProblem("t,x,y,v\n0,0,0,3\n1,3,0,3\n1,4,0,3\n"),
+              HasSubstr("4: time: 1 s of point 3 must be above the previous point's 1 s"));
+}
+
+/// A nav_msgs/Path of poses 1 m apart with the given stamps.
+std::string StampedPath(const std::vector<std::string>& stamps) {
+  std::string text = "poses:\n";
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    text += fmt::format("- header: {}\n  pose: {{position: {{x: {}, y: 0}}}}\n", stamps[i], i);
+  }
+  return text;
+}
+
+TEST(NavPath, HasTheTimesOfItsStamps) {
+  const PathPoints stamped =
+      Read("p.yaml", StampedPath({"{stamp: {sec: 1700000000, nanosec: 500000000}}",
+                                  "{stamp: {sec: 1700000001, nanosec: 0}}",
+                                  "{stamp: {sec: 1700000003, nanosec: 0}}"}));
+  EXPECT_EQ(stamped.time, (std::vector<double>{0.0, 0.5, 2.5}));
+  EXPECT_EQ(stamped.speed, (std::vector<double>{2.0, 0.5, 0.5}));
+  const PathPoints ros1 =
+      Read("p.yaml", StampedPath({"{stamp: {secs: 1, nsecs: 0}}", "{stamp: {secs: 2, nsecs: 0}}"}));
+  EXPECT_EQ(ros1.time, (std::vector<double>{0.0, 1.0}));
+  // Planners that do not set the stamps write equal ones, or none.
+  for (const std::string header :
+       {"{stamp: {sec: 0, nanosec: 0}}", "{frame_id: map}", "{stamp: soon}", "3"}) {
+    const PathPoints bare = Read("p.yaml", StampedPath({header, header, header}));
+    EXPECT_TRUE(bare.time.empty()) << header;
+    EXPECT_TRUE(bare.speed.empty()) << header;
+  }
+}
+
+// A solution does not contain the duration of a time step: here 0.04 s, at 5 m/s 0.2 m.
+TEST(CommonRoad, FindsTheDurationOfItsTimeSteps) {
+  std::string text = "<CommonRoadSolution><ksTrajectory>";
+  const double x[] = {0.0, 0.2, 0.4, 0.5, 0.5, 0.6, 0.8};
+  const double v[] = {5.0, 5.0, 5.0, 0.0, 0.0, 5.0, 5.0};
+  const int step[] = {0, 1, 2, 3, 103, 104, 105};
+  for (int i = 0; i < 7; ++i) {
+    text +=
+        fmt::format("<ksState><x>{}</x><y>0</y><velocity>{}</velocity><time>{}</time></ksState>",
+                    x[i], v[i], step[i]);
+  }
+  const PathPoints found = Read("s.xml", text + "</ksTrajectory></CommonRoadSolution>");
+  ASSERT_EQ(found.time.size(), 7U);
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_NEAR(found.time[i], 0.04 * step[i], Tolerance(1e-12)) << i;
+  }
 }
 
 /// Returns the text of a CSV file with an arc of radius 40 m. The function `number` converts the

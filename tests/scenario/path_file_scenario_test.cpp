@@ -104,9 +104,7 @@ TEST(PathFileScenario, RefusesSpeedsThatCannotBeDriven) {
                     HasSubstr("and 1 more invalid cells in this column")));
   EXPECT_EQ(error("x,y,v\n0,0,1\n10,0,-101\n20,0,-102\n", "mission"), "");
   const std::string waits = "t,x,y\n0,0,0\n1,3,0\n2,6,0\n7,6,0\n8,9,0\n9,12,0\n";
-  EXPECT_THAT(error(waits, "file"),
-              AllOf(HasSubstr("v.csv:4: time: the car stands for 5 s at point 3"),
-                    HasSubstr("points 4 to 4")));
+  EXPECT_EQ(error(waits, "file"), "");
   EXPECT_EQ(error(waits, "mission"), "");
 }
 

@@ -29,7 +29,9 @@ struct ControlInput {
   VehicleState state;
   double station = 0.0;  ///< Station of the car on the path [m], computed as StationSource selects.
   double period = 0.0;   ///< Length of the control period [s].
-  double plan_time = 0.0;  ///< Time since the present plan took effect [s].
+  /// Time since the present plan took effect, or since the wait at its start ended [s]; 0 during
+  /// the wait.
+  double plan_time = 0.0;
   /// Gain of the speed control [1/s], for controllers that also set the speed.
   double speed_gain = SpeedControlOptions{}.gain;
 };

@@ -22,6 +22,8 @@ struct PathPoints {
   /// Directions of motion at the points: +1 forwards, -1 backwards, 0 unknown, as where the car
   /// stands. If the list is empty, the directions follow from the headings.
   std::vector<int> direction{};
+  /// Times at which the car is at the points [s], strictly increasing; only differences matter.
+  std::vector<double> time{};
 };
 
 /// The method by which a path is fitted to points.

@@ -8,8 +8,8 @@
 #include "trackbed/path/fit_path.h"
 #include "trackbed/path_files/path_map.h"
 
-/// Reads paths that other programs have planned. From a trajectory, reads only the path and the
-/// speeds.
+/// Reads paths that other programs have planned. From a trajectory, reads the path, the speeds and
+/// the times.
 namespace trackbed {
 
 struct PathFile {
@@ -32,9 +32,8 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// points.
 ///
 /// Invalid speeds and times do not make a path unusable; PathFile::speed_problems lists them: cells
-/// of a CSV file that are not finite numbers or out of range (speeds to 100 m/s), times that do not
-/// increase, and a car that stands for some time between the ends of the path, except where it
-/// turns back. Invalid curvatures are dropped, with a note.
+/// of a CSV file that are not finite numbers or out of range (speeds to 100 m/s), and times that do
+/// not increase. Invalid curvatures are dropped, with a note.
 ///
 /// PathPoints::direction comes from a column of directions or gears, or from the signs of the
 /// speeds. Speeds of less than 0.05 m/s, or of less than a tenth of the largest speed, have no

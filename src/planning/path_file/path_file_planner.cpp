@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "src/planning/path_file/file_speeds.h"
 #include "trackbed/core/error.h"
 #include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/common/course_schedule.h"
@@ -17,45 +18,12 @@
 namespace trackbed {
 namespace {
 
-// Lower bound of the speed caps [m/s]. Next to a stop, the mean of the file's speeds may be lower.
-constexpr double kMinSpeed = 0.1;
 // Lowest speed of the car at a step of curvature [m/s], as of the curve planners.
 constexpr double kMinStepSpeed = 0.3;
 
 bool HasReversePieces(const Path& path) {
   return std::any_of(path.segments().begin(), path.segments().end(),
                      [](const Segment& segment) { return segment.direction < 0; });
-}
-
-/// Returns the stations at which the path changes its direction [m].
-std::vector<double> CuspsOf(const Path& path) {
-  std::vector<double> cusps;
-  for (const Stations& leg : SplitIntoLegs(path)) {
-    cusps.push_back(leg.from);
-  }
-  cusps.erase(cusps.begin());
-  return cusps;
-}
-
-/// Returns speed caps that follow the speeds in the file; between two points, the cap is the mean
-/// of the speeds at these points. The car may start faster than the file's speeds, and then slows
-/// down at the mission's deceleration.
-std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
-  const std::vector<double>& speed = fitted.given.speed;
-  std::vector<SpeedCap> caps;
-  const auto add = [&](double from, double to, double a, double b) {
-    if (to > from) {
-      caps.push_back({from, to, std::max(0.5 * (a + b), kMinSpeed), /*strict=*/false});
-    }
-  };
-  for (std::size_t i = 0; i + 1 < speed.size(); ++i) {
-    add(fitted.stations[i], fitted.stations[i + 1], speed[i], speed[i + 1]);
-  }
-  // On a closed path, add a cap from the last point back to the first point.
-  if (!speed.empty() && fitted.options.closed) {
-    add(fitted.stations.back(), fitted.path.length(), speed.back(), speed.front());
-  }
-  return caps;
 }
 
 /// Returns whether the curvature jumps between the cusps, as in a planner's path of arcs and lines.
@@ -70,84 +38,6 @@ bool HasCurvatureSteps(const Path& path) {
     }
   }
   return false;
-}
-
-/// A part of the path, between two of its points, on which the speed in the file is 0.
-struct Standstill {
-  std::size_t first;
-  std::size_t last;
-};
-
-std::vector<Standstill> FindStandstills(const std::vector<double>& speed) {
-  std::vector<Standstill> found;
-  for (std::size_t i = 0; i < speed.size(); ++i) {
-    if (speed[i] > 0.0) {
-      continue;
-    }
-    if (!found.empty() && found.back().last + 1 == i) {
-      found.back().last = i;
-    } else {
-      found.push_back({i, i});
-    }
-  }
-  return found;
-}
-
-/// Returns the stations between the ends of the path at which the speed in the file is 0, apart
-/// from the cusps and the given stops, at which the car stops anyway.
-std::vector<double> StopsOf(const FittedPath& fitted, const std::vector<double>& given) {
-  std::vector<double> cusps = CuspsOf(fitted.path);
-  cusps.insert(cusps.end(), given.begin(), given.end());
-  const double near = fitted.options.max_deviation;
-  std::vector<double> stops;
-  for (const auto& [first, last] : FindStandstills(fitted.given.speed)) {
-    const double from = fitted.stations[first];
-    const double to = fitted.stations[last];
-    const bool is_at_cusp = std::any_of(cusps.begin(), cusps.end(), [&](double cusp) {
-      return from - near <= cusp && cusp <= to + near;
-    });
-    if (from > 0.0 && to < fitted.path.length() && !is_at_cusp) {
-      stops.push_back(from);
-    }
-  }
-  return stops;
-}
-
-/// Returns the problems of the speeds in a file that the car should follow.
-std::vector<Problem> SpeedProblems(const FittedPath& fitted, const std::string& file) {
-  const PathPoints& given = fitted.given;
-  std::vector<Problem> problems;
-  for (const auto& [first, last] : FindStandstills(given.speed)) {
-    // Points that are closer than the fit resolves are one place, at which the car stands.
-    const double extent = fitted.stations[last] - fitted.stations[first];
-    if (extent > fitted.options.max_deviation) {
-      problems.push_back(
-          {.file = file,
-           .line = given.lines.empty() ? 0 : given.lines[first],
-           .key = "speed",
-           .message = fmt::format("the speed is 0 from point {} to point {}, which are {:.4g} m "
-                                  "apart, so the car would never arrive; give speeds above 0, or "
-                                  "set speeds: mission",
-                                  first + 1, last + 1, extent)});
-    }
-  }
-  return problems;
-}
-
-/// Describes where the car drives differently from the speeds in the file, one line each.
-std::vector<std::string> SpeedNotes(const FittedPath& fitted, const std::vector<double>& stops) {
-  std::vector<std::string> notes;
-  if (!stops.empty()) {
-    notes.push_back(
-        fmt::format("stops where the file's speed is 0: s = {:.4g} m", fmt::join(stops, ", ")));
-  }
-  const std::vector<double>& speed = fitted.given.speed;
-  const bool has_slow = std::any_of(speed.begin(), speed.end(),
-                                    [](double own) { return own > 0.0 && own < kMinSpeed; });
-  if (has_slow) {
-    notes.push_back(fmt::format("the file's speeds below {} m/s are raised to it", kMinSpeed));
-  }
-  return notes;
 }
 
 /// Makes the steering schedule of the fitted path. On a path with continuous curvature and no
@@ -219,11 +109,7 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
     plan.stops = std::move(steps.stops);
   }
   if (options.speeds == PathSpeeds::kFile) {
-    const std::vector<SpeedCap> caps = CapsOf(fitted);
-    plan.caps.insert(plan.caps.end(), caps.begin(), caps.end());
-    const std::vector<double> stops = StopsOf(fitted, plan.stops);
-    plan.stops.insert(plan.stops.end(), stops.begin(), stops.end());
-    plan.notes = SpeedNotes(fitted, stops);
+    FollowFileSpeeds(plan, fitted, request.start_speed);
   }
   SetSpeeds(plan, request.start_speed, request.speed);
   plan.schedule = ScheduleOf(fitted, request, plan.caps, plan.stops);
@@ -284,7 +170,8 @@ void ReadPath(PathFileOptions& options, InputReader& reader) {
     }
     std::shared_ptr<const FittedPath> path = Fit(std::move(found.points), options, file.string());
     if (needs_speeds && path->reversals.empty()) {
-      if (std::vector<Problem> problems = SpeedProblems(*path, file.string()); !problems.empty()) {
+      if (std::vector<Problem> problems = FileSpeedProblems(*path, file.string());
+          !problems.empty()) {
         throw InputError(std::move(problems));
       }
     }
@@ -297,11 +184,10 @@ std::optional<PlannedStart> StartOf(const PathFileOptions& options) {
     return std::nullopt;
   }
   PlannedStart start{.pose = options.path->path.At(0.0).pose};
-  const std::vector<double>& speed = options.path->given.speed;
   if (options.path->path.At(0.0).direction < 0) {
     start.speed = 0.0;  // a rolling car rolls forwards
-  } else if (options.speeds == PathSpeeds::kFile && !speed.empty()) {
-    start.speed = speed.front();
+  } else if (options.speeds == PathSpeeds::kFile && options.path->reversals.empty()) {
+    start.speed = FileStartSpeed(*options.path);
   }
   return start;
 }
@@ -459,7 +345,7 @@ void Visit(KeyVisitor& keys, PathFileOptions& options) {
   keys.Field(
       {"speeds", "",
        "the mission's speed, or at most those of the file, from point to point their mean, with "
-       "a stop where they are 0"},
+       "a stop where they are 0, for as long as in the file if it has times"},
       options.speeds, Need::kOptional, speeds);
   keys.Field({"notes", "", "what was found in the file, a line for each remark; runs write it"},
              options.notes);

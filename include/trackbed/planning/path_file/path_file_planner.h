@@ -15,7 +15,7 @@ namespace trackbed {
 enum class PathSpeeds {
   kMission,  ///< The car drives at the mission's speed.
   /// The car drives at the speeds of the file's points, limited by the mission's speed and the
-  /// car's limits.
+  /// car's limits. If the file has times, the car waits where the file's car stands.
   kFile,
 };
 
