@@ -64,6 +64,29 @@ bool MayCross(const OsmTags& line, bool from_left, bool is_reversed) {
          subtype == (from_left != is_reversed ? "dashed_solid" : "solid_dashed");
 }
 
+/// Orients the bounds of a lanelet in its direction. In a convex quadrilateral, two opposite sides
+/// are together shorter than the diagonals, so the ends that are closer belong together. The ring
+/// of the right bound and of the left one backward is counter-clockwise.
+void Orient(LaneletBound& left, LaneletBound& right) {
+  const auto apart = [](const Vec2& a, const Vec2& b) { return (a - b).norm(); };
+  const Vec2& first = left.points.front();
+  const Vec2& last = left.points.back();
+  if (apart(first, right.points.back()) + apart(last, right.points.front()) <
+      apart(first, right.points.front()) + apart(last, right.points.back())) {
+    right = right.Reversed();
+  }
+  std::vector<Vec2> ring = right.points;
+  ring.insert(ring.end(), left.points.rbegin(), left.points.rend());
+  double area = 0.0;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    area += Cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
+  }
+  if (area < 0.0) {
+    left = left.Reversed();
+    right = right.Reversed();
+  }
+}
+
 }  // namespace
 
 LaneletBound LaneletBound::Reversed() const {
@@ -254,15 +277,7 @@ void Lanelet2Map::Add(const XMLElement& relation) {
   DirectedLanelet own{.left = BoundOf(left_id, *left_way),
                       .right = BoundOf(right_id, *right_way),
                       .limit = kMaxPathSpeed};
-  const auto middle = [](const LaneletBound& bound) {
-    return bound.points[bound.points.size() / 2];
-  };
-  if (PlaceOn(own.left.points, middle(own.right)).offset > 0.0) {
-    own.left = own.left.Reversed();
-  }
-  if (PlaceOn(own.right.points, middle(own.left)).offset < 0.0) {
-    own.right = own.right.Reversed();
-  }
+  Orient(own.left, own.right);
   if (const std::string limit = ValueOf(tags, "speed_limit"); !limit.empty()) {
     const std::optional<double> speed = SpeedOfTag(limit);
     own.has_limit = speed.has_value();

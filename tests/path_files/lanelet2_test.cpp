@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/path_files/lanelet2_map.h"
@@ -97,6 +99,34 @@ TEST(Lanelet2, FollowsTheCentersOfLaneletsHoweverTheirWaysRun) {
       EXPECT_EQ(file.points.points[i], Vec2(60.0 * static_cast<double>(i), 0.0)) << reversed;
     }
     EXPECT_TRUE(file.points.speed.empty());
+  }
+}
+
+TEST(Lanelet2, FollowsAUTurnWhoseInnerBoundIsAKnot) {
+  // As in a public map: the inner bound is half a meter long and turns back on itself.
+  const std::vector<Vec2> inner{{0.4, 0.0}, {0.8, 0.4}, {0.5, 0.1}, {0.0, -0.2}};
+  const std::vector<Vec2> outer{{4.8, -1.8}, {8.0, 1.0}, {2.5, 6.5}, {-3.0, 3.0}};
+  std::string nodes;
+  for (int i = 0; i < 4; ++i) {
+    const auto& [a, b] =
+        std::pair(inner[static_cast<std::size_t>(i)], outer[static_cast<std::size_t>(i)]);
+    nodes += Node(1 + i, a.x(), a.y()) + Node(11 + i, b.x(), b.y());
+  }
+  for (unsigned reversed = 0; reversed < 4; ++reversed) {
+    std::vector<int> left{1, 2, 3, 4};
+    std::vector<int> right{11, 12, 13, 14};
+    if ((reversed & 1U) != 0U) {
+      std::reverse(left.begin(), left.end());
+    }
+    if ((reversed & 2U) != 0U) {
+      std::reverse(right.begin(), right.end());
+    }
+    const PathFile file =
+        Read("<osm>" + nodes + Way(1, left) + Way(2, right) + Relation(7, 1, 2) + "</osm>", {"7"});
+    ASSERT_EQ(file.points.points.size(), 4U) << reversed;
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(file.points.points[i], 0.5 * (inner[i] + outer[i])) << reversed;
+    }
   }
 }
 
