@@ -42,7 +42,7 @@ def lanelets(root):
 
 
 def commonroad(program, file, _, drive):
-    """The planned rear axle is on the lanelets up to the goal, and begins at the initial state."""
+    """The planned rear axle stays on lanelets between its first and last place on one, and begins at the initial state."""
     result = Result("CommonRoad scenario")
     outcome, rows, _ = program.plan_file(file)
     result.add(outcome)
@@ -51,7 +51,10 @@ def commonroad(program, file, _, drive):
         return result
     root = ElementTree.parse(file).getroot()
     polygons = lanelets(root)
-    worst = max(outside(row[:2], polygons) for row in rows[:: max(1, len(rows) // 200)])
+    away = [outside(row[:2], polygons) for row in rows[:: max(1, len(rows) // 200)]]
+    # The rear axle may begin behind the first lanelet, and a plan goes on straight behind the last one until it stops.
+    on_road = [i for i, d in enumerate(away) if d == 0.0] or [0]
+    worst = max(away[on_road[0]:on_road[-1] + 1])
     start = root.find("planningProblem/initialState/position/point")
     result.detail = f"{worst:.3f} m outside"
     if worst > OUTSIDE:
@@ -59,7 +62,8 @@ def commonroad(program, file, _, drive):
     if start is not None:
         center = float(start.findtext("x")), float(start.findtext("y"))
         # The state is that of the center of gravity of vehicle 2, 1.42 m ahead of the rear axle.
-        x, y, yaw = rows[0]
+        yaw = root.findtext("planningProblem/initialState/orientation/exact")
+        x, y, yaw = rows[0][0], rows[0][1], rows[0][2] if yaw is None else float(yaw)
         off = math.hypot(x + 1.4227 * math.cos(yaw) - center[0], y + 1.4227 * math.sin(yaw) - center[1])
         if off > 0.05:
             result.wrong(f"the plan begins {off:.2f} m from the initial state")
