@@ -72,8 +72,9 @@ TEST(FrictionUse, OfContactsIsWithinMujocosCone) {
 TEST(FrictionUse, IsThatOfTheForcesOnTheEllipse) {
   // Straight braking of the BMW, whose tyre has no load sensitivity.
   const CarModel car = CarWith("bmw320i", {});
+  const World road;
   const auto plant =
-      MakePlant("mujoco:magic_formula", {.car = car, .world = {}, .start = {.speed = 20.0}});
+      MakePlant("mujoco:magic_formula", {.car = car, .world = road, .start = {.speed = 20.0}});
   const VehicleState state = Drive(
       car, *plant, 1.0, [](double, const VehicleState&) { return Command{.acceleration = -4.0}; },
       [](double, const VehicleState&) {});
