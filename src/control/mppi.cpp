@@ -70,6 +70,12 @@ double DefaultHorizon(const ControlInput& input) {
   return std::min(std::max({kShortest, turning, gripping}), kLongest);
 }
 
+/// Returns whether the car moves by less than 1/10000 of its wheelbase in a control period.
+bool Stands(const ControlInput& input) {
+  constexpr double kShare = 1e-4;
+  return std::abs(input.state.speed) * input.period < kShare * input.vehicle.wheelbase;
+}
+
 class Mppi final : public SteeringController, public SeesSurroundings {
  public:
   explicit Mppi(const MppiOptions& options)
@@ -112,6 +118,12 @@ class Mppi final : public SteeringController, public SeesSurroundings {
                        .weights = WeightsFor(input.vehicle, options_, std::abs(input.state.speed)),
                        .margin = options_.margin.value_or(0.25 * input.vehicle.width),
                        .grip = options_.grip});
+    if (Stands(input)) {
+      // The roll-outs would drive off at once, but the drive waits until the actuator rests.
+      std::fill(plan_.begin(), plan_.end(), 0.0);
+      elapsed_ = 0.0;
+      return angle_.Turn(input, roll_out_.StartRate());
+    }
     cost_ = CostOf(plan_);
     FollowRegulator();
     if (cost_ > kNoCost * static_cast<double>(steps_)) {

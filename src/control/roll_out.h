@@ -65,6 +65,11 @@ class RollOuts {
 
   /// Returns the steering rate with which lqr would steer the car [rad/s].
   [[nodiscard]] double RegulatorRate(const RolledCar& car) const;
+  /// Returns the steering rate with which lqr would steer the car at the start of the roll-outs,
+  /// within the largest rate [rad/s].
+  [[nodiscard]] double StartRate() const {
+    return std::clamp(RegulatorRate(start_), -rate_limit_, rate_limit_);
+  }
   /// Returns the largest steering rate [rad/s].
   [[nodiscard]] double rate_limit() const { return rate_limit_; }
 

@@ -165,6 +165,33 @@ TEST(Mppi, CommandsTheSameOnAnyNumberOfThreads) {
   EXPECT_TRUE(differs) << "the seed has no effect";
 }
 
+TEST(Mppi, TurnsTheWheelsOfAStandingCarToItsPath) {
+  // A car stands at a cusp, with its wheels as on the piece before. The drive goes on when the
+  // wheels rest: they must have the angle of the next piece then, which is reversed.
+  const VehicleParams vehicle = ReferenceCar();
+  constexpr double kCurvature = -0.1;  // [1/m], positive steering to the left
+  const double wanted = std::atan(vehicle.wheelbase * kCurvature);
+  const auto controller = MakeSteeringController(Few());
+  const Reference reference{Path({}, {{10.0, kCurvature, -1}}), SpeedProfile({{0.0, 1.0}})};
+  VehicleState state;
+  state.steering = 0.4;
+  const double period = 0.02;
+  const auto periods = static_cast<int>(
+      std::ceil((state.steering - wanted) / (vehicle.steering_rate * period)));
+  for (int i = 0; i < periods; ++i) {
+    const double command = controller->Steer({.vehicle = vehicle,
+                                              .reference = reference,
+                                              .schedule = {},
+                                              .state = state,
+                                              .station = 0.0,
+                                              .period = period});
+    const double most = vehicle.steering_rate * period;
+    state.steering += std::clamp(command - state.steering, -most, most);
+  }
+  // The regulator approaches the angle exponentially at the end, here to within 0.02 rad.
+  EXPECT_NEAR(state.steering, wanted, Tolerance(0.02));
+}
+
 TEST(Mppi, CopiesSteerAlike) {
   const VehicleParams vehicle = ReferenceCar();
   const auto controller = MakeSteeringController(Few());
