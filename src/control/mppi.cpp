@@ -70,9 +70,9 @@ double DefaultHorizon(const ControlInput& input) {
   return std::min(std::max({kShortest, turning, gripping}), kLongest);
 }
 
-/// Returns whether the car moves by less than 1/10000 of its wheelbase in a control period.
+/// Returns whether the car moves by less than 1/1000 of its wheelbase in a control period.
 bool Stands(const ControlInput& input) {
-  constexpr double kShare = 1e-4;
+  constexpr double kShare = 1e-3;
   return std::abs(input.state.speed) * input.period < kShare * input.vehicle.wheelbase;
 }
 

@@ -136,8 +136,13 @@ void RollOuts::PrepareNodes(const ControlInput& input, const Tracking& tracking,
       nodes_[static_cast<std::size_t>(i) - 1].curvature = (node.yaw - last) / spacing_;
     }
     last = node.yaw;
+    // Beyond its ends, a path is straight. There, the car keeps the curvature of the end, because
+    // a car that stands at a cusp must steer as its path begins.
+    const double within =
+        std::clamp(input.station + station, 0.0, input.reference.path.length());
     node.steady = OperateOn(vehicle_, slips_ ? TyreForces::kBrush : TyreForces::kNone,
-                            {.curvature = point.curvature, .speed = stages_[stage].speed})
+                            {.curvature = input.reference.path.BendAt(within).curvature,
+                             .speed = stages_[stage].speed})
                       .turn;
     if (has_edges_) {
       node.edges = edges->At(input.station + station);
