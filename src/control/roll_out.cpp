@@ -138,8 +138,7 @@ void RollOuts::PrepareNodes(const ControlInput& input, const Tracking& tracking,
     last = node.yaw;
     // Beyond its ends, a path is straight. There, the car keeps the curvature of the end, because
     // a car that stands at a cusp must steer as its path begins.
-    const double within =
-        std::clamp(input.station + station, 0.0, input.reference.path.length());
+    const double within = std::clamp(input.station + station, 0.0, input.reference.path.length());
     node.steady = OperateOn(vehicle_, slips_ ? TyreForces::kBrush : TyreForces::kNone,
                             {.curvature = input.reference.path.BendAt(within).curvature,
                              .speed = stages_[stage].speed})

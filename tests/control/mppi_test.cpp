@@ -176,8 +176,8 @@ TEST(Mppi, TurnsTheWheelsOfAStandingCarToItsPath) {
   VehicleState state;
   state.steering = 0.4;
   const double period = 0.02;
-  const auto periods = static_cast<int>(
-      std::ceil((state.steering - wanted) / (vehicle.steering_rate * period)));
+  const auto periods =
+      static_cast<int>(std::ceil((state.steering - wanted) / (vehicle.steering_rate * period)));
   for (int i = 0; i < periods; ++i) {
     const double command = controller->Steer({.vehicle = vehicle,
                                               .reference = reference,

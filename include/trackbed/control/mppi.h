@@ -13,12 +13,12 @@ namespace trackbed {
 ///
 /// Model of a roll-out: the single-track car on the brush model of its axles, with the load
 /// transfer and the friction circle of the planned acceleration, and the road's friction factor at
-/// the car. A car without tyre coefficients does not slip,
-/// and neither does a car whose rear axle has never moved sideways, as that of KinematicCar. The
-/// steering angle follows the sampled rates within the car's limits of angle and rate, and the
-/// wheels follow with the steering lag; dead time, lag and backlash of the actuator are those of
-/// every controller (docs/algorithms/control.md). The speed follows the plan: MPPI steers, and
-/// leaves the speed to SpeedControl.
+/// the car. A car without tyre coefficients does not slip, and neither does a car whose rear axle
+/// has never moved sideways, as that of KinematicCar. The steering angle follows the sampled rates
+/// within the car's limits of angle and rate, and the wheels follow with the steering lag; dead
+/// time, lag and backlash of the actuator are those of every controller
+/// (docs/algorithms/control.md). The speed follows the plan: MPPI steers, and leaves the speed to
+/// SpeedControl.
 ///
 /// Cost of a roll-out, in the units of LqrOptions:
 ///   sum over all steps of  cross_track e^2 + heading (psi - psi_0)^2 + steering_rate w^2
@@ -31,7 +31,8 @@ namespace trackbed {
 /// The roll-outs vary the better one of two motions: the last plan, or the motion of a car that lqr
 /// steers. Their steering rates have normally distributed deviations, constant for a tenth of the
 /// horizon, in pairs of opposite sign and in four sizes. The weighted mean, half of its change, and
-/// the cheapest roll-out replace the plan only if their cost is lower.
+/// the cheapest roll-out replace the plan only if their cost is lower. A car that moves by less
+/// than 1/1000 of its wheelbase in a control period is steered as lqr does without preview.
 ///
 /// Guarantees: the commands are the same, bit for bit, for the same seed and inputs, for any number
 /// of threads. A plan of cost 0, such as on the path in a steady turn, is kept. The commanded angle
