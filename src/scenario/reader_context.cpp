@@ -1,5 +1,7 @@
 #include "src/scenario/reader_context.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -25,6 +27,15 @@ bool ReaderContext::Read(std::string_view dotted) const {
     return (dotted.starts_with(key) && (next == '.' || next == '[')) ||
            key.starts_with(std::string(dotted) + '[');
   });
+}
+
+std::string ReaderContext::MethodHint(const std::string& section, const YAML::Node& node) const {
+  const std::string key = section + ".method";
+  if (std::find(overridden.begin(), overridden.end(), key) == overridden.end()) {
+    return "";
+  }
+  return fmt::format("; --set {} keeps the other keys, --set '{}={{method: {}}}' replaces them",
+                     key, section, node["method"].as<std::string>(""));
 }
 
 void ReaderContext::SortProblems() {

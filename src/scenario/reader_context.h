@@ -1,6 +1,6 @@
 #pragma once
 
-#include <yaml-cpp/mark.h>
+#include <yaml-cpp/yaml.h>
 
 #include <functional>
 #include <optional>
@@ -30,6 +30,11 @@ struct ReaderContext {
 
   /// Returns whether the key was read; for a list, whether every element was read.
   [[nodiscard]] bool Read(std::string_view dotted) const;
+
+  /// If the option --set has set the method of the section `node`, returns a hint for problems of
+  /// its other keys: they may belong to the method that the file names. Otherwise returns an empty
+  /// text.
+  [[nodiscard]] std::string MethodHint(const std::string& section, const YAML::Node& node) const;
 
   /// Sorts the problems by their positions in the file.
   void SortProblems();

@@ -154,6 +154,14 @@ TEST(ReadScenario, TakesAnyTurnOfADirection) {
             "at most 1000");
 }
 
+TEST(ReadScenario, SaysHowToReplaceAllKeysOfAMethod) {
+  const std::string yaml = std::string(kSmall) + "control: {method: preview, distance: 2}\n";
+  EXPECT_EQ(ErrorMessages(yaml, {"control={method: lqr}"}), "");
+  EXPECT_THAT(ErrorMessages(yaml, {"control.method=lqr"}),
+              testing::EndsWith("; --set control.method keeps the other keys, --set "
+                                "'control={method: lqr}' replaces them"));
+}
+
 TEST(ReadScenario, NamesMissingKeys) {
   EXPECT_EQ(ErrorMessages("name: x\nmission: {}\n"),
             "test.yaml:1:1: schema: missing\ntest.yaml:1:1: plan: missing; the controller preview "
