@@ -48,8 +48,7 @@ std::string XmlErrorText(const XMLDocument& document) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
       return "element not closed, or closed by another name";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
-      return "attribute not of the form name=\"value\", given twice, or cut off by the end of the "
-             "file";
+      return "attribute not of the form name=\"value\", given twice, or cut off";
     case tinyxml2::XML_ERROR_PARSING_TEXT:
       return "text without a following element";
     case tinyxml2::XML_ERROR_PARSING_COMMENT:
@@ -349,19 +348,15 @@ bool IsModelPath(const std::string& model) {
 fs::path FindModel(const std::string& model, const fs::path& base) {
   const bool is_name = !IsModelPath(model);
   const fs::path file = is_name ? DataFolder() / "models" / model / (model + ".xml") : base / model;
-  std::error_code error;
-  if (fs::is_regular_file(file, error)) {
-    return file;
+  if (std::error_code error; is_name && !fs::is_regular_file(file, error)) {
+    throw InputError(Problem{.message = "unknown model " + UnknownName(model, ModelNames())});
   }
-  if (fs::exists(file, error)) {
-    try {
-      OpenInput(file);  // fails, with the reason: a folder, a pipe, a device
-    } catch (const RunError& reason) {
-      throw InputError(Problem{.message = reason.what()});
-    }
+  try {
+    OpenInput(file);
+  } catch (const RunError& reason) {
+    throw InputError(Problem{.message = reason.what()});
   }
-  throw InputError(Problem{.message = is_name ? "unknown model " + UnknownName(model, ModelNames())
-                                              : fmt::format("no model file {}", file.string())});
+  return file;
 }
 
 Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {

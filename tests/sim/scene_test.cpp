@@ -156,8 +156,7 @@ TEST(ComposeScene, SaysInPlainWordsWhatIsNoXml) {
   EXPECT_EQ(message("<mujoco>\n<=/></mujoco>"),
             ":2: not XML: element not of the form <name attribute=\"value\">");
   EXPECT_EQ(message("<mujoco>\n<body name=x/></mujoco>"),
-            ":2: not XML: attribute not of the form name=\"value\", given twice, or cut off by the "
-            "end of the file");
+            ":2: not XML: attribute not of the form name=\"value\", given twice, or cut off");
   EXPECT_EQ(message("<mujoco>\n<!-- </mujoco>\n"), ":2: not XML: comment not closed by -->");
   EXPECT_EQ(message("<mujoco>\n<![CDATA[ </mujoco>\n"),
             ":2: not XML: CDATA section not closed by ]]>");
