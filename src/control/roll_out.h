@@ -85,7 +85,7 @@ class RollOuts {
     SteadyTurn steady{};
     EdgeDistances edges{};
   };
-  /// What all roll-outs have in common in a step.
+  /// Values of a step that are the same for all roll-outs.
   struct Stage {
     double speed = 0.0;                      // Signed speed at the end of the step [m/s].
     double station = 0.0;                    // Planned station at the end of the step [m].

@@ -19,7 +19,7 @@ Scenario ScenarioOfFmu(const Scenario& scenario, const std::string& plant);
 Resources MakeResources(const Scenario& scenario);
 
 /// Returns the shared library of FMUs, trackbed_fmu.so, of this build or installation. Throws
-/// RunError if there is none.
+/// RunError if this file does not exist.
 std::filesystem::path FindLibrary();
 
 }  // namespace trackbed::fmu

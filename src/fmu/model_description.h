@@ -11,7 +11,7 @@ namespace trackbed::fmu {
 /// Name of the shared library in an FMU, without its ending.
 inline constexpr const char* kModelIdentifier = "trackbed";
 
-/// What modelDescription.xml states besides the variables.
+/// The contents of modelDescription.xml besides the variables.
 struct Description {
   std::string name;
   std::string token;            ///< Text that identifies the resources of the FMU.

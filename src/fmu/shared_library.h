@@ -16,7 +16,8 @@ class SharedLibrary {
 
   [[nodiscard]] void* handle() const { return handle_; }
 
-  /// Returns the function `name` of the library. Throws RunError if there is none.
+  /// Returns the function `name` of the library. Throws RunError if the library has no
+  /// function of this name.
   template <typename Function>
   [[nodiscard]] Function* Find(const char* name) const {
     return reinterpret_cast<Function*>(Address(name));

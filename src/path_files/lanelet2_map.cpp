@@ -44,7 +44,7 @@ std::string ValueOf(const OsmTags& tags, const std::string& key) {
   return found == tags.end() ? "" : found->second;
 }
 
-/// Whether cars drive on a lanelet of this kind.
+/// Returns whether a lanelet with these tags is open to cars.
 bool IsForCars(const OsmTags& tags) {
   if (const std::string vehicles = ValueOf(tags, "participant:vehicle"); !vehicles.empty()) {
     return vehicles == "yes";
@@ -164,7 +164,8 @@ std::string Lanelet2Map::Some() const {
                      fmt::join(ids, ", "));
 }
 
-/// Returns the nodes of a lanelet's way; nullptr with a reason if there is none.
+/// Returns the nodes of a lanelet's way; nullptr, with a reason in `why`, if the
+/// lanelet has no such way.
 const OsmWay* Lanelet2Map::WayOf(const XMLElement& relation, const std::string& role,
                                  std::string& id, std::string& why) const {
   int count = 0;

@@ -166,8 +166,9 @@ TEST(Mppi, CommandsTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(Mppi, TurnsTheWheelsOfAStandingCarToItsPath) {
-  // A car stands at a cusp, with its wheels as on the piece before. The drive goes on when the
-  // wheels rest: they must have the angle of the next piece then, which is reversed.
+  // A car stands at a cusp, with the steering angle of the piece that it has just driven. The drive
+  // waits until the steering angle is constant. By then, the angle must be that of the next piece,
+  // which is driven in reverse.
   const VehicleParams vehicle = ReferenceCar();
   constexpr double kCurvature = -0.1;  // [1/m], positive steering to the left
   const double wanted = std::atan(vehicle.wheelbase * kCurvature);

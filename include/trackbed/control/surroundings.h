@@ -46,8 +46,8 @@ class Surroundings {
 };
 
 /// Interface of a SteeringController that uses the surroundings of the car. A controller class that
-/// is derived from both interfaces sees the surroundings in every control period, also through the
-/// wrappers of MakeSteeringController. It implements SteeringController::Clone by itself, because
+/// is derived from both interfaces sees the surroundings in every control period, even through the
+/// wrappers of MakeSteeringController. The class must define SteeringController::Clone, because
 /// CopyableController hides this interface.
 class SeesSurroundings {
  public:

@@ -10,8 +10,9 @@
 
 namespace trackbed {
 
-/// Base of the classes that visit the numbers of a struct. Visits the numbers that are set, also in
-/// sections, lists and the options of the selected method, and ignores all other values.
+/// Base of the classes that visit the numbers of a struct. Visits the numbers that are set,
+/// including those in sections, in lists and in the options of the selected method. Ignores all
+/// other values.
 class NumberVisitor : public KeyVisitor {
  public:
   [[nodiscard]] Mode mode() const override { return Mode::kWrite; }
