@@ -494,6 +494,36 @@ class DriveCheck {
     }
   }
 
+  /// Returns whether the steering command swings about its mean over 1 s for at least 4 s: at least
+  /// once per second to each side, with a root mean square of at least 0.5 mrad.
+  [[nodiscard]] bool Swings() const {
+    const std::vector<double> angle = drive_.log.Column("steering_command_rad");
+    const double period = record_.mission.control_period;
+    const auto half = static_cast<std::size_t>(std::max(1.0, std::round(0.5 / period)));
+    std::vector<double> sum{0.0};
+    for (const double a : angle) {
+      sum.push_back(sum.back() + a);
+    }
+    std::vector<double> swing;
+    for (std::size_t i = half; i + half < angle.size(); ++i) {
+      swing.push_back(angle[i] -
+                      (sum[i + half + 1] - sum[i - half]) / static_cast<double>(2 * half + 1));
+    }
+    const std::size_t length = 8 * half;
+    for (std::size_t from = 0; from + length <= swing.size(); from += half) {
+      double square = 0.0;
+      int changes = 0;
+      for (std::size_t i = from; i < from + length; ++i) {
+        square += swing[i] * swing[i] / static_cast<double>(length);
+        changes += i > from && (swing[i] > 0.0) != (swing[i - 1] > 0.0) ? 1 : 0;
+      }
+      if (changes >= 8 && std::sqrt(square) >= 5e-4) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   /// A failed run must have a reason: at least one checked condition is violated, or nearly so.
   void CheckFailure() {
     const Mission& mission = record_.mission;
@@ -502,7 +532,7 @@ class DriveCheck {
     }
     const bool clear = !mission.min_clearance || gap_ > *mission.min_clearance + missed_;
     const bool in_time = !mission.max_time || rows_.back().t < *mission.max_time - kSameTime;
-    if (inside_ && slow_wheels_ && !fast_ && clear && in_time) {
+    if (inside_ && slow_wheels_ && !fast_ && clear && in_time && !Swings()) {
       Report("verdict", "failed, but arrived and kept all that is checked");
     }
   }
