@@ -67,7 +67,8 @@ double ClothoidCosts::Of(const Segment& before, const Segment& segment, bool is_
       const double other = std::min(SpeedOn(before), v);
       const double fast = std::max(w, other);
       const double slower = fast - std::min(w, other);
-      // Each change of speed counts half of slowing down and of speeding up again.
+      // A car that slows down speeds up again later. Each of the two changes costs the mean of the
+      // times that both lose.
       const double per_acceleration = 0.5 / drive_.acceleration + 0.5 / drive_.deceleration;
       cost += 0.5 * slower * slower * per_acceleration * v / fast;
     }
