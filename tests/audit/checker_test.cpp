@@ -45,7 +45,7 @@ Table StraightPlan(const std::function<void(PlanCells&)>& change = {}) {
 }
 
 struct Motion {
-  double t, x, y, yaw, speed, steering;
+  double t, x, y, yaw, speed, steering, command = 0.0;
 };
 
 /// Adds a run of a car that moves along the plan: constant 5 m/s, then braking, 9.25 s in all.
@@ -69,7 +69,7 @@ Drive DriveAlong(const std::function<void(Motion&)>& change = {}) {
   };
   Drive drive{.plant = "kinematic"};
   drive.log = Table({"t_s", "x_m", "y_m", "yaw_rad", "speed_mps", "steering_actuator_rad",
-                     "steering_rad", "a_column_more"});
+                     "steering_rad", "steering_command_rad", "a_column_more"});
   drive.steps = Table({"t_s", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"});
   const auto steps = static_cast<int>(std::ceil(duration / kPeriod)) *
                      static_cast<int>(std::lround(kPeriod / kTimestep));
@@ -78,7 +78,7 @@ Drive DriveAlong(const std::function<void(Motion&)>& change = {}) {
     drive.steps.AddRow(
         {m.t, m.x, m.y, 0.0, std::cos(0.5 * m.yaw), 0.0, 0.0, std::sin(0.5 * m.yaw)});
     if (i % 10 == 0) {
-      drive.log.AddRow({m.t, m.x, m.y, m.yaw, m.speed, m.steering, m.steering, 7.0});
+      drive.log.AddRow({m.t, m.x, m.y, m.yaw, m.speed, m.steering, m.steering, m.command, 7.0});
     }
   }
   drive.metrics = {{"status", "arrived"},
@@ -240,6 +240,11 @@ TEST(Checker, FindsAFailureWithoutAReason) {
   record.drives[0] = DriveAlong([](Motion& m) { m.y = std::abs(m.t - 4.0) < 1.0 ? 2.0 : 0.0; });
   record.drives[0].metrics["cross_track"]["max"] = 2.0;
   EXPECT_THAT(Check(record), IsEmpty());
+  // A command that swings at 2 Hz by 0.01 rad is a reason; one that swings by 0.1 mrad is none.
+  record.drives = {DriveAlong([](Motion& m) { m.command = 0.01 * std::sin(4.0 * M_PI * m.t); })};
+  EXPECT_THAT(Check(record), IsEmpty());
+  record.drives = {DriveAlong([](Motion& m) { m.command = 1e-4 * std::sin(4.0 * M_PI * m.t); })};
+  EXPECT_THAT(KindsIn(record), ElementsAre("verdict"));
 }
 
 TEST(Checker, FindsExpectationsThatAreNotMet) {
