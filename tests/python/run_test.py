@@ -179,7 +179,7 @@ def test_other_threads_run_meanwhile():
     done = threading.Event()
 
     def work():
-        trackbed.run("grand_tour", plants="mujoco")
+        trackbed.run("three_turns", plants="mujoco", set={"mission.speed": 1})
         done.set()
 
     thread = threading.Thread(target=work)
@@ -187,7 +187,7 @@ def test_other_threads_run_meanwhile():
     while not done.wait(0.001):
         count += 1
     thread.join()
-    # If the run of some seconds held the GIL, this thread would continue only once or twice.
+    # If the run of half a second held the GIL, this thread would continue only once or twice.
     assert count > 20
 
 
@@ -219,7 +219,7 @@ def test_ctrl_c_interrupts_a_run():
     )
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
     assert process.stdout.readline() == "ready\n"
-    time.sleep(1.0)
+    time.sleep(0.3)
     process.send_signal(signal.SIGINT)
     assert process.communicate(timeout=120)[0] == "interrupted\n"
     assert process.returncode == 0
