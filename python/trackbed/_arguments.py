@@ -41,19 +41,69 @@ def number(name: str, value: object) -> float:
     return result
 
 
-def whole(name: str, value: object, least: int) -> int:
-    """Returns the whole number `value` of the argument `name`, which must be at least `least`."""
+def whole(name: str, value: object, least: int, most: Optional[int] = None) -> int:
+    """Returns the whole number `value` of the argument `name`, within its bounds."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} must be a whole number, not {type_name(value)}")
     if value < least:
         raise ValueError(f"{name} is {value}; must be at least {least}")
+    if most is not None and value > most:
+        raise ValueError(f"{name} is too large; must be at most {most}")
     return int(value)
+
+
+INT_MAX = 2**31 - 1
+"""Largest whole number that C++ takes for sizes and counts."""
+
+
+def flag(name: str, value: object) -> bool:
+    if not isinstance(value, (bool, numpy.bool_)):
+        raise TypeError(f"{name} must be a bool, not {type_name(value)}")
+    return bool(value)
 
 
 def text(name: str, value: object) -> str:
     if not isinstance(value, str):
         raise TypeError(f"{name} must be a str, not {type_name(value)}")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"{name} is {value!r}, which has no UTF-8 form") from None
     return value
+
+
+def texts(name: str, value: object) -> list[str]:
+    """Returns the texts in `value`, the argument `name`; a str counts as a text, not as a list."""
+    if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
+        raise TypeError(f"{name} must be a list of str, not {type_name(value)}")
+    return [text(f"a name in {name}", item) for item in items(name, value)]
+
+
+def items(name: str, value: Iterable[Any]) -> list[Any]:
+    try:
+        return list(value)
+    except TypeError:  # An array of NumPy without dimensions counts as an Iterable.
+        raise TypeError(f"{name} must be a list, not {type_name(value)}") from None
+
+
+def mapping(name: str, value: object, of: str) -> Mapping[Any, Any]:
+    """Returns the argument `name`, after checking that it is a dict."""
+    if not isinstance(value, Mapping):
+        raise TypeError(f"{name} must be a dict of {of}, not {type_name(value)}")
+    return value
+
+
+def path(name: str, value: object) -> str:
+    """Returns the path `value` of the argument `name` as a str."""
+    try:
+        result = os.fspath(value) if isinstance(value, (str, os.PathLike)) else None
+    except TypeError:  # __fspath__ returned something else.
+        result = None
+    if not isinstance(result, str):
+        raise TypeError(f"{name} must be a str or a path, not {type_name(value)}")
+    if not result or "\0" in result:
+        raise ValueError(f"{name} is {result!r}; must not be empty, or have the character 0")
+    return result
 
 
 def instance(name: str, value: object, kind: type) -> None:
@@ -61,12 +111,29 @@ def instance(name: str, value: object, kind: type) -> None:
         raise TypeError(f"{name} must be a trackbed.{kind.__name__}, not {type_name(value)}")
 
 
-def array(name: str, value: object, shape: tuple[int, ...], finite: bool = True) -> numpy.ndarray:
-    """Returns the argument `name` as an array of float64 with the given shape."""
+def doubles(name: str, value: object) -> numpy.ndarray:
+    """Returns the argument `name` as an array of float64, which has the memory of `value` if it can.
+
+    Refuses texts, complex numbers and times, which NumPy would convert.
+    """
     try:
-        result = numpy.asarray(value, dtype=numpy.float64, order="C")
+        result = numpy.asarray(value)
+        if result.dtype.kind == "O" and not all(
+            item is None or isinstance(item, numbers.Real) for item in result.flat
+        ):
+            raise TypeError
+        if result.dtype.kind not in "biufO":
+            raise TypeError
+        return numpy.asarray(result, dtype=numpy.float64, order="C")
+    except OverflowError:
+        raise ValueError(f"{name} has a value that is too large; must be at most 1.8e308") from None
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be an array of numbers, not {type_name(value)}") from None
+
+
+def array(name: str, value: object, shape: tuple[int, ...], finite: bool = True) -> numpy.ndarray:
+    """Returns the argument `name` as an array of float64 with the given shape."""
+    result = doubles(name, value)
     if result.shape != shape:
         raise ValueError(f"{name} has the shape {numpy.shape(value)}; must be {shape}")
     if finite and not numpy.isfinite(result).all():
@@ -83,7 +150,7 @@ def _plain(key: str, value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(key, v) for v in value]
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        return path(f"set[{key!r}]", value)
     if isinstance(value, float) and not math.isfinite(value):
         raise ValueError(f"set[{key!r}] is {value}; must be finite")
     if value is None or isinstance(value, (bool, int, float, str)):
@@ -95,18 +162,14 @@ def _plain(key: str, value: Any) -> Any:
 
 def overrides(set: Overrides, plants: Plants = None, seed: Optional[int] = None) -> list[str]:
     """Returns overrides as `trackbed run --set` takes them."""
-    if set is not None and not isinstance(set, Mapping):
-        raise TypeError(f"set must be a dict of keys and values, not {type_name(set)}")
+    if set is not None:
+        mapping("set", set, "keys and values")
     result = [
         f"{text('a key in set', key)}={json.dumps(_plain(key, value))}"
         for key, value in (set or {}).items()
     ]
     if plants is not None:
-        if not isinstance(plants, Iterable):
-            raise TypeError(f"plants must be a list of names, not {type_name(plants)}")
-        names = [plants] if isinstance(plants, str) else list(plants)
-        for name in names:
-            text("a name in plants", name)
+        names = texts("plants", [plants] if isinstance(plants, str) else plants)
         result.append(f"drive.plants={json.dumps(names)}")
     if seed is not None:
         result.append(f"seed={whole('seed', seed, 0)}")
@@ -117,6 +180,4 @@ def load(
     scenario: Scenario, set: Overrides, plants: Plants = None, seed: Optional[int] = None
 ) -> _trackbed.Scenario:
     """Reads a scenario: a file, or the name of a scenario that comes with the package."""
-    if not isinstance(scenario, (str, os.PathLike)):
-        raise TypeError(f"scenario must be a str or a path, not {type_name(scenario)}")
-    return _trackbed.load(os.fspath(scenario), overrides(set, plants, seed), [])
+    return _trackbed.load(path("scenario", scenario), overrides(set, plants, seed), [])

@@ -91,6 +91,8 @@ def differs_by_at_most(
     instance("comparison", comparison, Comparison)
     given = {"position": position, "heading": heading, "yaw_rate": yaw_rate, "steering": steering}
     bounds = {key: number(key, bound) for key, bound in given.items() if bound is not None}
+    if not bounds:
+        raise ValueError(f"no bound is given; give at least one of {', '.join(given)}")
     description, failures = comparison._core.exceeded(bounds)
     if failures:
         raise AssertionError(

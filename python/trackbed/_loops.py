@@ -9,7 +9,19 @@ from typing import Optional
 import numpy
 
 from . import _trackbed
-from ._arguments import Overrides, Scenario, array, instance, load, number, text, whole
+from ._arguments import (
+    INT_MAX,
+    Overrides,
+    Scenario,
+    array,
+    flag,
+    instance,
+    load,
+    number,
+    text,
+    type_name,
+    whole,
+)
 from ._runs import Log
 
 Observation = _trackbed.Observation
@@ -55,7 +67,7 @@ class Loop:
     ) -> None:
         self._scenario = scenario
         self._plant = None if plant is None else text("plant", plant)
-        self._keeps_log = bool(log)
+        self._keeps_log = flag("log", log)
         self._prepare(set, seed)
 
     def _prepare(self, set: Overrides, seed: Optional[int]) -> None:
@@ -185,22 +197,27 @@ class VectorLoop:
         log: bool = False,
     ) -> None:
         self.count = whole("count", count, 1)
+        if seeds is not None and not isinstance(seeds, (Sequence, numpy.ndarray)):
+            raise TypeError(f"seeds must be a list of whole numbers, not {type_name(seeds)}")
+        if seeds is not None and numpy.ndim(seeds) != 1:
+            raise ValueError(f"seeds has the shape {numpy.shape(seeds)}; must be ({self.count},)")
         if seeds is not None and len(seeds) != self.count:
             raise ValueError(f"seeds has {len(seeds)} values; must have count = {self.count}")
+        own = None if seeds is None else [whole(f"seeds[{i}]", s, 0) for i, s in enumerate(seeds)]
         if threads is None:
             threads = len(os.sched_getaffinity(0))
-        self._threads = whole("threads", threads, 1)
-        first = Loop(scenario, plant, set, seed=None if seeds is None else seeds[0], log=log)
+        self._threads = whole("threads", threads, 1, INT_MAX)
+        first = Loop(scenario, plant, set, seed=None if own is None else own[0], log=log)
         self.loops: list[Loop] = [first]
         """The loops, which may also be stepped alone."""
         for i in range(1, self.count):
-            if seeds is None:
+            if own is None:
                 loop = Loop.__new__(Loop)
                 loop.__dict__.update(first.__dict__)
                 del loop._core
                 loop._start(first._prepared, first.plant)
             else:
-                loop = Loop(scenario, plant, set, seed=seeds[i], log=log)
+                loop = Loop(scenario, plant, set, seed=own[i], log=log)
             self.loops.append(loop)
         self._core = _trackbed.VectorLoop([loop._core for loop in self.loops], self._threads)
 

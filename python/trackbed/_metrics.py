@@ -8,7 +8,7 @@ from typing import Any, Callable, Optional
 import numpy
 
 from . import _trackbed
-from ._arguments import text, type_name
+from ._arguments import flag, text, type_name
 from ._runs import Log, Path
 from ._signatures import METRIC_NAME, name_of, register_plugin, returned
 
@@ -69,7 +69,7 @@ def metric(
             p.kind not in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) for p in parameters
         ):
             raise TypeError(f"{what} must have the parameters (log) or (log, path)")
-        adapter = _MetricAdapter(function, len(parameters) == 2, bool(located))
+        adapter = _MetricAdapter(function, len(parameters) == 2, flag("located", located))
         register_plugin(
             "metric",
             own,
@@ -79,8 +79,8 @@ def metric(
             replace,
             _trackbed.register_metric,
             unit=text("unit", unit),
-            located=bool(located),
-            headline=bool(headline),
+            located=flag("located", located),
+            headline=flag("headline", headline),
         )
         return function
 

@@ -14,7 +14,7 @@ from typing import Any, Callable, Optional
 import numpy
 
 from . import _trackbed
-from ._arguments import array, number, text, type_name, whole
+from ._arguments import INT_MAX, array, doubles, flag, number, text, texts, type_name, whole
 from ._signatures import (
     NAME,
     Key,
@@ -56,10 +56,7 @@ class PlannedPath:
         notes: Sequence[str] = (),
         max_deviation: float = 0.05,
     ) -> None:
-        try:
-            self.points = numpy.array(points, dtype=numpy.float64, order="C")
-        except (TypeError, ValueError):
-            raise TypeError(f"points must be an array of numbers, not {type_name(points)}") from None
+        self.points = doubles("points", points).copy()
         shape = self.points.shape
         if len(shape) != 2 or shape[1] not in (2, 3):
             raise ValueError(f"points has the shape {shape}; must be (n, 2) or (n, 3)")
@@ -71,7 +68,7 @@ class PlannedPath:
         self.speed = None if speed is None else array("speed", speed, (shape[0],)).tolist()
         if self.speed is not None and min(self.speed) < 0.0:
             raise ValueError(f"speed has the value {min(self.speed)}; must be at least 0")
-        self.notes = [text("a note in notes", note) for note in notes]
+        self.notes = texts("notes", notes)
         self.max_deviation = number("max_deviation", max_deviation)
         if self.max_deviation <= 0.0:
             raise ValueError(f"max_deviation is {max_deviation}; must be above 0")
@@ -174,10 +171,10 @@ def planner(
             specs,
             replace,
             _trackbed.register_planner,
-            min_waypoints=whole("min_waypoints", min_waypoints, 0),
-            keeps_clear=bool(keeps_clear),
-            goes_backwards=bool(goes_backwards),
-            is_random=bool(is_random),
+            min_waypoints=whole("min_waypoints", min_waypoints, 0, INT_MAX),
+            keeps_clear=flag("keeps_clear", keeps_clear),
+            goes_backwards=flag("goes_backwards", goes_backwards),
+            is_random=flag("is_random", is_random),
         )
         return function
 
@@ -271,7 +268,7 @@ def controller(
     path, or "odometer", the driven distance.
     """
     own = name_of("controller", name)
-    if station not in ("projection", "odometer"):
+    if text("station", station) not in ("projection", "odometer"):
         raise ValueError(f"station is {station!r}; must be 'projection' or 'odometer'")
 
     def register(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -289,7 +286,7 @@ def controller(
             specs,
             replace,
             _trackbed.register_controller,
-            needs_plan=bool(needs_plan),
+            needs_plan=flag("needs_plan", needs_plan),
             odometer=station == "odometer",
         )
         return function

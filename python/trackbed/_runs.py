@@ -4,14 +4,28 @@ from __future__ import annotations
 
 import html
 import os
+import shutil
 import tempfile
+import weakref
 from collections.abc import Iterator, Mapping
 from typing import Any, Optional, Union
 
 import numpy
 
 from . import _trackbed
-from ._arguments import Overrides, Plants, Scenario, instance, load, number, text, whole
+from ._arguments import (
+    INT_MAX,
+    Overrides,
+    Plants,
+    Scenario,
+    flag,
+    instance,
+    load,
+    number,
+    path,
+    text,
+    whole,
+)
 
 
 class Columns(Mapping[str, numpy.ndarray]):
@@ -24,7 +38,7 @@ class Columns(Mapping[str, numpy.ndarray]):
         self._core = core
 
     def __getitem__(self, name: str) -> numpy.ndarray:
-        if name not in self._core.names:
+        if not isinstance(name, str) or name not in self._core.names:
             raise KeyError(f"no column {name!r}; the columns are {', '.join(self._core.names)}")
         return self._core.column(name)
 
@@ -66,14 +80,15 @@ class Run(Mapping[str, Log]):
         self._core = core
         self._metrics: Optional[dict[str, Any]] = None
         self._logs: dict[str, Log] = {}
-        self._written: Optional[tempfile.TemporaryDirectory[str]] = None
+        self._written: Optional[str] = None
 
     def __getitem__(self, plant: str) -> Log:
+        if not isinstance(plant, str) or plant not in self.plants:
+            known = ", ".join(self.plants) or "none"
+            raise KeyError(f"no plant {plant!r}; the run has {known}")
         if plant not in self._logs:
-            core = self._core.log(text("plant", plant))
-            if core is None:
-                known = ", ".join(self.plants) or "none"
-                raise KeyError(f"no plant {plant!r}; the run has {known}")
+            core = self._core.log(plant)
+            assert core is not None
             self._logs[plant] = Log(core, plant)
         return self._logs[plant]
 
@@ -141,7 +156,7 @@ class Run(Mapping[str, Log]):
 
     def write(self, folder: Union[str, os.PathLike[str]], *, mcap: bool = False) -> None:
         """Writes the run folder, as `trackbed run` does; with `mcap`, also run.mcap."""
-        self._core.write(os.fspath(folder), bool(mcap))
+        self._core.write(path("folder", folder), flag("mcap", mcap))
 
     def to_pandas(self) -> Any:
         """Returns a pandas.DataFrame of all logs; the plant is the first index. Needs pandas."""
@@ -154,10 +169,11 @@ class Run(Mapping[str, Log]):
 
     def _folder(self) -> str:
         if self._written is None:
-            folder = tempfile.TemporaryDirectory(prefix="trackbed-")
-            self._core.write(folder.name, False)
+            folder = tempfile.mkdtemp(prefix="trackbed-")
+            weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+            self._core.write(folder, False)
             self._written = folder
-        return self._written.name
+        return self._written
 
     def _repr_html_(self) -> str:
         return (
@@ -209,7 +225,7 @@ def run(
 def _size(size: object) -> tuple[int, int]:
     if not isinstance(size, (tuple, list)) or len(size) != 2:
         raise TypeError("size must be (width, height) in pixels")
-    return whole("size[0]", size[0], 1), whole("size[1]", size[1], 1)
+    return whole("size[0]", size[0], 1, INT_MAX), whole("size[1]", size[1], 1, INT_MAX)
 
 
 def frame(
@@ -246,7 +262,7 @@ def film(
     width, height = _size(size)
     _trackbed.film(
         run._folder(),
-        os.fspath(file),
+        path("file", file),
         width,
         height,
         number("fps", fps),

@@ -11,11 +11,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Callable, Optional
 
 from . import _trackbed
-from ._arguments import number, text, type_name
+from ._arguments import flag, mapping, number, text, texts, type_name
 
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 METRIC_NAME = re.compile(r"[a-z][a-z0-9_]*(\.[a-z][a-z0-9_]*)*")
 _registered: dict[tuple[str, str], dict[str, Any]] = {}
+
+
+_text = text
 
 
 class Key:
@@ -35,14 +38,11 @@ class Key:
         above: Optional[float] = None,
         allowed: Sequence[str] = (),
     ) -> None:
-        for name, value in (("unit", unit), ("text", text)):
-            if not isinstance(value, str):
-                raise TypeError(f"{name} must be a str, not {type_name(value)}")
-        self.unit, self.text = unit, text
+        self.unit, self.text = _text("unit", unit), _text("text", text)
         self.min = None if min is None else number("min", min)
         self.max = None if max is None else number("max", max)
         self.above = None if above is None else number("above", above)
-        self.allowed = list(allowed)
+        self.allowed = texts("allowed", allowed)
 
 
 def print_traceback(exception: BaseException) -> None:
@@ -96,6 +96,7 @@ def parameters_of(what: str, function: Callable[..., Any], leading: Sequence[str
 
 
 def keys_of(what: str, parameters: Iterable[Any], given: Mapping[str, Key], section: str) -> list[Any]:
+    mapping("keys", given, "names and trackbed.Key")
     taken = _trackbed.keys_of_section(section)
     result = []
     names = [p.name for p in parameters]
@@ -140,7 +141,8 @@ def register_plugin(
 ) -> None:
     place = f"{function.__module__}.{function.__qualname__}"
     before = _registered.get((kind, name))
-    if before is not None and not replace:
+    replaces = flag("replace", replace)
+    if before is not None and not replaces:
         raise ValueError(
             f"{kind} {name!r} is already registered, by {before['place']}; give {place} another "
             "name, or register it with replace=True"

@@ -13,7 +13,7 @@ from typing import Any, Optional, Union
 import numpy
 
 from . import _trackbed
-from ._arguments import Overrides, Scenario, overrides, type_name, whole
+from ._arguments import INT_MAX, Overrides, Scenario, flag, number, overrides, path, whole
 from ._runs import _pandas
 
 
@@ -62,7 +62,7 @@ class Sweep(Mapping[str, numpy.ndarray]):
         return self._job.causes
 
     def __getitem__(self, name: str) -> numpy.ndarray:
-        if name not in self.columns:
+        if not isinstance(name, str) or name not in self.columns:
             raise KeyError(f"no column {name!r}; the columns are {', '.join(self.columns)}")
         column = self.columns.index(name)
         return _column([cells[column] for cells in self._job.rows.values()])
@@ -75,7 +75,7 @@ class Sweep(Mapping[str, numpy.ndarray]):
 
     def wait(self, seconds: Optional[float] = None) -> bool:
         """Waits until the study has finished, or for some seconds; returns whether it has."""
-        end = None if seconds is None else time.monotonic() + seconds
+        end = None if seconds is None else time.monotonic() + number("seconds", seconds)
         while not self._job.wait(0.1):
             if end is not None and time.monotonic() >= end:
                 return False
@@ -194,19 +194,17 @@ def sweep(
     Ctrl-C ends the study and returns the table of the finished rows (Sweep.complete). A row whose
     plug-in raises an exception has the status "error" (Sweep.exceptions).
     """
-    if not isinstance(study, (str, os.PathLike)):
-        raise TypeError(f"study must be a str or a path, not {type_name(study)}")
-    if out is not None and not isinstance(out, (str, os.PathLike)):
-        raise TypeError(f"out must be a str or a path, not {type_name(out)}")
-    count = len(os.sched_getaffinity(0)) if jobs is None else whole("jobs", jobs, 1)
-    folder = None if out is None else os.fspath(out)
-    job = _trackbed.sweep(os.fspath(study), overrides(set), folder, bool(restart))
+    file = path("study", study)
+    folder = None if out is None else path("out", out)
+    count = len(os.sched_getaffinity(0)) if jobs is None else whole("jobs", jobs, 1, INT_MAX)
+    shows, waits = flag("progress", progress), flag("wait", wait)
+    job = _trackbed.sweep(file, overrides(set), folder, flag("restart", restart))
     result = Sweep(job)
     _running.add(job)
     job.start(count)
-    if not wait:
+    if not waits:
         return result
-    bar = _Bar(result, progress)
+    bar = _Bar(result, shows)
     try:
         while not job.wait(0.1):
             bar.show()

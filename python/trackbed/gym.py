@@ -8,13 +8,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Optional
 
 import gymnasium
 import numpy
 
-from ._arguments import Overrides, Scenario, number, text, type_name
+from ._arguments import (
+    Overrides,
+    Scenario,
+    array,
+    items,
+    mapping,
+    number,
+    text,
+    texts,
+    type_name,
+    whole,
+)
 from ._loops import Loop, Observation, VectorLoop
 
 OBSERVED = (
@@ -65,16 +76,17 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
         max_cross_track: float = 5.0,
         max_acceleration: Optional[float] = None,
     ) -> None:
-        self._observed = [_column("observed", name) for name in observed]
-        self._ahead = numpy.array([number("ahead", distance) for distance in ahead])
-        if not isinstance(costs, Mapping):
-            raise TypeError(f"costs must be a dict of columns and weights, not {type_name(costs)}")
-        self._costs = {_column("costs", c): number(f"costs[{c!r}]", w) for c, w in costs.items()}
+        self._observed = [_column("observed", name) for name in texts("observed", observed)]
+        if isinstance(ahead, (str, bytes)) or not isinstance(ahead, Iterable):
+            raise TypeError(f"ahead must be a list of numbers, not {type_name(ahead)}")
+        self._ahead = numpy.array([number("ahead", d) for d in items("ahead", ahead)], dtype=float)
+        weights = mapping("costs", costs, "columns and weights")
+        self._costs = {_column("costs", c): number(f"costs[{c!r}]", w) for c, w in weights.items()}
         self._max_cross_track = _positive("max_cross_track", max_cross_track)
         self._max_acceleration = (
             None if max_acceleration is None else _positive("max_acceleration", max_acceleration)
         )
-        self._set = dict(set or {})
+        self._set = {} if set is None else dict(mapping("set", set, "keys and values"))
         self._loop = Loop(scenario, plant, set, log=False)
         if self._loop.path_length == 0.0:
             raise ValueError("scenario has no path to follow; it must have a plan section")
@@ -96,9 +108,11 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
     def reset(
         self, *, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None
     ) -> tuple[numpy.ndarray, dict[str, Any]]:
-        super().reset(seed=seed)
-        changed = dict(options or {})
+        super().reset(seed=None if seed is None else whole("seed", seed, 0))
+        changed = {} if options is None else dict(mapping("options", options, "names and values"))
         own = changed.pop("set", None)
+        if own is not None:
+            mapping("options['set']", own, "keys and values")
         if changed:
             raise ValueError(f"options has the unknown key {next(iter(changed))!r}; allowed: 'set'")
         if seed is None and own is None:
@@ -110,11 +124,7 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
     def step(
         self, action: numpy.ndarray
     ) -> tuple[numpy.ndarray, float, bool, bool, dict[str, Any]]:
-        command = numpy.clip(numpy.asarray(action, dtype=numpy.float64), -1.0, 1.0)
-        if command.shape != self.action_space.shape:
-            raise ValueError(
-                f"action has the shape {command.shape}; must be {self.action_space.shape}"
-            )
+        command = numpy.clip(array("action", action, self.action_space.shape), -1.0, 1.0)
         acceleration = None
         if self._max_acceleration is not None:
             acceleration = float(command[1]) * self._max_acceleration

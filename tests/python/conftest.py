@@ -5,6 +5,6 @@ import pytest
 SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "scenarios"
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def scenarios():
     return SCENARIOS
