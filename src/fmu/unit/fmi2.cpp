@@ -1,29 +1,27 @@
-#include <cstring>
 #include <memory>
 
 #include "src/fmu/fmi2_interface.h"
-#include "src/fmu/unit/calls.h"
+#include "src/fmu/unit/functions.h"
 
 // The C functions of FMI 2.0 for co-simulation.
 namespace {
 
 using trackbed::InputError;
 using trackbed::Problem;
-using trackbed::fmu::CopyTo;
 using trackbed::fmu::Guarded;
 using trackbed::fmu::RequireGiven;
-using trackbed::fmu::State;
-using trackbed::fmu::StepEnd;
 using trackbed::fmu::Type;
 using trackbed::fmu::Unit;
 
-struct Instance {
-  std::unique_ptr<Unit> unit;
+struct Instance : trackbed::fmu::InstanceBase {
+  using Status = fmi2Status;
+  static constexpr Status kOk = fmi2OK;
+  static constexpr Status kError = fmi2Error;
+  static constexpr const char* kStateName = "FMUstate";
+
   std::string name;
   fmi2CallbackFunctions functions{};
-  bool logging = false;
   double start_time = 0.0;
-  StepEnd last{};  ///< End of the last step.
 
   void Log(fmi2Status status, const char* category, const std::string& message) const {
     if (functions.logger != nullptr) {
@@ -35,36 +33,7 @@ struct Instance {
   void Fail(const std::string& message) const { Log(fmi2Error, "logStatusError", message); }
 };
 
-template <typename Call>
-fmi2Status With(fmi2Component component, const Call& call) noexcept {
-  auto* const own = static_cast<Instance*>(component);
-  if (own == nullptr) {
-    return fmi2Error;
-  }
-  return Guarded([&] { call(*own); }, [&](const std::string& text) { own->Fail(text); })
-             ? fmi2OK
-             : fmi2Error;
-}
-
-fmi2Status Refuse(fmi2Component component, const char* function) noexcept {
-  return With(component, [&](Instance& /*own*/) {
-    throw InputError(Problem{.message = std::string(function) + " is not supported"});
-  });
-}
-
-template <typename Value>
-fmi2Status Get(fmi2Component component, Type type, const fmi2ValueReference* references,
-               std::size_t count, Value* values) noexcept {
-  return With(component,
-              [&](Instance& own) { GetAll(*own.unit, type, references, count, values); });
-}
-
-template <typename Value>
-fmi2Status Set(fmi2Component component, Type type, const fmi2ValueReference* references,
-               std::size_t count, const Value* values) noexcept {
-  return With(component,
-              [&](Instance& own) { SetAll(*own.unit, type, references, count, values); });
-}
+using Shared = trackbed::fmu::Functions<Instance>;
 
 }  // namespace
 
@@ -80,7 +49,7 @@ const char* fmi2GetVersion() {
 
 fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean logging, std::size_t,
                                const fmi2String*) {
-  return With(component, [&](Instance& own) { own.logging = logging != 0; });
+  return Shared::With(component, [&](Instance& own) { own.logging = logging != 0; });
 }
 
 fmi2Component fmi2Instantiate(fmi2String instance_name, fmi2Type type, fmi2String guid,
@@ -121,188 +90,155 @@ void fmi2FreeInstance(fmi2Component component) {
 
 fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean, fmi2Real, fmi2Real start_time,
                                fmi2Boolean, fmi2Real) {
-  return With(component, [&](Instance& own) { own.start_time = start_time; });
+  return Shared::With(component, [&](Instance& own) { own.start_time = start_time; });
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component component) {
-  return With(component, [](Instance& own) { own.unit->EnterInitialization(own.start_time); });
+  return Shared::With(component,
+                      [](Instance& own) { own.unit->EnterInitialization(own.start_time); });
 }
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component component) {
-  return With(component, [](Instance& own) {
-    own.unit->ExitInitialization();
-    own.last = {.ended = false, .time = own.start_time};
-  });
+  return Shared::ExitInitialization(component);
 }
 
 fmi2Status fmi2Terminate(fmi2Component component) {
-  return With(component, [](Instance& own) { own.unit->Terminate(); });
+  return Shared::Terminate(component);
 }
 
 fmi2Status fmi2Reset(fmi2Component component) {
-  return With(component, [](Instance& own) {
+  return Shared::With(component, [](Instance& own) {
     own.unit->Reset();
     own.start_time = 0.0;
-    own.last = {};
   });
 }
 
 fmi2Status fmi2DoStep(fmi2Component component, fmi2Real time, fmi2Real step, fmi2Boolean) {
-  bool complete = true;
-  const fmi2Status status = With(component, [&](Instance& own) {
-    own.last = own.unit->Step(time, step);
-    complete = !own.last.ended;
-  });
+  bool ended = false;
+  const fmi2Status status =
+      Shared::With(component, [&](Instance& own) { ended = own.unit->Step(time, step).ended; });
   // FMI 2: a slave that ends the simulation discards the rest of the step, and
   // fmi2GetBooleanStatus says that it has terminated.
-  return status == fmi2OK && !complete ? fmi2Discard : status;
+  return status == fmi2OK && ended ? fmi2Discard : status;
 }
 
 fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference* references,
                        std::size_t count, fmi2Real* values) {
-  return Get(component, Type::kReal, references, count, values);
+  return Shared::Get(component, Type::kReal, references, count, values, count);
 }
 
 fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference* references,
                        std::size_t count, const fmi2Real* values) {
-  return Set(component, Type::kReal, references, count, values);
+  return Shared::Set(component, Type::kReal, references, count, values, count);
 }
 
 fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference* references,
                           std::size_t count, fmi2Integer* values) {
-  return Get(component, Type::kInteger, references, count, values);
+  return Shared::Get(component, Type::kInteger, references, count, values, count);
 }
 
 fmi2Status fmi2SetInteger(fmi2Component component, const fmi2ValueReference* references,
                           std::size_t count, const fmi2Integer* values) {
-  return Set(component, Type::kInteger, references, count, values);
+  return Shared::Set(component, Type::kInteger, references, count, values, count);
 }
 
 fmi2Status fmi2GetBoolean(fmi2Component component, const fmi2ValueReference* references,
                           std::size_t count, fmi2Boolean* values) {
-  return Get(component, Type::kBoolean, references, count, values);
+  return Shared::Get(component, Type::kBoolean, references, count, values, count);
 }
 
 fmi2Status fmi2SetBoolean(fmi2Component component, const fmi2ValueReference* references,
                           std::size_t count, const fmi2Boolean* values) {
-  return Set(component, Type::kBoolean, references, count, values);
+  return Shared::Set(component, Type::kBoolean, references, count, values, count);
 }
 
 fmi2Status fmi2GetString(fmi2Component component, const fmi2ValueReference*, std::size_t,
                          fmi2String*) {
-  return Refuse(component, "fmi2GetString");
+  return Shared::Refuse(component, "fmi2GetString");
 }
 
 fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueReference*, std::size_t,
                          const fmi2String*) {
-  return Refuse(component, "fmi2SetString");
+  return Shared::Refuse(component, "fmi2SetString");
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state) {
-  return With(component, [&](Instance& own) {
-    RequireGiven(state, "FMUstate");
-    auto saved = std::make_unique<State>(own.unit->Save());
-    delete static_cast<State*>(*state);
-    *state = saved.release();
-  });
+  return Shared::Save(component, state);
 }
 
 fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state) {
-  return With(component, [&](Instance& own) {
-    RequireGiven(state, "FMUstate");
-    own.unit->Restore(*static_cast<State*>(state));
-    own.last = own.unit->Present();
-  });
+  return Shared::Restore(component, state);
 }
 
 fmi2Status fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate* state) {
-  return With(component, [&](Instance& /*own*/) {
-    if (state != nullptr) {
-      delete static_cast<State*>(*state);
-      *state = nullptr;
-    }
-  });
+  return Shared::Free(component, state);
 }
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component component, fmi2FMUstate state,
                                       std::size_t* size) {
-  return With(component, [&](Instance& own) {
-    RequireGiven(state, "FMUstate");
-    RequireGiven(size, "size");
-    *size = own.unit->Serialize(*static_cast<State*>(state)).size();
-  });
+  return Shared::SizeOfSerialized(component, state, size);
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fmi2Byte* bytes,
                                  std::size_t size) {
-  return With(component, [&](Instance& own) {
-    RequireGiven(state, "FMUstate");
-    RequireGiven(bytes, "serializedState");
-    CopyTo(own.unit->Serialize(*static_cast<State*>(state)), bytes, size);
-  });
+  return Shared::Serialize(component, state, bytes, size);
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte* bytes, std::size_t size,
                                    fmi2FMUstate* state) {
-  return With(component, [&](Instance& own) {
-    RequireGiven(bytes, "serializedState");
-    RequireGiven(state, "FMUstate");
-    auto read = std::make_unique<State>(own.unit->Deserialize({bytes, size}));
-    delete static_cast<State*>(*state);
-    *state = read.release();
-  });
+  return Shared::Deserialize(component, bytes, size, state);
 }
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2ValueReference*,
                                         std::size_t, const fmi2ValueReference*, std::size_t,
                                         const fmi2Real*, fmi2Real*) {
-  return Refuse(component, "fmi2GetDirectionalDerivative");
+  return Shared::Refuse(component, "fmi2GetDirectionalDerivative");
 }
 
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueReference*,
                                        std::size_t, const fmi2Integer*, const fmi2Real*) {
-  return Refuse(component, "fmi2SetRealInputDerivatives");
+  return Shared::Refuse(component, "fmi2SetRealInputDerivatives");
 }
 
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2ValueReference*,
                                         std::size_t, const fmi2Integer*, fmi2Real*) {
-  return Refuse(component, "fmi2GetRealOutputDerivatives");
+  return Shared::Refuse(component, "fmi2GetRealOutputDerivatives");
 }
 
 fmi2Status fmi2CancelStep(fmi2Component component) {
-  return Refuse(component, "fmi2CancelStep");
+  return Shared::Refuse(component, "fmi2CancelStep");
 }
 
 fmi2Status fmi2GetStatus(fmi2Component component, fmi2StatusKind, fmi2Status*) {
-  return Refuse(component, "fmi2GetStatus");
+  return Shared::Refuse(component, "fmi2GetStatus");
 }
 
 fmi2Status fmi2GetRealStatus(fmi2Component component, fmi2StatusKind kind, fmi2Real* value) {
-  return With(component, [&](Instance& own) {
+  return Shared::With(component, [&](Instance& own) {
     RequireGiven(value, "value");
     if (kind != fmi2LastSuccessfulTime) {
       throw InputError(Problem{.message = "the only real status is fmi2LastSuccessfulTime"});
     }
-    *value = own.last.time;
+    *value = own.unit->Present().time;
   });
 }
 
 fmi2Status fmi2GetIntegerStatus(fmi2Component component, fmi2StatusKind, fmi2Integer*) {
-  return Refuse(component, "fmi2GetIntegerStatus");
+  return Shared::Refuse(component, "fmi2GetIntegerStatus");
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component component, fmi2StatusKind kind, fmi2Boolean* value) {
-  return With(component, [&](Instance& own) {
+  return Shared::With(component, [&](Instance& own) {
     RequireGiven(value, "value");
     if (kind != fmi2Terminated) {
       throw InputError(Problem{.message = "the only Boolean status is fmi2Terminated"});
     }
-    *value = own.last.ended ? 1 : 0;
+    *value = own.unit->Present().ended ? 1 : 0;
   });
 }
 
 fmi2Status fmi2GetStringStatus(fmi2Component component, fmi2StatusKind, fmi2String*) {
-  return Refuse(component, "fmi2GetStringStatus");
+  return Shared::Refuse(component, "fmi2GetStringStatus");
 }
 
 }  // extern "C"

@@ -1,9 +1,7 @@
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "src/fmu/fmi3_interface.h"
-#include "src/fmu/unit/calls.h"
+#include "src/fmu/unit/functions.h"
 
 // The C functions of FMI 3.0 for co-simulation. Functions of other kinds of simulation, and of
 // types that no variable has, fail with a message. FMI 3 requires that they exist.
@@ -11,18 +9,19 @@ namespace {
 
 using trackbed::InputError;
 using trackbed::Problem;
-using trackbed::fmu::CopyTo;
 using trackbed::fmu::Guarded;
 using trackbed::fmu::RequireGiven;
-using trackbed::fmu::State;
 using trackbed::fmu::Type;
 using trackbed::fmu::Unit;
 
-struct Instance {
-  std::unique_ptr<Unit> unit;
+struct Instance : trackbed::fmu::InstanceBase {
+  using Status = fmi3Status;
+  static constexpr Status kOk = fmi3OK;
+  static constexpr Status kError = fmi3Error;
+  static constexpr const char* kStateName = "FMUState";
+
   fmi3InstanceEnvironment environment = nullptr;
   fmi3LogMessageCallback log = nullptr;
-  bool logging = false;
 
   void Log(fmi3Status status, const char* category, const std::string& message) const {
     if (log != nullptr) {
@@ -32,56 +31,16 @@ struct Instance {
   void Fail(const std::string& message) const { Log(fmi3Error, "logStatusError", message); }
 };
 
-template <typename Call>
-fmi3Status With(fmi3Instance instance, const Call& call) noexcept {
-  auto* const own = static_cast<Instance*>(instance);
-  if (own == nullptr) {
-    return fmi3Error;
-  }
-  return Guarded([&] { call(*own->unit); }, [&](const std::string& text) { own->Fail(text); })
-             ? fmi3OK
-             : fmi3Error;
-}
-
-fmi3Status Refuse(fmi3Instance instance, const char* function) noexcept {
-  return With(instance, [&](Unit& /*unit*/) {
-    throw InputError(Problem{.message = std::string(function) + " is not supported"});
-  });
-}
-
-void RequireSameCount(std::size_t references, std::size_t values) {
-  if (references != values) {
-    throw InputError(
-        Problem{.message = fmt::format("{} value references, but {} values", references, values)});
-  }
-}
-
-template <typename Value>
-fmi3Status Get(fmi3Instance instance, Type type, const fmi3ValueReference* references,
-               std::size_t count, Value* values, std::size_t value_count) noexcept {
-  return With(instance, [&](Unit& unit) {
-    RequireSameCount(count, value_count);
-    GetAll(unit, type, references, count, values);
-  });
-}
-
-template <typename Value>
-fmi3Status Set(fmi3Instance instance, Type type, const fmi3ValueReference* references,
-               std::size_t count, const Value* values, std::size_t value_count) noexcept {
-  return With(instance, [&](Unit& unit) {
-    RequireSameCount(count, value_count);
-    SetAll(unit, type, references, count, values);
-  });
-}
+using Shared = trackbed::fmu::Functions<Instance>;
 
 /// Refuses a function with the given parameter types.
 #define TRACKBED_REFUSE(name, ...)                      \
   fmi3Status name(fmi3Instance instance, __VA_ARGS__) { \
-    return Refuse(instance, #name);                     \
+    return Shared::Refuse(instance, #name);             \
   }
-#define TRACKBED_REFUSE_PLAIN(name)        \
-  fmi3Status name(fmi3Instance instance) { \
-    return Refuse(instance, #name);        \
+#define TRACKBED_REFUSE_PLAIN(name)         \
+  fmi3Status name(fmi3Instance instance) {  \
+    return Shared::Refuse(instance, #name); \
   }
 /// Refuses the functions that get and set values of a type that no variable has.
 #define TRACKBED_REFUSE_TYPE(name)                                                                 \
@@ -99,8 +58,7 @@ const char* fmi3GetVersion() {
 
 fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean logging, std::size_t,
                                const fmi3String*) {
-  return With(instance,
-              [&](Unit& /*unit*/) { static_cast<Instance*>(instance)->logging = logging; });
+  return Shared::With(instance, [&](Instance& own) { own.logging = logging; });
 }
 
 fmi3Instance fmi3InstantiateCoSimulation(
@@ -112,7 +70,10 @@ fmi3Instance fmi3InstantiateCoSimulation(
   std::unique_ptr<Instance> instance;
   const bool made = Guarded(
       [&] {
-        instance = std::make_unique<Instance>(Instance{{}, environment, log, logging});
+        instance = std::make_unique<Instance>();
+        instance->logging = logging;
+        instance->environment = environment;
+        instance->log = log;
         if (event_mode || intermediate_count > 0) {
           throw InputError(
               Problem{.message = "the event mode and intermediate variables are not supported"});
@@ -157,30 +118,30 @@ void fmi3FreeInstance(fmi3Instance instance) {
 
 fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean, fmi3Float64,
                                        fmi3Float64 start_time, fmi3Boolean, fmi3Float64) {
-  return With(instance, [&](Unit& unit) { unit.EnterInitialization(start_time); });
+  return Shared::With(instance, [&](Instance& own) { own.unit->EnterInitialization(start_time); });
 }
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
-  return With(instance, [](Unit& unit) { unit.ExitInitialization(); });
+  return Shared::ExitInitialization(instance);
 }
 
 fmi3Status fmi3Terminate(fmi3Instance instance) {
-  return With(instance, [](Unit& unit) { unit.Terminate(); });
+  return Shared::Terminate(instance);
 }
 
 fmi3Status fmi3Reset(fmi3Instance instance) {
-  return With(instance, [](Unit& unit) { unit.Reset(); });
+  return Shared::With(instance, [](Instance& own) { own.unit->Reset(); });
 }
 
 fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step, fmi3Boolean,
                       fmi3Boolean* event_handling_needed, fmi3Boolean* terminate_simulation,
                       fmi3Boolean* early_return, fmi3Float64* last_successful_time) {
-  return With(instance, [&](Unit& unit) {
+  return Shared::With(instance, [&](Instance& own) {
     RequireGiven(event_handling_needed, "eventHandlingNeeded");
     RequireGiven(terminate_simulation, "terminateSimulation");
     RequireGiven(early_return, "earlyReturn");
     RequireGiven(last_successful_time, "lastSuccessfulTime");
-    const trackbed::fmu::StepEnd end = unit.Step(time, step);
+    const trackbed::fmu::StepEnd end = own.unit->Step(time, step);
     *event_handling_needed = false;
     *terminate_simulation = end.ended;
     *early_return = false;
@@ -190,87 +151,59 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step,
 
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference* references,
                           std::size_t count, fmi3Float64* values, std::size_t value_count) {
-  return Get(instance, Type::kReal, references, count, values, value_count);
+  return Shared::Get(instance, Type::kReal, references, count, values, value_count);
 }
 
 fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference* references,
                           std::size_t count, const fmi3Float64* values, std::size_t value_count) {
-  return Set(instance, Type::kReal, references, count, values, value_count);
+  return Shared::Set(instance, Type::kReal, references, count, values, value_count);
 }
 
 fmi3Status fmi3GetInt64(fmi3Instance instance, const fmi3ValueReference* references,
                         std::size_t count, fmi3Int64* values, std::size_t value_count) {
-  return Get(instance, Type::kInteger, references, count, values, value_count);
+  return Shared::Get(instance, Type::kInteger, references, count, values, value_count);
 }
 
 fmi3Status fmi3SetInt64(fmi3Instance instance, const fmi3ValueReference* references,
                         std::size_t count, const fmi3Int64* values, std::size_t value_count) {
-  return Set(instance, Type::kInteger, references, count, values, value_count);
+  return Shared::Set(instance, Type::kInteger, references, count, values, value_count);
 }
 
 fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3ValueReference* references,
                           std::size_t count, fmi3Boolean* values, std::size_t value_count) {
-  return Get(instance, Type::kBoolean, references, count, values, value_count);
+  return Shared::Get(instance, Type::kBoolean, references, count, values, value_count);
 }
 
 fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3ValueReference* references,
                           std::size_t count, const fmi3Boolean* values, std::size_t value_count) {
-  return Set(instance, Type::kBoolean, references, count, values, value_count);
+  return Shared::Set(instance, Type::kBoolean, references, count, values, value_count);
 }
 
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
-  return With(instance, [&](Unit& unit) {
-    RequireGiven(state, "FMUState");
-    auto saved = std::make_unique<State>(unit.Save());
-    delete static_cast<State*>(*state);
-    *state = saved.release();
-  });
+  return Shared::Save(instance, state);
 }
 
 fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state) {
-  return With(instance, [&](Unit& unit) {
-    RequireGiven(state, "FMUState");
-    unit.Restore(*static_cast<State*>(state));
-  });
+  return Shared::Restore(instance, state);
 }
 
 fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
-  return With(instance, [&](Unit& /*unit*/) {
-    if (state != nullptr) {
-      delete static_cast<State*>(*state);
-      *state = nullptr;
-    }
-  });
+  return Shared::Free(instance, state);
 }
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state,
                                       std::size_t* size) {
-  return With(instance, [&](Unit& unit) {
-    RequireGiven(state, "FMUState");
-    RequireGiven(size, "size");
-    *size = unit.Serialize(*static_cast<State*>(state)).size();
-  });
+  return Shared::SizeOfSerialized(instance, state, size);
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, fmi3Byte* bytes,
                                  std::size_t size) {
-  return With(instance, [&](Unit& unit) {
-    RequireGiven(state, "FMUState");
-    RequireGiven(bytes, "serializedState");
-    CopyTo(unit.Serialize(*static_cast<State*>(state)), bytes, size);
-  });
+  return Shared::Serialize(instance, state, bytes, size);
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte* bytes, std::size_t size,
                                    fmi3FMUState* state) {
-  return With(instance, [&](Unit& unit) {
-    RequireGiven(bytes, "serializedState");
-    RequireGiven(state, "FMUState");
-    auto read =
-        std::make_unique<State>(unit.Deserialize({reinterpret_cast<const char*>(bytes), size}));
-    delete static_cast<State*>(*state);
-    *state = read.release();
-  });
+  return Shared::Deserialize(instance, bytes, size, state);
 }
 
 TRACKBED_REFUSE_TYPE(Float32)
