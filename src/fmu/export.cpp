@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "src/fmu/carried_libraries.h"
 #include "src/fmu/contents.h"
 #include "src/fmu/fmi3_interface.h"
+#include "src/fmu/licenses.h"
 #include "src/fmu/model_description.h"
 #include "src/fmu/resources.h"
 #include "src/fmu/shared_library.h"
@@ -18,8 +20,9 @@
 #include "trackbed/sim/plant.h"
 
 // Makes the files of an FMU in memory: the resources (scenario, car and input files), the
-// description of the variables, and the shared library trackbed_fmu.so with the libraries that it
-// needs. The shared library is tried with the resources before the FMU is written.
+// description of the variables, the shared library trackbed_fmu.so with the libraries that it
+// needs, and their licenses. The shared library is tried with the resources before the FMU is
+// written.
 namespace trackbed {
 
 namespace fs = std::filesystem;
@@ -81,8 +84,12 @@ std::vector<fmu::ZipEntry> MakeEntries(const Resources& resources, const std::st
     entries.push_back({"resources/" + name, content});
   }
   entries.push_back({fmt::format("{}/{}.so", folder, fmu::kModelIdentifier), ReadFile(library)});
-  for (const auto& [name, file] : fmu::CarriedLibraries(library)) {
+  const std::map<std::string, fs::path> carried = fmu::CarriedLibraries(library);
+  for (const auto& [name, file] : carried) {
     entries.push_back({folder + "/" + name, ReadFile(file)});
+  }
+  for (fmu::ZipEntry& entry : fmu::LicenseEntries(library, carried)) {
+    entries.push_back(std::move(entry));
   }
   return entries;
 }

@@ -385,6 +385,12 @@ TEST(ExportFmu, WritesAnArchiveThatRunsByItself) {
   }
   EXPECT_EQ(entries.count("resources/scenario.yaml"), 1U);
   EXPECT_EQ(entries.count("resources/vehicle.xml"), 1U);
+  for (const auto& [name, content] : entries) {
+    if (name.starts_with("binaries/") && !name.ends_with("/trackbed.so")) {
+      const std::string line = "\n" + fs::path(name).filename().string() + ": ";
+      EXPECT_THAT(entries.at("documentation/licenses/license.txt"), HasSubstr(line));
+    }
+  }
   Extract(entries, folder.path());
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(entries.at("modelDescription.xml").c_str()), tinyxml2::XML_SUCCESS);
