@@ -30,7 +30,7 @@ class TyreFileReader {
   using Field = double MagicFormula::*;
 
   void Fail(const TyreFileEntry* entry, const std::string& key, std::string message);
-  void Note(std::string note) { result_.notes.push_back(std::move(note)); }
+  void Note(std::string_view note) { result_.notes.emplace_back(note); }
 
   /// Returns the entry of a key; null if the file has none. Adds a problem if the file has the key
   /// twice with different values.
