@@ -9,7 +9,9 @@
 
 #include "src/sim/car_parts.h"
 #include "src/sim/model_check.h"
+#include "src/sim/trailer_parts.h"
 #include "src/sim/upright.h"
+#include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/sim/compile_scene.h"
 #include "trackbed/sim/mujoco_error.h"
@@ -58,6 +60,33 @@ Stand RestPoseOn(const VehicleParams& params, const Pose2& pose, const Ground& g
   return {height + deepest, Upright(slope.x() * ahead + slope.y() * LeftNormal(ahead), pose.yaw)};
 }
 
+/// Returns yaw, pitch and roll of a trailer relative to its car that stands at `stand`, so that
+/// both wheels of the trailer touch the ground. The heights of the ground are taken where the
+/// wheels would be on level ground.
+std::array<double, 3> RestingHitch(const TrailerParts& trailer, const Pose2& car, double angle,
+                                   const Stand& stand, const Ground& ground) {
+  if (IsFlat(ground)) {
+    return {angle, 0.0, 0.0};
+  }
+  const TrailerParams& params = trailer.params;
+  const Pose2 axle = TrailerPose(params, car, angle);
+  const Eigen::Vector3d hitch =
+      stand.turn * Eigen::Vector3d(-params.hitch, 0.0, params.hitch_height);
+  const double left = GroundHeight(ground, ToWorld(axle, {0.0, 0.5 * params.track}));
+  const double right = GroundHeight(ground, ToWorld(axle, {0.0, -0.5 * params.track}));
+  // The ground under the axle is below the hitch by hitch_height plus tongue times the pitch.
+  const double below = stand.height + hitch.z() - 0.5 * (left + right);
+  const double pitch = (params.hitch_height - below) / params.tongue;
+  const double roll = (left - right) / params.track;
+  const Eigen::Quaterniond wanted = Eigen::AngleAxisd(axle.yaw, Eigen::Vector3d::UnitZ()) *
+                                    Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+                                    Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
+  const Eigen::Matrix3d relative = (stand.turn.conjugate() * wanted).toRotationMatrix();
+  const double yaw = std::atan2(relative(1, 0), relative(0, 0));
+  return {angle + AngleDifference(yaw, angle), -std::asin(relative(2, 0)),
+          std::atan2(relative(2, 1), relative(2, 2))};
+}
+
 }  // namespace
 
 CarModel::CarModel(Scene scene, std::string name_for_messages)
@@ -69,6 +98,7 @@ CarModel::CarModel(Scene scene, std::string name_for_messages)
   const VehicleDescription car = DescribeVehicle(*model_, file_);
   parts_ = car.parts;
   params_ = car.params;
+  trailer_ = FindTrailer(*model_);
   laden_keyframe_ = mj_name2id(model_.get(), mjOBJ_KEY, kLadenKeyframe);
   const int payload = mj_name2id(model_.get(), mjOBJ_BODY, kPayloadBody);
   unladen_ = payload >= 0 ? Unladen(*model_, payload, file_) : params_;
@@ -133,7 +163,7 @@ std::vector<double> CarModel::ExtractConfiguration(std::span<const double> qpos)
 
 std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steering,
                                                const std::vector<double>& spin,
-                                               const Ground& ground) const {
+                                               const Ground& ground, double hitch_angle) const {
   const Stand stand = RestPoseOn(params_, pose, ground);
   const bool laden = laden_keyframe_ >= 0;
   const mjtNum* level = laden ? model_->key_qpos + laden_keyframe_ * model_->nq : model_->qpos0;
@@ -162,6 +192,12 @@ std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steerin
       set(wheels[w], spin.empty() ? 0.0 : spin[w]);
     }
   };
+  if (trailer_) {
+    const auto angles = RestingHitch(*trailer_, pose, hitch_angle, {stand.height, turn}, ground);
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      set(trailer_->hitch_qpos[i], angles[i]);
+    }
+  }
   if (params_.kind == VehicleKind::kDifferential) {
     roll(wheel_pair().spin_qpos);
     return qpos;
@@ -179,8 +215,9 @@ Eigen::Vector3d CarModel::AheadOnGround(const Pose2& pose, const Ground& ground)
 }
 
 std::vector<double> CarModel::FlatConfiguration(const Pose2& pose, double steering,
-                                                const std::vector<double>& spin) const {
-  return ExtractConfiguration(StandingPosition(pose, steering, spin, scene_.ground));
+                                                const std::vector<double>& spin,
+                                                double hitch_angle) const {
+  return ExtractConfiguration(StandingPosition(pose, steering, spin, scene_.ground, hitch_angle));
 }
 
 std::vector<double> CarModel::FlatPosition(const Pose2& pose, double steering,

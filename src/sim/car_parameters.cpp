@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "src/sim/scene_xml.h"
+#include "src/sim/spring_preload.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
@@ -242,32 +243,6 @@ void SetRange(XMLElement& root, const ActuatorRange& range, const CarParameter& 
   AddComment(*element, parameter.origin.empty() ? "" : parameter.name + ": " + parameter.origin);
 }
 
-/// Changes the preload of the suspension springs so that they carry the additional wheel loads
-/// `more` [N].
-void PreloadSprings(const CarModel& car, XMLElement& root, const std::array<double, 4>& more) {
-  const mjModel& model = *car.get();
-  for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    for (int body = car.parts().wheel[w]; body > 0 && body != car.chassis().chassis;
-         body = model.body_parentid[body]) {
-      for (int i = 0; i < model.body_jntnum[body]; ++i) {
-        const int joint = model.body_jntadr[body] + i;
-        if (model.jnt_type[joint] != mjJNT_SLIDE || model.jnt_stiffness[joint] <= 0.0) {
-          continue;
-        }
-        const int qpos = model.jnt_qposadr[joint];
-        const double spring = model.qpos_spring[qpos] - more[w] / model.jnt_stiffness[joint];
-        const char* name = mj_id2name(&model, mjOBJ_JOINT, joint);
-        XMLElement* element =
-            name != nullptr && *name != '\0' ? FindInWorld(root, "joint", name) : nullptr;
-        if (element == nullptr) {
-          Fail(car, "mass", "a spring of the suspension has no name, so its preload cannot follow");
-        }
-        element->SetAttribute("springref", spring);
-      }
-    }
-  }
-}
-
 /// Sets the <inertial> element of the chassis such that the whole vehicle has the wanted
 /// properties.
 void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, double>& wanted,
@@ -340,7 +315,7 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   const double wheelbase = car.unladen().wheelbase;
   const double front = gravity * (mass * x - old_mass * old_x) / wheelbase;
   const double rear = gravity * (mass - old_mass) - front;
-  PreloadSprings(car, root, {0.5 * front, 0.5 * front, 0.5 * rear, 0.5 * rear});
+  PreloadSprings(car, root, {0.5 * front, 0.5 * front, 0.5 * rear, 0.5 * rear}, "mass");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "src/sim/mujoco_compat.h"
 #include "src/sim/parts_reader.h"
 #include "src/sim/steering_response_reader.h"
+#include "src/sim/trailer_parts.h"
 #include "src/sim/vehicle_limits.h"
 #include "src/sim/wheel_pair_parts.h"
 #include "trackbed/core/error.h"
@@ -297,17 +298,22 @@ class CarReader final : private PartsReader {
     }
     params_.friction_longitudinal = friction.longitudinal;
     params_.friction_lateral = friction.lateral;
-    const double rolling_mass = params_.mass + wheel_mass[0] + wheel_mass[1];
+    double rolling_mass = params_.mass + wheel_mass[0] + wheel_mass[1];
+    const Towed towed = ReadTowed();
+    rolling_mass += towed.rolling_mass;
+    rolling += towed.rolling;
     // `ahead` is the sign of the change of the front axle's load: 1 for braking, -1 for driving.
     const auto limit = [&](double front_force, double ahead, double force) {
       AccelerationLimit own{.by_force = force / rolling_mass, .axles = {}};
       const std::array<double, 2> pushed{front_force, 1.0 - front_force};
-      const double transfer = ahead * chassis_.cg_height / params_.wheelbase;
+      const std::array<double, 2> transfer{
+          ahead * (chassis_.cg_height / params_.wheelbase + towed.transfer[0]),
+          -ahead * (chassis_.cg_height / params_.wheelbase + towed.transfer[1])};
       for (std::size_t axle = 0; axle < pushed.size(); ++axle) {
         const double on_road = pushed[axle] * rolling_mass - wheel_mass[axle];
-        own.axles.push_back({.weight = share[axle],
+        own.axles.push_back({.weight = share[axle] + towed.weight[axle],
                              .force = std::max(0.0, on_road / params_.mass),
-                             .transfer = axle == 0 ? transfer : -transfer});
+                             .transfer = transfer[axle]});
       }
       return own;
     };
@@ -322,6 +328,43 @@ class CarReader final : private PartsReader {
                                   .power = parts_.drive_power,
                                   .rolling = rolling,
                                   .drag_area = chassis_.aerodynamics.drag_area});
+  }
+
+  /// Effect of the trailer on the acceleration limits of the car; all 0 without a trailer.
+  struct Towed {
+    double rolling_mass = 0.0;  // [kg]
+    double rolling = 0.0;       // Rolling resistance [N].
+    // Additional AxleGrip::weight of the front and the rear axle.
+    std::array<double, 2> weight{};
+    // Additional load transfer factors of the front and the rear axle, as fractions of the car's
+    // mass; positive if the transfer grows.
+    std::array<double, 2> transfer{};
+  };
+
+  /// The trailer has no brakes. While the car brakes with the deceleration a, the trailer of mass
+  /// m_t pushes the hitch forward with m_t a, and its nose becomes heavier by m_t a (z_t - h)/l,
+  /// with the height z_t of its center of gravity and the height h of the hitch.
+  Towed ReadTowed() {
+    const std::optional<TrailerParts> trailer = FindTrailer(m_);
+    if (!trailer) {
+      return {};
+    }
+    const TrailerParams& own = trailer->params;
+    const double gravity = std::abs(m_.opt.gravity[2]);
+    const double share = own.mass / params_.mass;
+    const double push = share * own.hitch_height / params_.wheelbase;
+    const double nose = share * (own.cg_height - own.hitch_height) / own.tongue;
+    const double behind = own.hitch / params_.wheelbase;
+    const std::array<double, 2> loads = NoseLoads(own, params_.wheelbase, gravity);
+    const double weight = params_.mass * gravity;
+    Towed towed{.rolling_mass = RollingMass(*trailer),
+                .weight = {loads[0] / weight, loads[1] / weight},
+                .transfer = {push - nose * behind, push - nose * (1.0 + behind)}};
+    if (parts_.tyres) {
+      towed.rolling =
+          parts_.tyres->axle[1].rolling_resistance * own.mass * gravity * (1.0 - own.nose_share());
+    }
+    return towed;
   }
 
   /// Returns the fraction of the drive torque that acts on the front wheels.

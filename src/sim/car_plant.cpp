@@ -4,12 +4,12 @@
 #include <cmath>
 #include <optional>
 
-#include "src/sim/contact_friction.h"
 #include "src/sim/differential.h"
 #include "src/sim/driver_aids.h"
 #include "src/sim/magic_formula_tyres.h"
 #include "src/sim/mujoco_compat.h"
 #include "src/sim/mujoco_plant.h"
+#include "src/sim/trailer_parts.h"
 #include "src/sim/wheel_contacts.h"
 #include "trackbed/core/error.h"
 
@@ -47,7 +47,10 @@ class CarPlant final : public MujocoPlant {
     }
     dry_friction_ = bearing_friction_;
     if (SupportFor(setup) == TyreSupport::kSprings) {
-      tyres_.emplace(car(), model());
+      tyres_.emplace(car(), model(), TyreWheelsOfCar(car(), model()));
+      if (car().trailer()) {
+        trailer_tyres_.emplace(car(), model(), TyreWheelsOfTrailer(car(), model()));
+      }
       for (const int spin : parts.spin_dof) {
         // HoldWheels applies the bearing friction instead of MuJoCo
         model().dof_frictionloss[spin] = 0.0;
@@ -69,6 +72,9 @@ class CarPlant final : public MujocoPlant {
       if (setup.start.lateral_speed || setup.start.yaw_rate) {
         tyres_->TakeLateralSlip(model(), data());
       }
+    }
+    if (trailer_tyres_) {
+      trailer_tyres_->Stand(data());
     }
   }
 
@@ -93,6 +99,9 @@ class CarPlant final : public MujocoPlant {
   void ApplyWheelForces(const Road& road) override {
     if (tyres_) {
       tyres_->Apply(model(), data(), road);
+      if (trailer_tyres_) {
+        trailer_tyres_->Apply(model(), data(), trailer_road());
+      }
       if (aids_) {
         Help(road);
       }
@@ -114,7 +123,7 @@ class CarPlant final : public MujocoPlant {
   [[nodiscard]] Wheels ObserveWheels() const override {
     return {.actuator = data().act[car().parts().steer_state],
             .steering = Steering(),
-            .forces = tyres_ ? tyres_->Observe() : ContactWheels()};
+            .forces = tyres_ ? tyres_->Observe() : ContactWheelStates(car(), model(), data())};
   }
 
   /// Returns the steering angle of the bicycle model at the front wheels [rad].
@@ -139,16 +148,17 @@ class CarPlant final : public MujocoPlant {
   [[nodiscard]] double Grade() const;
   void PrescribeVelocity(double steering);
   void PrescribeAngle(double steering);
-  [[nodiscard]] std::array<WheelState, 4> ContactWheels() const;
 
   // Whether the steering angle is prescribed instead of controlled by a servo.
   bool prescribed_;
-  bool hold_ = false;                         // Whether the brakes hold the car at rest.
-  bool linked_ = false;                       // Whether the front wheels are coupled to the rack.
-  FrontAngles slopes_;                        // Derivatives of the front wheel angles with respect
-                                              // to the rack angle.
-  std::optional<MagicFormulaTyres> tyres_;    // Magic Formula tyres; nullopt if the car has contact
-                                              // tyres.
+  bool hold_ = false;                       // Whether the brakes hold the car at rest.
+  bool linked_ = false;                     // Whether the front wheels are coupled to the rack.
+  FrontAngles slopes_;                      // Derivatives of the front wheel angles with respect
+                                            // to the rack angle.
+  std::optional<MagicFormulaTyres> tyres_;  // Magic Formula tyres; nullopt if the car has contact
+                                            // tyres.
+  // Magic Formula tyres of the trailer; nullopt without a trailer or with contact tyres.
+  std::optional<MagicFormulaTyres> trailer_tyres_;
   std::array<double, 4> bearing_friction_{};  // Friction torque of the bearing of each wheel [N m].
   // Maximum dry friction torque of bearing and brake on each wheel in this step [N m].
   std::array<double, 4> dry_friction_{};
@@ -226,6 +236,9 @@ void CarPlant::Propel(const Command& command) {
   double rolling_mass = car().unladen().mass;
   for (const double inertia : parts.spin_inertia) {
     rolling_mass += inertia / (radius * radius);
+  }
+  if (const std::optional<TrailerParts>& trailer = car().trailer()) {
+    rolling_mass += RollingMass(*trailer);
   }
   const double along_gear = command.coast ? 0.0 : command.acceleration * command.gear;
   const double resistance = Resistance(command.gear);
@@ -367,7 +380,16 @@ double CarPlant::Resistance(int gear) const {
   for (const double friction : bearing_friction_) {
     dry += friction;
   }
-  const double climb = car().unladen().mass * std::abs(model().opt.gravity[2]) * Grade();
+  const double gravity = std::abs(model().opt.gravity[2]);
+  double climb = car().unladen().mass * gravity * Grade();
+  if (const std::optional<TrailerParts>& trailer = car().trailer()) {
+    const TrailerParams& params = trailer->params;
+    if (trailer_tyres_) {
+      dry += trailer_tyres_->RollingMoment() * car().params().wheel_radius / params.wheel_radius;
+    }
+    climb += gravity * TrailerClimb(params, car().scene().ground, pose(),
+                                    data().qpos[trailer->hitch_qpos[0]]);
+  }
   return dry + gear * (Drag() + climb) * car().params().wheel_radius;
 }
 
@@ -406,28 +428,6 @@ void CarPlant::PrescribeAngle(double steering) {
   data().qpos[parts.steer_qpos[0]] = at.left;
   data().qpos[parts.steer_qpos[1]] = at.right;
   data().act[parts.steer_state] = steering;
-}
-
-std::array<WheelState, 4> CarPlant::ContactWheels() const {
-  const auto forces = RoadForces(car(), model(), data());
-  const auto contacts = FindWheelContacts(car(), model(), data());
-  std::array<WheelState, 4> wheels;
-  for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    const WheelContact& contact = contacts[w];
-    // Slip is the slip speed divided by the rolling speed, or by the standstill threshold if the
-    // wheel rolls more slowly.
-    const double reference = std::max(std::abs(contact.rolling_speed), kAtRestSpeed);
-    wheels[w] = {.normal_force = std::max(0.0, contact.up.dot(forces[w])),
-                 .longitudinal_force = contact.forward.dot(forces[w]),
-                 .lateral_force = contact.left.dot(forces[w]),
-                 .slip_angle = std::atan2(contact.slip_speed_y, reference),
-                 .slip_ratio = contact.slip_speed_x / reference};
-    // UpdateRoadFriction multiplies the friction of the tyre's geom by the road's factor.
-    const double most = ContactFriction(model(), car().parts().tyre[w]) * wheels[w].normal_force;
-    wheels[w].friction_use =
-        most > 0.0 ? std::hypot(wheels[w].longitudinal_force, wheels[w].lateral_force) / most : 0.0;
-  }
-  return wheels;
 }
 
 }  // namespace

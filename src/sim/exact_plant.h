@@ -55,10 +55,20 @@ class ExactPlant final : public Plant {
 
   [[nodiscard]] VehicleState Observe() const override { return state_; }
 
+  [[nodiscard]] std::optional<TrailerState> trailer() const override {
+    if constexpr (requires { car_.trailer(); }) {
+      return car_.trailer();
+    } else {
+      return std::nullopt;
+    }
+  }
+
   [[nodiscard]] Pose2 pose() const override { return state_.pose; }
 
   [[nodiscard]] std::vector<double> Configuration() const override {
-    return model_.FlatConfiguration(state_.pose, state_.steering, spin_);
+    const std::optional<TrailerState> towed = trailer();
+    return model_.FlatConfiguration(state_.pose, state_.steering, spin_,
+                                    towed ? towed->angle : 0.0);
   }
 
   /// Whether a coordinate of the car exceeds the limit at which MuJoCo also reports divergence. An

@@ -1,5 +1,6 @@
 #include "src/sim/exact_plant.h"
 #include "src/sim/plants.h"
+#include "trackbed/vehicle/towing_car.h"
 
 namespace trackbed {
 namespace {
@@ -19,6 +20,11 @@ KinematicState StateAt(const VehicleParams& params, const StartState& start,
 
 std::unique_ptr<Plant> MakeIdealKinematicPlant(const PlantSetup& setup, ReferencePoint reference) {
   const KinematicState start = StateAt(setup.car.params(), setup.start, reference);
+  if (const std::optional<TrailerParts>& trailer = setup.car.trailer()) {
+    return std::make_unique<ExactPlant<TowingCar>>(
+        setup.car,
+        TowingCar(Steered(setup), reference, start, trailer->params, setup.start.hitch_angle));
+  }
   return std::make_unique<ExactPlant<KinematicCar>>(setup.car,
                                                     KinematicCar(Steered(setup), reference, start));
 }

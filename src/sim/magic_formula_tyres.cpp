@@ -6,9 +6,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "src/sim/car_parts.h"
 #include "src/sim/joint_forces.h"
+#include "src/sim/trailer_parts.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -78,16 +81,69 @@ double SlidingSlip(double friction, double load, double stiffness) {
 
 }  // namespace
 
-MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, const mjModel& model)
-    : car_(car), timestep_(model.opt.timestep), gravity_(std::abs(model.opt.gravity[2])) {
-  static_cast<void>(RequireTyres(car, "tyre: magic_formula"));
+std::vector<TyreWheel> TyreWheelsOfCar(const CarModel& car, const mjModel& model) {
+  const CarTyres& tyres = RequireTyres(car, "tyre: magic_formula");
   const VehicleParams& params = car.params();
-  const double weight = params.mass * gravity_;
-  CheckTimestep(car, weight, model);
+  const CarParts& parts = car.parts();
+  const double gravity = std::abs(model.opt.gravity[2]);
+  const double weight = params.mass * gravity;
+  const std::array<double, 2> nose =
+      car.trailer() ? NoseLoads(car.trailer()->params, params.wheelbase, gravity)
+                    : std::array<double, 2>{};
+  std::vector<TyreWheel> wheels;
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    const double arm = AxleIndex(w) == 0 ? params.cg_to_rear : params.cg_to_front();
-    load_at_rest_[w] = 0.5 * weight * arm / params.wheelbase;
-    shape_[w] = TyreShape(model, car.parts().tyre[w]);
+    const std::size_t axle = AxleIndex(w);
+    const double arm = axle == 0 ? params.cg_to_rear : params.cg_to_front();
+    wheels.push_back({.geom = parts.tyre[w],
+                      .body = parts.wheel[w],
+                      .frame = parts.chassis,
+                      .unsprung = model.body_subtreemass[parts.carrier[w]],
+                      .radius = params.wheel_radius,
+                      .spin_inertia = parts.spin_inertia[w],
+                      .hub_height = parts.hub_height[w],
+                      .load_at_rest = 0.5 * weight * arm / params.wheelbase + 0.5 * nose[axle],
+                      .vertical_stiffness = tyres.vertical_stiffness,
+                      .vertical_damping = tyres.vertical_damping,
+                      .camber_gain = tyres.camber_gain[axle],
+                      .tyre = &tyres.axle[axle]});
+  }
+  return wheels;
+}
+
+std::vector<TyreWheel> TyreWheelsOfTrailer(const CarModel& car, const mjModel& model) {
+  const CarTyres& tyres = RequireTyres(car, "tyre: magic_formula");
+  const TrailerParts& trailer = *car.trailer();
+  const VehicleParams& params = car.params();
+  const double gravity = std::abs(model.opt.gravity[2]);
+  const double load = 0.5 * trailer.params.mass * gravity * (1.0 - trailer.params.nose_share());
+  const double of_car = 0.5 * params.mass * gravity * params.cg_to_front() / params.wheelbase;
+  std::vector<TyreWheel> wheels;
+  for (std::size_t w = 0; w < trailer.wheel.size(); ++w) {
+    wheels.push_back({.geom = trailer.tyre[w],
+                      .body = trailer.wheel[w],
+                      .frame = trailer.body,
+                      .unsprung = model.body_subtreemass[trailer.carrier[w]],
+                      .radius = trailer.params.wheel_radius,
+                      .spin_inertia = trailer.spin_inertia[w],
+                      .hub_height = trailer.hub_height - trailer.params.hitch_height,
+                      .load_at_rest = load,
+                      .vertical_stiffness = tyres.vertical_stiffness * load / of_car,
+                      .vertical_damping = tyres.vertical_damping * load / of_car,
+                      .tyre = &tyres.axle[1]});
+  }
+  return wheels;
+}
+
+MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, const mjModel& model,
+                                     std::vector<TyreWheel> wheels)
+    : car_(car),
+      timestep_(model.opt.timestep),
+      gravity_(std::abs(model.opt.gravity[2])),
+      wheels_(std::move(wheels)) {
+  TRACKBED_CHECK(wheels_.size() <= shape_.size(), "{} wheels", wheels_.size());
+  CheckTimestep(car);
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
+    shape_[w] = TyreShape(model, wheels_[w].geom);
   }
 }
 
@@ -95,89 +151,85 @@ MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, const mjModel& model)
 /// its tyre's stiffness is stable up to omega dt = sqrt(2); the check assumes that one wheel
 /// carries the load of the whole axle. The vertical motion of a wheel of mass m, on a tyre of
 /// stiffness k and damping c, is stable up to k/m dt^2 + 2 c/m dt = 4.
-void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight,
-                                      const mjModel& model) const {
-  const VehicleParams& params = car.params();
-  double fastest = 0.0;  // [rad/s]
-  for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    const double arm = AxleIndex(w) == 0 ? params.cg_to_rear : params.cg_to_front();
-    fastest = std::max(fastest, SpinFrequency(car.parts().tyres->axle[AxleIndex(w)],
-                                              weight * arm / params.wheelbase, params.wheel_radius,
-                                              car.parts().spin_inertia[w]));
+void MagicFormulaTyres::CheckTimestep(const CarModel& car) const {
+  double fastest = 0.0;                                      // [rad/s]
+  double longest = std::numeric_limits<double>::infinity();  // [s]
+  for (const TyreWheel& wheel : wheels_) {
+    fastest = std::max(fastest, SpinFrequency(*wheel.tyre, 2.0 * wheel.load_at_rest, wheel.radius,
+                                              wheel.spin_inertia));
+    const double damping = wheel.vertical_damping / wheel.unsprung;
+    longest = std::min(
+        longest, 4.0 / (damping + std::sqrt(damping * damping +
+                                            4.0 * wheel.vertical_stiffness / wheel.unsprung)));
   }
-  const auto check = [&](double longest, const char* motion) {
-    if (timestep_ > longest) {
+  const auto check = [&](double longest_step, const char* motion) {
+    if (timestep_ > longest_step) {
       throw InputError(
           Problem{.key = "drive.timestep",
                   .message = fmt::format("{:.4g} s is too long for the tyres of {}: {} would be "
                                          "unstable; must be at most {:.4g} s",
-                                         timestep_, car.file(), motion, longest)});
+                                         timestep_, car.file(), motion, longest_step)});
     }
   };
   check(std::sqrt(2.0) / fastest, "wheel spin");
-  const CarTyres& tyres = *car.parts().tyres;
-  double lightest = car.params().mass;  // smallest unsprung mass of the four wheels [kg]
-  for (const int carrier : car.parts().carrier) {
-    lightest = std::min(lightest, model.body_subtreemass[carrier]);
-  }
-  const double damping = tyres.vertical_damping / lightest;
-  check(4.0 / (damping + std::sqrt(damping * damping + 4.0 * tyres.vertical_stiffness / lightest)),
-        "wheel hop");
+  check(longest, "wheel hop");
 }
 
 double MagicFormulaTyres::Travel(const mjData& data, std::size_t w) const {
-  const CarParts& parts = car_.parts();
-  const Eigen::Map<const Eigen::Vector3d> hub(data.xpos + 3 * parts.wheel[w]);
-  const Eigen::Map<const Eigen::Vector3d> chassis(data.xpos + 3 * parts.chassis);
-  const mjtNum* rotation = data.xmat + 9 * parts.chassis;
+  const TyreWheel& wheel = wheels_[w];
+  const Eigen::Map<const Eigen::Vector3d> hub(data.xpos + 3 * wheel.body);
+  const Eigen::Map<const Eigen::Vector3d> frame(data.xpos + 3 * wheel.frame);
+  const mjtNum* rotation = data.xmat + 9 * wheel.frame;
   const Eigen::Vector3d up(rotation[2], rotation[5], rotation[8]);
-  return up.dot(hub - chassis) - parts.hub_height[w];
+  return up.dot(hub - frame) - wheel.hub_height;
 }
 
 TyreTouch MagicFormulaTyres::Touch(const mjData& data, std::size_t w) const {
-  const int geom = car_.parts().tyre[w];
+  const int geom = wheels_[w].geom;
   return shape_[w].On(
       car_.scene().ground, Eigen::Vector3d(data.geom_xpos + 3 * geom),
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data.geom_xmat + 9 * geom));
 }
 
 double MagicFormulaTyres::Load(std::size_t w, double gap, double opening) const {
-  const CarTyres& tyres = *car_.parts().tyres;
-  const double pressed = load_at_rest_[w] - tyres.vertical_stiffness * gap;
+  const TyreWheel& wheel = wheels_[w];
+  const double pressed = wheel.load_at_rest - wheel.vertical_stiffness * gap;
   // The total force is limited to 0 or more: damping must not pull a lifting tyre toward the road
   // or load a tyre in the air.
-  return pressed <= 0.0 ? 0.0 : std::max(0.0, pressed - tyres.vertical_damping * opening);
+  return pressed <= 0.0 ? 0.0 : std::max(0.0, pressed - wheel.vertical_damping * opening);
 }
 
 void MagicFormulaTyres::Stand(const mjData& data) {
-  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
     slips_[w] = {};
     states_[w] = {.normal_force = Load(w, Touch(data, w).gap, 0.0)};
   }
 }
 
 void MagicFormulaTyres::TakeLateralSlip(const mjModel& model, const mjData& data) {
-  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
+    const TyreWheel& wheel = wheels_[w];
     const TyreTouch touch = Touch(data, w);
     const Eigen::Vector3d on_road = touch.lowest_W - touch.gap * touch.normal_W;
-    const WheelContact contact = ContactAt(car_, model, data, w, on_road, touch.normal_W);
+    const WheelContact contact =
+        ContactAt(model, data, wheel.body, wheel.radius, on_road, touch.normal_W);
     const double speed = std::abs(contact.rolling_speed);
     slips_[w].y = speed > kAtRestSpeed ? contact.slip_speed_y / speed : 0.0;
   }
 }
 
-void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
-                              const std::array<double, 4>& road) {
-  const double radius = car_.params().wheel_radius;
-  const CarTyres& tyres = *car_.parts().tyres;
-  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+void MagicFormulaTyres::Apply(const mjModel& model, mjData& data, std::span<const double> road) {
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
+    const TyreWheel& wheel = wheels_[w];
     const TyreTouch touch = Touch(data, w);
     const Eigen::Vector3d on_road = touch.lowest_W - touch.gap * touch.normal_W;
-    const WheelContact contact = ContactAt(car_, model, data, w, on_road, touch.normal_W);
-    const Eigen::Map<const Eigen::Vector3d> hub(data.xipos + 3 * car_.parts().wheel[w]);
+    const WheelContact contact =
+        ContactAt(model, data, wheel.body, wheel.radius, on_road, touch.normal_W);
+    const double radius = wheel.radius;
+    const Eigen::Map<const Eigen::Vector3d> hub(data.xipos + 3 * wheel.body);
     const double opening = touch.normal_W.dot(contact.hub_velocity +
                                               contact.angular_velocity.cross(touch.lowest_W - hub));
-    const MagicFormula& tyre = tyres.axle[AxleIndex(w)];
+    const MagicFormula& tyre = *wheel.tyre;
     Slip& slip = slips_[w];
     WheelState& state = states_[w];
     const double load = Load(w, touch.gap, opening);
@@ -193,7 +245,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const double sigma_y = tyre.relaxation_length;
     const double c_kappa = SlipStiffness(tyre, load);
     const double c_alpha = CorneringStiffness(tyre, load);
-    const double spin_omega = SpinFrequency(tyre, load, radius, car_.parts().spin_inertia[w]);
+    const double spin_omega = SpinFrequency(tyre, load, radius, wheel.spin_inertia);
     const double side_omega = std::sqrt(c_alpha * gravity_ / (sigma_y * load));
     // tau_x is limited to the time constant of the slip, sigma_x/speed.
     const double damping = Damping(spin_omega, timestep_);
@@ -217,7 +269,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const double side = w % 2 == 0 ? 1.0 : -1.0;
     const double lean = -std::asin(std::clamp(contact.spin_axis.dot(contact.up), -1.0, 1.0));
     const double travel = Travel(data, w);
-    const double camber = lean + side * tyres.camber_gain[AxleIndex(w)] * travel;
+    const double camber = lean + side * wheel.camber_gain * travel;
     const TyreForce force =
         EvaluateTyreForce(tyre, load, road[w],
                           {.ratio = kappa,
@@ -239,18 +291,18 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const double arm = contact.up.dot(hub - contact.point);
     const Eigen::Vector3d moment =
         -(rolling + state.longitudinal_force * (radius - arm)) * contact.spin_axis;
-    AddForce(model, data, car_.parts().wheel[w], contact.point, push, moment);
+    AddForce(model, data, wheel.body, contact.point, push, moment);
   }
 }
 
 std::array<WheelState, 4> MagicFormulaTyres::Observe() const {
   std::array<WheelState, 4> wheels = states_;
-  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
     wheels[w].slip_ratio = slips_[w].x;
     wheels[w].slip_angle = std::atan(slips_[w].y);
-    wheels[w].friction_use = FrictionUse(
-        car_.parts().tyres->axle[AxleIndex(w)], wheels[w].normal_force, contact_[w].road,
-        contact_[w].camber, {wheels[w].longitudinal_force, wheels[w].lateral_force});
+    wheels[w].friction_use =
+        FrictionUse(*wheels_[w].tyre, wheels[w].normal_force, contact_[w].road, contact_[w].camber,
+                    {wheels[w].longitudinal_force, wheels[w].lateral_force});
   }
   return wheels;
 }
@@ -263,9 +315,8 @@ WheelMotion MagicFormulaTyres::Motion(std::size_t wheel) const {
 
 double MagicFormulaTyres::RollingMoment() const {
   double sum = 0.0;
-  for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    sum += car_.parts().tyres->axle[AxleIndex(w)].rolling_resistance * states_[w].normal_force *
-           car_.params().wheel_radius;
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
+    sum += wheels_[w].tyre->rolling_resistance * states_[w].normal_force * wheels_[w].radius;
   }
   return sum;
 }

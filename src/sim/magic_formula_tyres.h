@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "src/sim/tyre_shape.h"
 #include "src/sim/wheel_contacts.h"
 #include "src/sim/wheel_slip_control.h"
@@ -7,10 +10,33 @@
 
 namespace trackbed {
 
-/// Computes the tyre forces of a car. A tyre is modeled as a spring normal to the ground; its
-/// forces along the ground follow from the Magic Formula, with slips that have a relaxation length.
-/// The springs replace MuJoCo's contacts between tyres and ground (TyreSupport::kSprings), so
-/// MuJoCo has no contact constraints to solve for a car on the road.
+/// A wheel with a Magic Formula tyre.
+struct TyreWheel {
+  int geom = -1;                    ///< Index of the tyre's collision geom.
+  int body = -1;                    ///< Index of the wheel's body.
+  int frame = -1;                   ///< Index of the body that carries the suspension.
+  double unsprung = 0.0;            ///< Mass that moves with the wheel on its spring [kg].
+  double radius = 0.0;              ///< Radius of the wheel [m].
+  double spin_inertia = 0.0;        ///< Moment of inertia about the spin axis [kg m^2].
+  double hub_height = 0.0;          ///< Height of the wheel center above the origin of `frame` [m].
+  double load_at_rest = 0.0;        ///< Load F_z0 at rest [N].
+  double vertical_stiffness = 0.0;  ///< [N/m]
+  double vertical_damping = 0.0;    ///< [N s/m]
+  double camber_gain = 0.0;         ///< Same as CarTyres::camber_gain [rad/m].
+  const MagicFormula* tyre = nullptr;
+};
+
+/// Returns the wheels of a car. Throws the InputError of RequireTyres if the car has no tyre
+/// coefficients.
+std::vector<TyreWheel> TyreWheelsOfCar(const CarModel& car, const mjModel_& model);
+/// Returns the wheels of the car's trailer. Their tyres have the coefficients of the car's rear
+/// tyres, and the vertical stiffness and damping of these tyres in proportion to the load at rest.
+std::vector<TyreWheel> TyreWheelsOfTrailer(const CarModel& car, const mjModel_& model);
+
+/// Computes the tyre forces of a car or of its trailer. A tyre is modeled as a spring normal to the
+/// ground; its forces along the ground follow from the Magic Formula, with slips that have a
+/// relaxation length. The springs replace MuJoCo's contacts between tyres and ground
+/// (TyreSupport::kSprings), so MuJoCo has no contact constraints to solve for a car on the road.
 ///
 /// Normal to the ground, a tyre is a spring of stiffness k with damping c. The gap is the distance
 /// between the tyre's geom and the ground. While F_z0 > k gap, the load of the tyre is
@@ -31,13 +57,13 @@ namespace trackbed {
 /// lateral motion.
 class MagicFormulaTyres {
  public:
-  /// Throws the InputError of RequireTyres if the car has no tyre coefficients. Throws InputError
-  /// if the car's timestep is too long for a stable integration.
-  MagicFormulaTyres(const CarModel& car, const mjModel_& model);
+  /// `wheels` has at most four wheels, on one or two axles, each with the left wheel before the
+  /// right one. Throws InputError if the car's timestep is too long for a stable integration.
+  MagicFormulaTyres(const CarModel& car, const mjModel_& model, std::vector<TyreWheel> wheels);
 
   /// Adds the tyre forces of the coming step to the joint forces in `data`. Apply() must be called
   /// between mj_step1 and mj_step2. `road` has the friction factor of the road under each wheel.
-  void Apply(const mjModel_& model, mjData_& data, const std::array<double, 4>& road);
+  void Apply(const mjModel_& model, mjData_& data, std::span<const double> road);
 
   /// Initializes the tyres with zero slip, at the positions in `data`. Stand() must be called
   /// before the first step.
@@ -47,19 +73,18 @@ class MagicFormulaTyres {
   /// TakeLateralSlip must be called after Stand.
   void TakeLateralSlip(const mjModel_& model, const mjData_& data);
 
-  /// Returns the wheel states that the last call of Apply computed.
+  /// Returns the wheel states that the last call of Apply computed, in the order of the wheels.
   [[nodiscard]] std::array<WheelState, 4> Observe() const;
 
   /// Returns the rolling speed, the load and the longitudinal force of a wheel, as computed by the
   /// last call of Apply.
   [[nodiscard]] WheelMotion Motion(std::size_t wheel) const;
 
-  /// Returns the sum of the rolling resistance moments of all four wheels at their present loads [N
-  /// m].
+  /// Returns the sum of the rolling resistance moments of all wheels at their present loads [N m].
   [[nodiscard]] double RollingMoment() const;
 
  private:
-  void CheckTimestep(const CarModel& car, double weight, const mjModel_& model) const;
+  void CheckTimestep(const CarModel& car) const;
 
   [[nodiscard]] TyreTouch Touch(const mjData_& data, std::size_t wheel) const;
   /// Returns the load F_z of a tyre [N] from its gap [m] and the rate `opening` at which the gap
@@ -83,7 +108,7 @@ class MagicFormulaTyres {
   const CarModel& car_;
   double timestep_;
   double gravity_;
-  std::array<double, 4> load_at_rest_{};  // F_z0 [N]
+  std::vector<TyreWheel> wheels_;
   std::array<TyreShape, 4> shape_;
   std::array<Slip, 4> slips_{};
   std::array<Contact, 4> contact_{};

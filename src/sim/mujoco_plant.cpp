@@ -69,7 +69,8 @@ MujocoPlant::MujocoPlant(const PlantSetup& setup, TyreSupport support)
   }
   const StartState& start = setup.start;
   const Ground& ground = car_.scene().ground;
-  const auto qpos = car_.StandingPosition(start.pose, start.steering, {}, ground);
+  const auto qpos =
+      car_.StandingPosition(start.pose, start.steering, {}, ground, start.hitch_angle);
   std::copy(qpos.begin(), qpos.end(), data_->qpos);
   mjtNum* velocity = data_->qvel + car_.chassis().chassis_dof;
   const Vector3d ahead_W = car_.AheadOnGround(start.pose, ground);
@@ -80,6 +81,9 @@ MujocoPlant::MujocoPlant(const PlantSetup& setup, TyreSupport support)
     const Vec2 sideways = *start.lateral_speed * LeftNormal(Direction(start.pose.yaw));
     velocity[0] += sideways.x();
     velocity[1] += sideways.y();
+  }
+  if (car_.trailer()) {
+    StartTrailer(start);
   }
   yaw_ = start.pose.yaw;
   for (std::size_t i = 0; i < world_.obstacles.size(); ++i) {
@@ -96,6 +100,22 @@ MujocoPlant::MujocoPlant(const PlantSetup& setup, TyreSupport support)
     movers_.push_back({i, joint_of("x"), joint_of("y"),
                        obstacle.motion.empty() ? std::nullopt : std::optional(joint_of("yaw"))});
   }
+}
+
+/// Sets the velocities of the hitch and of the trailer's wheels to those of a trailer whose wheels
+/// do not slip.
+void MujocoPlant::StartTrailer(const StartState& start) {
+  const TrailerParts& trailer = *car_.trailer();
+  const TrailerParams& params = trailer.params;
+  const double yaw_rate = data_->qvel[car_.chassis().chassis_dof + 5];
+  const double rate = RollingHitchRate(params, start.hitch_angle, start.speed, yaw_rate);
+  data_->qvel[trailer.hitch_dof[0]] = rate;
+  const double speed = start.speed * std::cos(start.hitch_angle) -
+                       params.hitch * yaw_rate * std::sin(start.hitch_angle);
+  const double side = 0.5 * params.track * (yaw_rate + rate);
+  data_->qvel[trailer.spin_dof[0]] = (speed - side) / params.wheel_radius;
+  data_->qvel[trailer.spin_dof[1]] = (speed + side) / params.wheel_radius;
+  trailer_friction_ = model_->geom_friction[3 * trailer.tyre[0]];
 }
 
 void MujocoPlant::RollWheels(std::span<const int> spin_dof, const StartState& start) {
@@ -230,6 +250,13 @@ MujocoPlant::Road MujocoPlant::UpdateRoadFriction() {
     // coefficients of torsional and rolling friction are lengths, which do not depend on the road.
     model_->geom_friction[3 * car_.tyres()[w]] = tyre_friction_[w] * road[w];
   }
+  if (const std::optional<TrailerParts>& trailer = car_.trailer()) {
+    for (std::size_t w = 0; w < trailer_road_.size(); ++w) {
+      const mjtNum* hub = data_->xpos + 3 * trailer->wheel[w];
+      trailer_road_[w] = RoadFactor(world_, {hub[0], hub[1]});
+      model_->geom_friction[3 * trailer->tyre[w]] = trailer_friction_ * trailer_road_[w];
+    }
+  }
   return road;
 }
 
@@ -274,7 +301,11 @@ void MujocoPlant::ApplyPendingLateralForce() {
   const Vec2 force = pending_lateral_force_ * LeftNormal(Ahead());
   const Vector3d force_W(force.x(), force.y(), 0.0);
   const int chassis = car_.chassis().chassis;
-  AddForce(*model_, *data_, chassis, Vec(data_->subtree_com + 3 * chassis), force_W);
+  const Vector3d cg_V(car_.params().cg_to_rear, 0.0, car_.chassis().cg_height);
+  // The subtree of the chassis contains the trailer.
+  const Vector3d cg_W = car_.trailer() ? Vec(ChassisPosition()) + ChassisRotation() * cg_V
+                                       : Vec(data_->subtree_com + 3 * chassis);
+  AddForce(*model_, *data_, chassis, cg_W, force_W);
   pending_lateral_force_ = 0.0;
 }
 
@@ -331,6 +362,16 @@ MujocoPlant::PlanarMotion MujocoPlant::Motion() const {
   return {.speed = ahead.dot(v_W.head<2>()),
           .yaw_rate = w_W.z(),
           .sideslip = cg.norm() < kAtRestSpeed ? 0.0 : std::atan(cg.y() / cg.x())};
+}
+
+std::optional<TrailerState> MujocoPlant::trailer() const {
+  const std::optional<TrailerParts>& trailer = car_.trailer();
+  if (!trailer) {
+    return std::nullopt;
+  }
+  return TrailerState{.angle = data_->qpos[trailer->hitch_qpos[0]],
+                      .rate = data_->qvel[trailer->hitch_dof[0]],
+                      .lean = std::acos(std::clamp(data_->xmat[9 * trailer->body + 8], -1.0, 1.0))};
 }
 
 Pose2 MujocoPlant::pose() const {

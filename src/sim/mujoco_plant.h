@@ -38,6 +38,7 @@ class MujocoPlant : public Plant, private MujocoSimulation {
   void ApplyLateralOffset(double left) final;
   void ApplyLateralForce(double force) final;
   [[nodiscard]] VehicleState Observe() const final;
+  [[nodiscard]] std::optional<TrailerState> trailer() const final;
   [[nodiscard]] Pose2 pose() const final;
   [[nodiscard]] double obstacle_force() const final;
   [[nodiscard]] std::vector<double> Configuration() const final;
@@ -88,6 +89,8 @@ class MujocoPlant : public Plant, private MujocoSimulation {
   [[nodiscard]] const mjModel& model() const { return *model_; }
   [[nodiscard]] mjData& data() { return *data_; }
   [[nodiscard]] const mjData& data() const { return *data_; }
+  /// Returns the friction factor of the road under the trailer's wheels in the present step.
+  [[nodiscard]] const std::array<double, 2>& trailer_road() const { return trailer_road_; }
   /// Returns the car's forward speed over the ground [m/s].
   [[nodiscard]] double Speed() const;
   /// Returns the motion of the car along the ground.
@@ -110,6 +113,7 @@ class MujocoPlant : public Plant, private MujocoSimulation {
     std::optional<MovedJoint> yaw;
   };
 
+  void StartTrailer(const StartState& start);
   void MoveObstacles();
   [[nodiscard]] const mjtNum* ChassisPosition() const;
   [[nodiscard]] const mjtNum* ChassisVelocity() const;
@@ -130,8 +134,10 @@ class MujocoPlant : public Plant, private MujocoSimulation {
   std::vector<bool> is_of_car_;
   std::array<double, 4> tyre_friction_{};  // Friction coefficient of each tyre contact on a road
                                            // with friction factor 1.
-  double yaw_ = 0.0;                       // Heading, unwrapped [rad].
-  double distance_ = 0.0;                  // Driven distance [m].
+  double trailer_friction_ = 0.0;          // The same for the tyres of the trailer.
+  std::array<double, 2> trailer_road_{};
+  double yaw_ = 0.0;       // Heading, unwrapped [rad].
+  double distance_ = 0.0;  // Driven distance [m].
   // Lateral push on the car in the coming step, positive to the left [N].
   double pending_lateral_force_ = 0.0;
 };

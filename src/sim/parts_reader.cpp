@@ -2,7 +2,11 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+
+#include "src/sim/trailer_parts.h"
 
 namespace trackbed {
 namespace {
@@ -77,16 +81,37 @@ void PartsReader::ReadChassis(int free_joint) {
   const mjtNum* cg = data_->subtree_com + 3 * chassis_.chassis;
   params_.cg_to_rear = Offset(cg, 0);
   chassis_.cg_height = Offset(cg, 2);
+  std::array<mjtNum, 2> center{cg[0], cg[1]};
+  const std::optional<TrailerParts> trailer = FindTrailer(m_);
+  const auto is_of_car = [&](int body) {
+    return m_.body_rootid[body] == m_.body_rootid[chassis_.chassis] &&
+           !(trailer && IsOfTrailer(m_, *trailer, body));
+  };
+  if (trailer) {
+    params_.mass = 0.0;
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    for (int body = 1; body < m_.nbody; ++body) {
+      if (is_of_car(body)) {
+        params_.mass += m_.body_mass[body];
+        moment += m_.body_mass[body] * Eigen::Map<const Eigen::Vector3d>(data_->xipos + 3 * body);
+      }
+    }
+    const Eigen::Vector3d own = moment / params_.mass;
+    params_.cg_to_rear = Offset(own.data(), 0);
+    chassis_.cg_height = Offset(own.data(), 2);
+    center = {own.x(), own.y()};
+  }
   for (int body = 1; body < m_.nbody; ++body) {
-    if (m_.body_rootid[body] != m_.body_rootid[chassis_.chassis]) {
+    if (!is_of_car(body)) {
       continue;
     }
     const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> axes(data_->ximat +
                                                                               9 * body);
     const mjtNum* at = data_->xipos + 3 * body;
-    params_.yaw_inertia += axes.row(2).cwiseAbs2().dot(
-                               Eigen::Map<const Eigen::RowVector3d>(m_.body_inertia + 3 * body)) +
-                           m_.body_mass[body] * (Square(at[0] - cg[0]) + Square(at[1] - cg[1]));
+    params_.yaw_inertia +=
+        axes.row(2).cwiseAbs2().dot(
+            Eigen::Map<const Eigen::RowVector3d>(m_.body_inertia + 3 * body)) +
+        m_.body_mass[body] * (Square(at[0] - center[0]) + Square(at[1] - center[1]));
   }
 }
 

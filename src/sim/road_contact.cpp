@@ -37,22 +37,30 @@ constexpr int kOtherGeomsBit = 1 << 28;
 }  // namespace
 
 RoadContact::RoadContact(const CarModel& car, TyreSupport support, mjModel& model)
-    : car_(car), has_planes_(support == TyreSupport::kContacts && !IsPlane(car.scene().ground)) {
+    : car_(car),
+      has_planes_(support == TyreSupport::kContacts && !IsPlane(car.scene().ground)),
+      tyres_(car.tyres().begin(), car.tyres().end()) {
+  if (car.trailer()) {
+    tyres_.insert(tyres_.end(), car.trailer()->tyre.begin(), car.trailer()->tyre.end());
+  }
   if (support == TyreSupport::kContacts && !has_planes_) {
     return;
   }
-  const std::span<const int> tyres = car.tyres();
-  for (std::size_t w = 0; w < tyres.size(); ++w) {
-    const int tyre = tyres[w];
+  const std::size_t of_car = car.tyres().size();
+  const std::vector<int>& tyres = tyres_;
+  for (std::size_t i = 0; i < tyres.size(); ++i) {
+    // The numbers of the trailer's wheels do not depend on the number of the car's wheels.
+    const std::size_t w = i < of_car ? i : 4 + i - of_car;
+    const int tyre = tyres[i];
     if (has_planes_) {
-      shape_[w] = TyreShape(model, tyre);
+      shape_[i] = TyreShape(model, tyre);
       constexpr std::string_view kTyre = "tyre";
       const std::string_view own_name = mj_id2name(&model, mjOBJ_GEOM, tyre);
       const std::string name = fmt::format("ground{}", own_name.substr(kTyre.size()));
-      plane_[w] = mj_name2id(&model, mjOBJ_GEOM, name.c_str());
-      TRACKBED_CHECK(plane_[w] >= 0, "the scene has no geom '{}'", name);
+      plane_[i] = mj_name2id(&model, mjOBJ_GEOM, name.c_str());
+      TRACKBED_CHECK(plane_[i] >= 0, "the scene has no geom '{}'", name);
       // without resetting geom_sameframe, MuJoCo would leave the plane at the world's origin
-      model.geom_sameframe[plane_[w]] = 0;
+      model.geom_sameframe[plane_[i]] = 0;
     }
     int& contype = model.geom_contype[tyre];
     int& conaffinity = model.geom_conaffinity[tyre];
@@ -81,9 +89,8 @@ void RoadContact::Place(mjModel& model, mjData& data) const {
   const Matrix3d R_WV =
       Eigen::Quaterniond(chassis[3], chassis[4], chassis[5], chassis[6]).toRotationMatrix();
   const Vector3d w_W = R_WV * Vector3d(velocity + 3);
-  const std::span<const int> tyres = car_.tyres();
-  for (std::size_t w = 0; w < tyres.size(); ++w) {
-    const int tyre = tyres[w];
+  for (std::size_t w = 0; w < tyres_.size(); ++w) {
+    const int tyre = tyres_[w];
     const Vector3d center_W(data.geom_xpos + 3 * tyre);
     const Matrix3d R_WT =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data.geom_xmat + 9 * tyre);

@@ -3,16 +3,20 @@
 #include <mujoco/mujoco.h>
 
 #include <array>
+#include <vector>
 
 #include "src/sim/tyre_shape.h"
 #include "trackbed/sim/car_model.h"
 
 namespace trackbed {
 
-/// Returns the collision bit (conaffinity) of the plane under a wheel. The models of cars must not
-/// use the collision bits of these planes.
+/// Number of the wheels of a car and its trailer.
+inline constexpr std::size_t kMaxWheels = 6;
+
+/// Returns the collision bit (conaffinity) of the plane under a wheel, 4 and 5 for those of a
+/// trailer. The models of cars must not use the collision bits of these planes.
 constexpr int WheelPlaneBit(std::size_t wheel) {
-  return 1 << (24 + wheel);
+  return 1 << (wheel < 4 ? 24 + wheel : 25 + wheel);  // bit 28 is that of all other geoms
 }
 
 /// Ways in which the ground supports the tyres.
@@ -46,8 +50,10 @@ class RoadContact {
  private:
   const CarModel& car_;
   bool has_planes_;
-  std::array<int, 4> plane_{};  // for each wheel, the index of the plane geom under the wheel
-  std::array<TyreShape, 4> shape_;
+  std::vector<int> tyres_;  // collision geoms of the wheels of the car, then of its trailer
+  // For each wheel, the index of the plane geom under the wheel.
+  std::array<int, kMaxWheels> plane_{};
+  std::array<TyreShape, kMaxWheels> shape_;
 };
 
 }  // namespace trackbed

@@ -6,6 +6,11 @@
 namespace trackbed {
 
 std::unique_ptr<Plant> MakeSingleTrackPlant(const PlantSetup& setup) {
+  if (setup.car.trailer()) {
+    throw InputError(Problem{.key = "vehicle.trailer",
+                             .message = "not in the plant single_track, which has no hitch; use "
+                                        "the plants kinematic or mujoco, or remove this"});
+  }
   static_cast<void>(RequireTyres(setup.car, "the plant single_track"));
   const VehicleParams params = Steered(setup);
   SingleTrackState start = RollingWithoutSlip(params, InPlane(setup.start));

@@ -27,6 +27,7 @@ class SteeringFilterPlant final : public Plant {
   void ApplyLateralForce(double force) override { plant_->ApplyLateralForce(force); }
   [[nodiscard]] VehicleState Observe() const override { return plant_->Observe(); }
   [[nodiscard]] std::optional<AidState> aids() const override { return plant_->aids(); }
+  [[nodiscard]] std::optional<TrailerState> trailer() const override { return plant_->trailer(); }
   [[nodiscard]] Pose2 pose() const override { return plant_->pose(); }
   [[nodiscard]] double obstacle_force() const override { return plant_->obstacle_force(); }
   [[nodiscard]] std::vector<double> Configuration() const override {

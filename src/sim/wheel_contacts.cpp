@@ -4,7 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <string_view>
+
+#include "src/sim/contact_friction.h"
 
 namespace trackbed {
 namespace {
@@ -43,8 +46,11 @@ void ForEachRoadContact(const CarModel& car, const mjModel& model, const mjData&
 
 WheelContact ContactAt(const CarModel& car, const mjModel& model, const mjData& data, std::size_t w,
                        const Vector3d& point, const Vector3d& up) {
-  const double radius = car.params().wheel_radius;
-  const int body = car.parts().wheel[w];
+  return ContactAt(model, data, car.parts().wheel[w], car.params().wheel_radius, point, up);
+}
+
+WheelContact ContactAt(const mjModel& model, const mjData& data, int body, double radius,
+                       const Vector3d& point, const Vector3d& up) {
   const mjtNum* rotation = data.xmat + 9 * body;
   std::array<mjtNum, 6> velocity{};  // components: angular velocity, then linear velocity
   mj_objectVelocity(&model, &data, mjOBJ_BODY, body, velocity.data(), 0);
@@ -107,6 +113,29 @@ std::array<Vector3d, 4> RoadForces(const CarModel& car, const mjModel& model, co
         }
       });
   return forces;
+}
+
+std::array<WheelState, 4> ContactWheelStates(const CarModel& car, const mjModel& model,
+                                             const mjData& data) {
+  const auto forces = RoadForces(car, model, data);
+  const auto contacts = FindWheelContacts(car, model, data);
+  std::array<WheelState, 4> wheels;
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    const WheelContact& contact = contacts[w];
+    // Slip is the slip speed divided by the rolling speed, or by the standstill threshold if the
+    // wheel rolls more slowly.
+    const double reference = std::max(std::abs(contact.rolling_speed), kAtRestSpeed);
+    wheels[w] = {.normal_force = std::max(0.0, contact.up.dot(forces[w])),
+                 .longitudinal_force = contact.forward.dot(forces[w]),
+                 .lateral_force = contact.left.dot(forces[w]),
+                 .slip_angle = std::atan2(contact.slip_speed_y, reference),
+                 .slip_ratio = contact.slip_speed_x / reference};
+    // MujocoPlant multiplies the friction of the tyre's geom by the road's factor.
+    const double most = ContactFriction(model, car.parts().tyre[w]) * wheels[w].normal_force;
+    wheels[w].friction_use =
+        most > 0.0 ? std::hypot(wheels[w].longitudinal_force, wheels[w].lateral_force) / most : 0.0;
+  }
+  return wheels;
 }
 
 }  // namespace trackbed

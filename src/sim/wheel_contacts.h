@@ -34,8 +34,13 @@ struct WheelContact {
   double slip_speed_y = 0.0;
 };
 
-/// Computes the motion of a wheel that touches the road at `point`, from the positions and
-/// velocities in `data`. `up` is the road's normal at `point`.
+/// Computes the motion of a wheel of the given `radius` [m] that touches the road at `point`, from
+/// the positions and velocities in `data`. `body` is the index of the wheel's body, and `up` is the
+/// road's normal at `point`.
+WheelContact ContactAt(const mjModel_& model, const mjData_& data, int body, double radius,
+                       const Eigen::Vector3d& point, const Eigen::Vector3d& up);
+
+/// Returns the same for a wheel of a car.
 WheelContact ContactAt(const CarModel& car, const mjModel_& model, const mjData_& data,
                        std::size_t wheel, const Eigen::Vector3d& point, const Eigen::Vector3d& up);
 
@@ -48,5 +53,10 @@ std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel
 /// solver, in the world frame [N].
 std::array<Eigen::Vector3d, 4> RoadForces(const CarModel& car, const mjModel_& model,
                                           const mjData_& data);
+
+/// Returns the states of all wheels of a car on contact tyres. The friction of the tyres' geoms in
+/// `model` includes the road's factor.
+std::array<WheelState, 4> ContactWheelStates(const CarModel& car, const mjModel_& model,
+                                             const mjData_& data);
 
 }  // namespace trackbed

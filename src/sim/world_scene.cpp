@@ -9,6 +9,7 @@
 
 #include "src/sim/road_contact.h"
 #include "src/sim/scene_xml.h"
+#include "src/sim/trailer_parts.h"
 #include "src/sim/upright.h"
 #include "trackbed/core/error.h"
 #include "trackbed/sim/car_model.h"
@@ -208,10 +209,12 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     add(Extent(side_slope), Sample(side_slope, ground), nullptr);
   }
   if (count > 0) {
-    // The list contains the wheel names of cars and of vehicles with differential drive.
+    // The list contains the wheel names of cars, of vehicles with differential drive and of
+    // trailers.
     for (const auto& [wheel, index] :
          {std::pair("fl", 0), std::pair("fr", 1), std::pair("rl", 2), std::pair("rr", 3),
-          std::pair("left", 0), std::pair("right", 1)}) {
+          std::pair("left", 0), std::pair("right", 1), std::pair(kTrailerSides[0], 4),
+          std::pair(kTrailerSides[1], 5)}) {
       if (FindInWorld(root, "geom", fmt::format("tyre_{}", wheel)) == nullptr) {
         continue;
       }

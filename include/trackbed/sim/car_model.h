@@ -13,6 +13,7 @@
 #include "trackbed/vehicle/magic_formula.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
+#include "trackbed/vehicle/trailer.h"
 
 namespace trackbed {
 
@@ -97,6 +98,24 @@ struct WheelPairParts : ChassisParts {
   double brake_torque = 0.0;   ///< Largest brake torque per wheel [N m].
 };
 
+/// Indices, in the compiled MuJoCo model, of the parts that WithTrailer adds to a car. In all
+/// arrays, the left wheel comes before the right wheel.
+struct TrailerParts {
+  TrailerParams params;
+  int body = -1;  ///< Index of the body that the hitch moves.
+  /// Indices of the coordinates of the hitch: yaw, pitch and roll of the trailer relative to the
+  /// car, in this order.
+  std::array<int, 3> hitch_qpos{};
+  std::array<int, 3> hitch_dof{};
+  std::array<int, 2> tyre{};     ///< Index of the collision geom of each wheel.
+  std::array<int, 2> wheel{};    ///< Index of the body of each wheel.
+  std::array<int, 2> carrier{};  ///< Index of the body on which each wheel spins.
+  std::array<int, 2> spin_qpos{};
+  std::array<int, 2> spin_dof{};
+  std::array<double, 2> spin_inertia{};  ///< Inertia of each wheel about its spin axis [kg m^2].
+  double hub_height = 0.0;               ///< Height of the wheel centers, at rest [m].
+};
+
 /// A vehicle compiled by MuJoCo, with its scene. A CarModel is immutable, so several threads may
 /// share a CarModel.
 ///
@@ -127,8 +146,11 @@ class CarModel {
   /// Returns the indices of the parts of a vehicle with differential drive. Throws InternalError if
   /// the vehicle has no differential drive.
   [[nodiscard]] const WheelPairParts& wheel_pair() const;
+  /// Returns the trailer of the car; nullopt without a trailer. The parameters of the car (params,
+  /// unladen) do not include the trailer, except for the limits of acceleration and the top speed.
+  [[nodiscard]] const std::optional<TrailerParts>& trailer() const { return trailer_; }
   /// Returns the collision geoms of the wheels (four for a car, two for a differential drive), in
-  /// the order of CarParts or WheelPairParts.
+  /// the order of CarParts or WheelPairParts. The wheels of a trailer are not included.
   [[nodiscard]] std::span<const int> tyres() const;
   /// Returns the bodies of the wheels, in the same order as tyres().
   [[nodiscard]] std::span<const int> wheels() const;
@@ -153,10 +175,12 @@ class CarModel {
   /// fits the heights of the ground under the four wheels. The vehicle is then raised until no
   /// wheel penetrates the ground. If the car has a payload, the weight of the payload then
   /// compresses the springs. For a vehicle with differential drive, the front corners of the
-  /// footprint are used instead of the front wheels.
+  /// footprint are used instead of the front wheels. A trailer stands on the ground at the hitch
+  /// angle `hitch_angle` [rad].
   [[nodiscard]] std::vector<double> StandingPosition(const Pose2& pose, double steering,
                                                      const std::vector<double>& spin,
-                                                     const Ground& ground) const;
+                                                     const Ground& ground,
+                                                     double hitch_angle = 0.0) const;
 
   /// Returns the direction in which a car at rest points, as a unit vector along the ground in
   /// world coordinates. The x axis of a car with payload is tilted relative to the returned
@@ -166,7 +190,8 @@ class CarModel {
   /// Returns the configuration vector of the car at rest on the ground of its scene, computed as in
   /// StandingPosition.
   [[nodiscard]] std::vector<double> FlatConfiguration(const Pose2& pose, double steering,
-                                                      const std::vector<double>& spin) const;
+                                                      const std::vector<double>& spin,
+                                                      double hitch_angle = 0.0) const;
 
   /// Returns the position vector qpos of the car at rest on the plane z = 0.
   [[nodiscard]] std::vector<double> FlatPosition(const Pose2& pose, double steering,
@@ -181,6 +206,7 @@ class CarModel {
   // Index of the keyframe with the position of the car with payload; -1: no payload.
   int laden_keyframe_ = -1;
   std::variant<CarParts, WheelPairParts> parts_;
+  std::optional<TrailerParts> trailer_;
 };
 
 /// Vector of the speeds of CarModel::wheels() [m/s], stored without heap memory.

@@ -43,6 +43,9 @@ class Plant {
   /// Returns the states of the driver aids; nullopt for a car without driver aids, as by default.
   [[nodiscard]] virtual std::optional<AidState> aids() const { return std::nullopt; }
 
+  /// Returns the state of the trailer; nullopt for a car without a trailer, as by default.
+  [[nodiscard]] virtual std::optional<TrailerState> trailer() const { return std::nullopt; }
+
   /// Return only the pose and only the obstacle force of Observe(); unlike Observe(), these
   /// functions are fast enough to be called in every physics step.
   [[nodiscard]] virtual Pose2 pose() const = 0;
@@ -132,6 +135,11 @@ inline constexpr const char* kRecordedPlant = "recorded";
 /// Driver aids (PlantSetup::aids) act in the MuJoCo plant on Magic Formula tyres. `kinematic` and
 /// `single_track` ignore driver aids, because their wheels neither lock nor spin. MakePlant throws
 /// InputError for driver aids of a car on contact tyres, and of a vehicle with differential drive.
+///
+/// A trailer (CarModel::trailer) is simulated by the plants `kinematic` and `mujoco`. In
+/// `kinematic`, the wheels of the trailer do not slip, and the trailer has no effect on the car. In
+/// MuJoCo, the trailer moves on a ball hitch, without brakes; its tyres follow the tyre law of the
+/// car. MakePlant throws InputError for a trailer in `single_track`.
 ///
 /// A vehicle with differential drive can only be simulated by the plants `kinematic` and `mujoco`,
 /// the latter with the tyre law kContact. For a vehicle with differential drive, MakePlant throws

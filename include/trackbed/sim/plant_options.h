@@ -19,6 +19,7 @@ struct StartState {
   std::optional<double> lateral_speed{};
   /// Initial yaw rate [rad/s]; nullopt: the yaw rate of a car without slip.
   std::optional<double> yaw_rate{};
+  double hitch_angle = 0.0;  ///< Initial hitch angle of the trailer, if the car has one [rad].
 };
 
 /// The law by which the MuJoCo plant computes tyre forces.

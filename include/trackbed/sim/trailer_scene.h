@@ -1,0 +1,21 @@
+#pragma once
+
+#include "trackbed/sim/car_model.h"
+
+namespace trackbed {
+
+/// Returns the scene of a car with a trailer. The car stands on level ground as before: its springs
+/// get the preload that carries the trailer's nose.
+///
+/// The trailer is the body `trailer` below the chassis. Three hinges at the hitch, hitch_yaw,
+/// hitch_pitch and hitch_roll, turn it as a ball joint does. Wheels, tyres, spring travel and
+/// damping follow from the car's rear axle: unsprung masses in proportion to the masses of trailer
+/// and car, spring deflection at rest 0.35 wheel radii, damping ratio 0.3. A car without springs
+/// gets a trailer without springs. The wheels have neither brakes nor bearing friction. The numbers
+/// of the trailer are in the <custom> numeric `trailer`.
+///
+/// Throws InputError if the car has no steered front wheels, already has a trailer, or if the yaw
+/// inertia is less than that of the trailer's wheels.
+Scene WithTrailer(const CarModel& car, const TrailerParams& trailer);
+
+}  // namespace trackbed
