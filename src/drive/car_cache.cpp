@@ -12,6 +12,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/scenario/input_files.h"
 #include "trackbed/sim/payload.h"
+#include "trackbed/sim/trailer_scene.h"
 
 namespace trackbed {
 namespace {
@@ -28,6 +29,13 @@ CarModel LoadBareCar(const SceneOptions& options, const fs::path& file) {
                                        file.string())});
   }
   return car;
+}
+
+/// Returns the car's scene with the scenario's trailer; none if the scenario has no trailer.
+std::optional<Scene> TowingScene(const Scenario& scenario, const CarModel& car) {
+  const std::optional<TrailerOptions>& trailer = scenario.vehicle.trailer;
+  return trailer ? std::optional(WithTrailer(car, MakeTrailer(*trailer, car.params())))
+                 : std::nullopt;
 }
 
 /// Returns the car's scene with the scenario's payload on the car; none if the scenario has no
@@ -60,6 +68,9 @@ std::string KeyOf(const Scene& scene, const fs::path& file) {
 CarModel LoadCar(const Scenario& scenario) {
   const fs::path file = FindModel(scenario.vehicle.model, scenario.folder);
   CarModel car = LoadBareCar(MakeSceneOptions(scenario), file);
+  if (std::optional<Scene> towing = TowingScene(scenario, car)) {
+    car = {std::move(*towing), file.string()};
+  }
   if (std::optional<Scene> laden = LadenScene(scenario, car)) {
     car = {std::move(*laden), file.string()};
   }
@@ -83,6 +94,9 @@ CarCache::Car CarCache::Load(const Scenario& scenario) {
     key += fmt::format("\n{} {}", name, value);
   }
   Car car = Find(key, [&] { return LoadBareCar(options, file); });
+  if (std::optional<Scene> towing = TowingScene(scenario, *car)) {
+    car = compiled(std::move(*towing));
+  }
   if (std::optional<Scene> laden = LadenScene(scenario, *car)) {
     car = compiled(std::move(*laden));
   }

@@ -64,6 +64,7 @@ void LoopCore::BeginPeriod() {
   state_ = Observe();
   row_ = recorder_.BeginRow(state_, command_, values_);
   row_.aids = plant_->aids();
+  row_.trailer = plant_->trailer();
   row_.measured = faults_.Measure(state_.pose);
   const bool at_rest = tick_ > 0 && Rests(state_);
   row_.tracking = FollowPlan(state_, at_rest);

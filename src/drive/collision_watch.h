@@ -7,12 +7,14 @@
 
 namespace trackbed {
 
-/// Detects the collisions of one run at every physics step. CollisionWatch also checks the motion
-/// between two steps, since the car may pass through a thin obstacle within one step.
+/// Detects the collisions of the car and its trailer in one run at every physics step.
+/// CollisionWatch also checks the motion between two steps, since the car may pass through a thin
+/// obstacle within one step.
 class CollisionWatch {
  public:
-  /// World and vehicle must outlive the CollisionWatch, which keeps references to both.
-  CollisionWatch(const World& world, const VehicleParams& vehicle);
+  /// The world must outlive the CollisionWatch, which keeps a reference to it.
+  CollisionWatch(const World& world, const VehicleParams& vehicle,
+                 const std::optional<TrailerParams>& trailer = std::nullopt);
 
   /// Checks the plant's state at `time` [s]. Call Update at the start of the run and after every
   /// physics step.
@@ -20,7 +22,8 @@ class CollisionWatch {
 
   /// Smallest clearance and largest contact force since the last call of Take.
   struct Period {
-    /// Minimum clearance between car and obstacles [m]; 0 in a collision; none without obstacles.
+    /// Minimum clearance of car and trailer from the obstacles [m]; 0 in a collision; none without
+    /// obstacles.
     std::optional<double> clearance;
     double force = 0.0;  ///< Largest contact force between car and obstacles [N].
   };
@@ -31,13 +34,19 @@ class CollisionWatch {
   [[nodiscard]] const std::optional<double>& contact_time() const { return contact_time_; }
 
  private:
+  /// A footprint that moves, and its clearance from the obstacles at the last update.
+  struct Body {
+    VehicleParams shape;
+    std::optional<ClearanceSample> last{};
+  };
+
+  void Update(Body& body, const Pose2& pose, double time);
   void Note(double clearance, double time);
 
   const World& world_;
-  const VehicleParams& vehicle_;
-  std::optional<Pose2> pose_;  // Pose of the car at the last update.
-  double time_ = 0.0;          // Time of the last update [s].
-  double clearance_ = 0.0;     // Clearance between car and obstacles at the last update [m].
+  Body car_;
+  std::optional<TrailerParams> trailer_;
+  Body towed_;
   Period period_;
   std::optional<double> contact_time_;
 };

@@ -31,6 +31,7 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
   const DriveSpec& drive = scenario.drive;
   LoopConfig config{.vehicle = car.params(),
                     .nominal_vehicle = car.unladen(),
+                    .trailer = car.trailer() ? std::optional(car.trailer()->params) : std::nullopt,
                     .world = scenario.world,
                     .timestep = drive.timestep,
                     .control_period = drive.control_period,

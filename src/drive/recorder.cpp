@@ -9,6 +9,7 @@ Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller
     : log_{.plant = {},
            .status = DriveStatus::kArrived,
            .contact_time = {},
+           .trailer = config.trailer,
            .controller_columns = std::move(controller_columns),
            .rows = {},
            .changes = {},
@@ -16,7 +17,7 @@ Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller
       keeps_rows_(keeps_rows),
       hooks_(config.hooks),
       configurations_(config.configuration_columns, config.world, config.state_period),
-      collisions_(config.world, config.vehicle) {}
+      collisions_(config.world, config.vehicle, config.trailer) {}
 
 void Recorder::Sample(const Plant& plant, double time) {
   configurations_.Record(plant, time);

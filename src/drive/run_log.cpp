@@ -28,6 +28,8 @@ const char* ToString(DriveStatus status) {
       return "stuck";
     case DriveStatus::kRolledOver:
       return "rolled_over";
+    case DriveStatus::kJackknifed:
+      return "jackknifed";
     case DriveStatus::kCollided:
       return "collided";
     case DriveStatus::kInterrupted:
@@ -56,11 +58,20 @@ void AddAids(const AidState& aids, std::vector<double>& cells) {
 
 }  // namespace
 
+std::optional<OrientedBox> TrailerFootprint(const RunLog& log, const LogRow& row) {
+  if (!log.trailer || !row.trailer) {
+    return std::nullopt;
+  }
+  return TrailerFootprint(*log.trailer,
+                          TrailerPose(*log.trailer, row.state.pose, row.trailer->angle));
+}
+
 Table ToTable(const RunLog& log) {
   const bool tracked = !log.rows.empty() && log.rows.front().tracking.has_value();
   const bool obstacles = !log.rows.empty() && log.rows.front().clearance.has_value();
   const bool wheels = !log.rows.empty() && log.rows.front().state.wheels.has_value();
   const AidState aids = log.rows.empty() ? AidState{} : log.rows.front().aids.value_or(AidState{});
+  const bool trailer = !log.rows.empty() && log.rows.front().trailer.has_value();
   const bool noise = !log.rows.empty() && log.rows.front().measured.has_value();
   const bool gaps =
       std::any_of(log.rows.begin(), log.rows.end(), [](const LogRow& row) { return !row.valid; });
@@ -71,6 +82,7 @@ Table ToTable(const RunLog& log) {
                           .abs = aids.abs_active.has_value(),
                           .esc = aids.esc.has_value(),
                           .differential = aids.differential_torque.has_value(),
+                          .trailer = trailer,
                           .gaps = gaps,
                           .origin = log.origin != Vec2::Zero(),
                           .controller = log.controller_columns}));
@@ -110,6 +122,9 @@ Table ToTable(const RunLog& log) {
     }
     if (row.aids) {
       AddAids(*row.aids, cells);
+    }
+    if (trailer) {
+      cells.insert(cells.end(), {row.trailer->angle, row.trailer->rate});
     }
     if (gaps) {
       cells.push_back(row.valid ? 1.0 : 0.0);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/plan.h"
@@ -15,11 +16,12 @@ namespace {
 /// Simulated time between a collision and the end of the run [s].
 constexpr double kAfterCollision = 1.0;
 
+/// Cosine of the largest permitted angle between the z axis of car or trailer and the vertical.
+constexpr double kUpright = 0.5;
+
 /// Returns whether the car leans by more than 60 degrees. An angle of 60 degrees is larger than any
 /// slope on which a car can stand, and larger than any roll angle from which a car recovers.
 bool HasRolledOver(const VehicleState& state) {
-  // Cosine of the largest permitted angle between the car's z axis and the vertical.
-  constexpr double kUpright = 0.5;
   return std::cos(state.roll) * std::cos(state.pitch) < kUpright;
 }
 
@@ -47,7 +49,9 @@ Termination::Termination(const LoopConfig& config, const Plan& plan)
       half_timestep_(0.5 * config.timestep),
       end_time_(std::min(config.time_limit, config.duration.value_or(config.time_limit))),
       wheel_radius_(config.vehicle.wheel_radius),
-      vehicle_(config.vehicle) {
+      vehicle_(config.vehicle),
+      jackknife_angle_(config.trailer ? JackknifeAngle(*config.trailer, config.vehicle)
+                                      : std::numeric_limits<double>::infinity()) {
   if (!plan.gates.empty()) {
     last_gate_ = plan.gates.back();
   }
@@ -76,8 +80,21 @@ std::optional<DriveStatus> Termination::Fault(const LoopStatus& now) {
     cause_ = now.plant.divergence();
     return DriveStatus::kDiverged;
   }
+  constexpr double kDegrees = 180.0 / kPi;
+  if (const std::optional<TrailerState> trailer = now.plant.trailer()) {
+    if (std::abs(trailer->angle) >= jackknife_angle_) {
+      cause_ = fmt::format(
+          "at a hitch angle of {:.1f} deg, the trailer touches the car, which limits it to {:.1f} "
+          "deg",
+          trailer->angle * kDegrees, jackknife_angle_ * kDegrees);
+      return DriveStatus::kJackknifed;
+    }
+    if (std::cos(trailer->lean) < kUpright) {
+      cause_ = fmt::format("the trailer leans by {:.0f} deg", trailer->lean * kDegrees);
+      return DriveStatus::kRolledOver;
+    }
+  }
   if (HasRolledOver(now.state)) {
-    constexpr double kDegrees = 180.0 / kPi;
     cause_ = fmt::format("roll {:.0f} deg, pitch {:.0f} deg", now.state.roll * kDegrees,
                          now.state.pitch * kDegrees);
     return DriveStatus::kRolledOver;

@@ -30,10 +30,10 @@ struct LoopStatus {
 };
 
 /// Ends a run if the simulation diverged or was interrupted, or if the car sinks into the ground,
-/// is airborne, is stuck or rolled over. The run also ends when its duration or its time limit has
-/// passed, and one second after a collision. A run along a path also ends when the car is at rest.
-/// The run of a car that coasts through a course with gates ends when the whole car has passed the
-/// last gate.
+/// is airborne, is stuck or rolled over, or if its trailer jackknifes or rolls over. The run also
+/// ends when its duration or its time limit has passed, and one second after a collision. A run
+/// along a path also ends when the car is at rest. The run of a car that coasts through a course
+/// with gates ends when the whole car has passed the last gate.
 class Termination {
  public:
   /// `plan` is the initial plan of the run.
@@ -71,6 +71,7 @@ class Termination {
   double end_time_;
   double wheel_radius_;  // [m]
   VehicleParams vehicle_;
+  double jackknife_angle_;  // JackknifeAngle of the trailer; infinite without a trailer [rad].
   std::optional<Gate> last_gate_;
   std::string cause_;
   std::optional<double> airborne_since_;  // Time since which the car is airborne [s].

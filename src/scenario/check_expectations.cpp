@@ -85,6 +85,12 @@ void CheckMeasuredQuantities(Diagnostics& c) {
                       expectation.rms_cross_track || expectation.max_heading_error)) {
       c.AddError(key, "goal and path expectations need a plan");
     }
+    if (expectation.max_hitch_angle && !c.scenario.vehicle.trailer &&
+        c.could_read("vehicle.trailer")) {
+      c.AddError(key + ".max_hitch_angle",
+                 "the car has no trailer; remove this, or add "
+                 "vehicle.trailer");
+    }
     if (has_obstacles) {
       return;
     }

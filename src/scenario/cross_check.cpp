@@ -95,6 +95,33 @@ void CheckAids(Diagnostics& c) {
   }
 }
 
+void CheckTrailer(Diagnostics& c) {
+  const Scenario& scenario = c.scenario;
+  if (!scenario.vehicle.trailer) {
+    if (scenario.mission.start.hitch_angle && c.could_read("vehicle.trailer")) {
+      c.AddError("mission.start.hitch_angle",
+                 "the car has no trailer; remove this, or add "
+                 "vehicle.trailer");
+    }
+    return;
+  }
+  for (const std::string& plant : scenario.drive.plants) {
+    if (plant == "single_track" && c.CouldRead({"drive.plants"})) {
+      c.AddError("vehicle.trailer",
+                 "not in the plant single_track, which has no hitch; drive the plants kinematic or "
+                 "mujoco instead, or remove this");
+    }
+  }
+  if (scenario.plan && MayGoBackwards(scenario.plan->global) && c.CouldReadPlan({"method"})) {
+    c.AddError(
+        "vehicle.trailer",
+        fmt::format("not with the planner {}, whose paths may reverse: no controller keeps a "
+                    "trailer from jackknifing in reverse; use a planner of forward paths, "
+                    "such as dubins or path_file, or remove this",
+                    PlannerFor(scenario.plan->global).name));
+  }
+}
+
 void CheckSteps(Diagnostics& c) {
   const DriveSpec& drive = c.scenario.drive;
   const double steps = drive.control_period / drive.timestep;
@@ -322,6 +349,7 @@ std::vector<std::pair<std::string, std::string>> CrossProblems(
   CheckController(c);
   CheckTyreFiles(c);
   CheckAids(c);
+  CheckTrailer(c);
   CheckSteps(c);
   CheckRows(c);
   CheckPicture(c);

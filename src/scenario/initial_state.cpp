@@ -138,7 +138,8 @@ std::optional<double> StartSpeedBesideMission(const Scenario& scenario) {
 StartState InitialState(const Scenario& scenario) {
   StartState start{.pose = StartPose(scenario),
                    .speed = StartSpeedBesideMission(scenario).value_or(scenario.mission.speed),
-                   .steering = GivenSteering(scenario).value_or(NeutralSteering(scenario))};
+                   .steering = GivenSteering(scenario).value_or(NeutralSteering(scenario)),
+                   .hitch_angle = scenario.mission.start.hitch_angle.value_or(0.0)};
   const RecordedSample* recorded = FirstSample(scenario);
   if (recorded != nullptr) {
     const StartState own = StartFrom(*recorded, start.steering);

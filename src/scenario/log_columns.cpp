@@ -57,6 +57,9 @@ std::vector<std::string> LogColumns(const LogContents& contents) {
   if (contents.differential) {
     columns.emplace_back("differential_torque_Nm");
   }
+  if (contents.trailer) {
+    columns.insert(columns.end(), {"hitch_angle_rad", "hitch_rate_radps"});
+  }
   if (contents.gaps) {
     columns.emplace_back("valid");
   }
@@ -80,6 +83,7 @@ std::vector<std::string> LogColumns(const Scenario& scenario, const std::string&
                      .abs = aids.abs,
                      .esc = aids.esc,
                      .differential = aids.differential != Differential::kOpen,
+                     .trailer = !recorded && scenario.vehicle.trailer.has_value(),
                      .gaps = recorded,
                      .origin = OriginOf(scenario) != Vec2::Zero(),
                      .controller = recorded ? std::vector<std::string>{}

@@ -36,6 +36,43 @@ inline void Visit(KeyVisitor& a, AidOptions& aids) {
           aids.differential_ramp, Range{.min = 0.0, .max = 1.0});
 }
 
+inline void Visit(KeyVisitor& a, TrailerOptions& trailer) {
+  constexpr Range kLength{.max = 100.0, .above = 0.0};
+  a.Field(
+      {"hitch", "m",
+       "distance of the hitch behind the rear axle; default: 2 % of the car's length behind its "
+       "rear end"},
+      trailer.hitch, kLength);
+  a.Field({"hitch_height", "m", "height of the hitch; default: 1.2 wheel radii of the car"},
+          trailer.hitch_height, kLength);
+  a.Field({"tongue", "m", "distance from the hitch to the trailer's axle; default: the wheelbase"},
+          trailer.tongue, kLength);
+  a.Field({"track", "m", "distance between the trailer's wheels; default: that of the rear wheels"},
+          trailer.track, kLength);
+  a.Field({"length", "m", "length of the body without drawbar; default: 0.6 of the car's"},
+          trailer.length, kLength);
+  a.Field({"width", "m", "width of the body; default: that of the car"}, trailer.width, kLength);
+  a.Field({"height", "m", "height of the body's top; default: 0.8 of the car's"}, trailer.height,
+          kLength);
+  a.Field({"body_ahead", "m",
+           "distance of the middle of the body ahead of the trailer's axle; default: 0"},
+          trailer.body_ahead, Range{.min = -100.0, .max = 100.0});
+  a.Field({"mass", "kg", "mass with wheels; default: 0.4 of the car's"}, trailer.mass,
+          Range{.max = 1e5, .above = 0.0});
+  a.Field({"yaw_inertia", "kg m^2",
+           "yaw inertia about the center of gravity; default: that of a uniform box"},
+          trailer.yaw_inertia, Range{.max = 1e7, .above = 0.0});
+  a.Field({"cg_ahead", "m",
+           "distance of the center of gravity ahead of the trailer's axle; default: 6 % of the "
+           "tongue"},
+          trailer.cg_ahead, Range{.min = -100.0, .max = 100.0});
+  a.Field(
+      {"cg_height", "m", "height of the center of gravity; default: 1.75 wheel radii of the car"},
+      trailer.cg_height, kLength);
+  a.Field({"wheel_radius", "m", "radius of the trailer's wheels; default: that of the car"},
+          trailer.wheel_radius, kLength);
+}
+
 inline void Visit(KeyVisitor& a, VehicleSpec& vehicle) {
   a.Field({"model", "", "name under models/, or path relative to this file"}, vehicle.model,
           Need::kOptional);
@@ -57,6 +94,10 @@ inline void Visit(KeyVisitor& a, VehicleSpec& vehicle) {
           vehicle.steering_rate, Range{.max = 10.0, .above = 0.0});
   a.Section({"aids", "", "driver aids of the plant mujoco on Magic Formula tyres; default: none"},
             vehicle.aids);
+  a.Section({"trailer", "",
+             "trailer with one axle on a hitch behind the car, on the plants kinematic and mujoco; "
+             "default: none"},
+            vehicle.trailer);
 }
 
 inline void Visit(KeyVisitor& a, StartSpec& start) {
@@ -81,6 +122,9 @@ inline void Visit(KeyVisitor& a, StartSpec& start) {
            "route (path_file, course, lane_route, tracks), the plan's neutral_steering, or 0; with "
            "a record or prescribed steering, the recorded angle"},
           start.steering, kSteering);
+  a.Field({"hitch_angle", "rad",
+           "initial yaw of the trailer relative to the car, positive to the left; default: 0"},
+          start.hitch_angle, Range{.min = -3.0, .max = 3.0});
 }
 
 inline constexpr Key kMissionSection{"mission", "", "route and speed"};
@@ -210,6 +254,8 @@ inline void Visit(KeyVisitor& a, PlantExpectation& expect) {
           kNonNegative);
   a.Field({"rms_cross_track", "m", "maximum root mean square of the cross-track error"},
           expect.rms_cross_track, kNonNegative);
+  a.Field({"max_hitch_angle", "rad", "largest magnitude of the trailer's hitch angle"},
+          expect.max_hitch_angle, Range{.max = 3.2, .above = 0.0});
   a.Field({"max_heading_error", "rad", "maximum heading error"}, expect.max_heading_error,
           kNonNegative);
   a.Field({"min_clearance", "m",

@@ -17,6 +17,7 @@
 #include "trackbed/scenario/disturbances.h"
 #include "trackbed/sim/plant.h"
 #include "trackbed/vehicle/params.h"
+#include "trackbed/vehicle/trailer.h"
 #include "trackbed/world/world.h"
 
 /// The closed loop of a plant, a steering controller and a plan.
@@ -60,6 +61,7 @@ struct LoopConfig {
   /// by default `vehicle`. The wheelbase that the controller assumes is also scaled by
   /// `disturbances.wheelbase`.
   std::optional<VehicleParams> nominal_vehicle{};
+  std::optional<TrailerParams> trailer{};  ///< The trailer of the plant; nullopt: none.
   /// The world in which the plant drives. The world's obstacles determine clearance, collisions and
   /// replanning. The world's friction coefficient limits the deceleration in the hardest braking.
   World world{};

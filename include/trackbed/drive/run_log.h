@@ -9,6 +9,7 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/sim/driver_aids.h"
 #include "trackbed/vehicle/state.h"
+#include "trackbed/vehicle/trailer.h"
 
 namespace trackbed {
 
@@ -27,8 +28,10 @@ enum class DriveStatus {
   kAirborne,   ///< For one second, all wheels were above the road by more than the wheels' radius.
   /// The car was commanded to drive, but moved less than a centimeter in ten seconds.
   kStuck,
-  kCollided,     ///< The car touched an obstacle; the log continues for one second.
-  kRolledOver,   ///< The car rolled over: it leans by more than 60 degrees from the vertical.
+  kCollided,  ///< The car touched an obstacle; the log continues for one second.
+  /// The car or its trailer rolled over: it leans by more than 60 degrees from the vertical.
+  kRolledOver,
+  kJackknifed,   ///< The hitch angle grew until the trailer touched the car (JackknifeAngle).
   kInterrupted,  ///< The calling program stopped the run.
 };
 
@@ -45,8 +48,8 @@ struct LogRow {
   /// Beyond the end of the path, the errors are relative to the straight extension of the path only
   /// if the car stops slightly beyond the end.
   std::optional<Projection> tracking;
-  /// Smallest distance between the car's footprint and the obstacles [m]; 0 on contact; nullopt if
-  /// there are no obstacles.
+  /// Smallest distance from the footprints of car and trailer to the obstacles [m]; 0 on contact;
+  /// nullopt if there are no obstacles.
   std::optional<double> clearance;
   /// Highest planned speed on the short stretch of the path directly behind the car [m/s]. The
   /// length of this stretch is the goal tolerance plus the distance driven in one control period.
@@ -60,6 +63,8 @@ struct LogRow {
   std::vector<double> controller;
   /// States of the driver aids at the start of the control period; nullopt for a car without them.
   std::optional<AidState> aids{};
+  /// State of the trailer at the start of the control period; nullopt for a car without a trailer.
+  std::optional<TrailerState> trailer{};
   bool valid = true;  ///< False if the row lies in a gap of a recorded drive.
 };
 
@@ -81,6 +86,7 @@ struct RunLog {
   std::optional<double> contact_time;
   /// Local origin from which the coordinates count, in the scenario's own coordinates [m].
   Vec2 origin = Vec2::Zero();
+  std::optional<TrailerParams> trailer{};       ///< The trailer of the car; nullopt: none.
   std::vector<std::string> controller_columns;  ///< Names from SteeringController::Columns.
   /// Rows of the log; the station keeps increasing when the plan changes.
   std::vector<LogRow> rows;
@@ -88,6 +94,9 @@ struct RunLog {
   /// Table of the car's configurations (CarModel::configuration_columns) at the times `t_s`.
   Table configurations;
 };
+
+/// Returns the footprint of the trailer's body at a row of the log; nullopt without a trailer.
+std::optional<OrientedBox> TrailerFootprint(const RunLog& log, const LogRow& row);
 
 /// Converts the rows of the log to the table that is stored as `<plant>.csv`. The table has columns
 /// for a path or for tyres only if the run has a path or tyres, and columns `origin_x_m` and

@@ -24,6 +24,7 @@ struct LogContents {
   bool esc = false;     ///< Whether the log has the states of stability control.
   /// Whether the log has the torque of a locked or limited-slip differential.
   bool differential = false;
+  bool trailer = false;  ///< Whether the log has the state of a trailer.
   /// Whether the log has a column that states the validity of each row of a recorded drive.
   bool gaps = false;
   bool origin = false;  ///< Whether the log states the local origin of its coordinates.

@@ -22,6 +22,7 @@
 #include "trackbed/scenario/track_options.h"
 #include "trackbed/sim/driver_aids.h"
 #include "trackbed/sim/plant_options.h"
+#include "trackbed/vehicle/trailer.h"
 #include "trackbed/world/world.h"
 
 /// A scenario file describes one reproducible experiment. All quantities are in SI units and
@@ -45,7 +46,8 @@ struct VehicleSpec {
   std::optional<std::string> tyre_file_rear{};
   /// Maximum steering rate of the road wheels [rad/s]; overrides the limit in the car model.
   std::optional<double> steering_rate;
-  std::optional<AidOptions> aids{};  ///< Driver aids of the plant `mujoco`; nullopt: none.
+  std::optional<AidOptions> aids{};         ///< Driver aids of the plant `mujoco`; nullopt: none.
+  std::optional<TrailerOptions> trailer{};  ///< Trailer behind the car; nullopt: none.
 };
 
 /// The initial state of the car. Values that are not set are derived from the mission.
@@ -64,6 +66,8 @@ struct StartSpec {
   /// The default steering angle is the initial angle of the recorded drive, or of a recording with
   /// prescribed steering; otherwise the planner's neutral angle.
   std::optional<double> steering;
+  /// Initial hitch angle of the trailer: its yaw minus the car's yaw [rad]; default: 0.
+  std::optional<double> hitch_angle{};
 };
 
 struct MissionSpec {
@@ -141,6 +145,7 @@ struct PlantExpectation {
   /// Maximum allowed root mean square of the cross-track error [m].
   std::optional<double> rms_cross_track;
   std::optional<double> max_heading_error;  ///< Maximum allowed heading error [rad].
+  std::optional<double> max_hitch_angle{};  ///< Maximum allowed magnitude of the hitch angle [rad].
   /// Minimum allowed distance from the car's footprint to obstacles [m].
   std::optional<double> min_clearance;
   /// True if the car must hit an obstacle, false if the car must not hit any obstacle.
