@@ -115,6 +115,15 @@ json PosesMessage(const Path& path, double time) {
   return {{"timestamp", Time(time)}, {"frame_id", "world"}, {"poses", poses}};
 }
 
+/// Returns the transform of a frame in the world.
+json Transform(double time, const std::string& frame, const Pose2& pose) {
+  return {{"timestamp", Time(time)},
+          {"parent_frame_id", "world"},
+          {"child_frame_id", frame},
+          {"translation", {{"x", pose.x}, {"y", pose.y}, {"z", 0.0}}},
+          {"rotation", Rotation(pose.yaw)}};
+}
+
 /// A message and its time; messages are sorted by time.
 struct Message {
   double time;
@@ -139,6 +148,15 @@ void AddPlant(const RunResult& result, const RunLog& log, McapWriter& writer,
                       {{"entities",
                         {Cube(FootprintAt(vehicle, {}), vehicle.height, log.plant, log.plant, 0.0,
                               {{"r", 0.2}, {"g", 0.45}, {"b", 0.8}, {"a", 0.8}})}}}});
+  const std::string towed = log.plant + "_trailer";
+  if (log.trailer) {
+    messages.push_back(
+        {0.0,
+         footprint,
+         {{"entities",
+           {Cube(TrailerFootprint(*log.trailer, {}), log.trailer->height, towed, towed, 0.0,
+                 {{"r", 0.6}, {"g", 0.62}, {"b", 0.65}, {"a", 0.8}})}}}});
+  }
   if (result.scenario.plan) {
     const auto plan = writer.AddChannel(topic + "plan", "foxglove.PosesInFrame", kPoses);
     messages.push_back({0.0, plan, PosesMessage(result.plan->reference.path, 0.0)});
@@ -149,13 +167,11 @@ void AddPlant(const RunResult& result, const RunLog& log, McapWriter& writer,
   }
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
     const VehicleState& state = log.rows[i].state;
-    messages.push_back({state.time,
-                        tf,
-                        {{"timestamp", Time(state.time)},
-                         {"parent_frame_id", "world"},
-                         {"child_frame_id", log.plant},
-                         {"translation", {{"x", state.pose.x}, {"y", state.pose.y}, {"z", 0.0}}},
-                         {"rotation", Rotation(state.pose.yaw)}}});
+    messages.push_back({state.time, tf, Transform(state.time, log.plant, state.pose)});
+    if (log.trailer && log.rows[i].trailer) {
+      const Pose2 axle = TrailerPose(*log.trailer, state.pose, log.rows[i].trailer->angle);
+      messages.push_back({state.time, tf, Transform(state.time, towed, axle)});
+    }
     json row = json::object();
     for (std::size_t column = 0; column < table.columns().size(); ++column) {
       row[table.columns()[column]] = table.at(i, column);

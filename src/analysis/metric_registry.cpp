@@ -343,14 +343,17 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
   const AidOptions aids = scenario.vehicle.aids.value_or(AidOptions{});
   for (const MetricEntry& entry : Metrics()) {
     // Metrics of track limits exist only for runs on a track, metrics of road limits only for
-    // routes over lanes, and metrics of driver aids only for cars with these aids.
+    // routes over lanes, metrics of driver aids only for cars with these aids, and metrics of
+    // trailers only for cars with a trailer.
     const bool of_track = entry.path.starts_with("track_limits.");
     const bool of_road = entry.path.starts_with("road_limits.");
     const bool of_abs = entry.path.starts_with("aids.abs_");
     const bool of_esc = entry.path.starts_with("aids.esc_");
+    const bool of_trailer =
+        entry.path.starts_with("hitch_") || entry.path.starts_with("off_tracking.");
     if (entry.measure && (!of_track || scenario.mission.track) &&
         (!of_road || !scenario.mission.route.empty()) && (!of_abs || aids.abs) &&
-        (!of_esc || aids.esc)) {
+        (!of_esc || aids.esc) && (!of_trailer || scenario.vehicle.trailer)) {
       metrics.measured.emplace_back(entry.path, MetricReading{0.0, {}});
     }
   }

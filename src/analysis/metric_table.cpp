@@ -7,6 +7,7 @@
 #include "src/analysis/road_metrics.h"
 #include "src/analysis/sideslip.h"
 #include "src/analysis/track_metrics.h"
+#include "src/analysis/trailer_metrics.h"
 
 // Table of all metrics that Trackbed defines, with one entry per metric.
 namespace trackbed {
@@ -235,6 +236,14 @@ std::vector<MetricEntry> BuiltInMetrics() {
        "N m",
        {},
        LargestEscTorque},
+      Headline(Located(
+          {"hitch_angle.max", "Largest hitch angle of the trailer", "rad", {}, LargestHitchAngle})),
+      Located({"hitch_rate.max", "Largest rate of the hitch angle", "rad/s", {}, LargestHitchRate}),
+      Located({"off_tracking.max",
+               "Largest off-tracking of the trailer's axle",
+               "m",
+               {},
+               LargestOffTracking}),
   };
 }
 

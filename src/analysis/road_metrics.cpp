@@ -144,6 +144,10 @@ std::optional<MetricReading> SmallestRoadMargin(const MetricInput& input) {
   Vec2 high = low;
   for (const LogRow& row : input.log.rows) {
     outlines.push_back(Outline(FootprintAt(input.vehicle, row.state.pose)));
+    if (const std::optional<OrientedBox> trailer = TrailerFootprint(input.log, row)) {
+      const std::vector<Vec2> towed = Outline(*trailer);
+      outlines.back().insert(outlines.back().end(), towed.begin(), towed.end());
+    }
     for (const Vec2& point : outlines.back()) {
       low = low.cwiseMin(point);
       high = high.cwiseMax(point);

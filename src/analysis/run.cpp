@@ -393,15 +393,15 @@ void WritePlan(const RunResult& planned, const OutputFolder& folder) {
 
 namespace {
 
-/// Returns the model of the car without payload and world if the scenario names its own model file;
-/// none for a car shipped with Trackbed.
+/// Returns the model of the car without trailer, payload and world if the scenario names its own
+/// model file; none for a car shipped with Trackbed.
 std::optional<Scene> OwnVehicle(const RunResult& result) {
   const Scenario& scenario = result.scenario;
   if (!HasOwnVehicle(scenario.vehicle)) {
     return std::nullopt;
   }
-  const bool is_bare =
-      !scenario.disturb.payload && !HasObstacles(scenario.world) && IsFlat(scenario.world.ground);
+  const bool is_bare = !scenario.disturb.payload && !scenario.vehicle.trailer &&
+                       !HasObstacles(scenario.world) && IsFlat(scenario.world.ground);
   return is_bare ? result.scene
                  : ComposeScene(FindModel(scenario.vehicle.model, scenario.folder),
                                 MakeSceneOptions(scenario));

@@ -19,12 +19,27 @@ namespace {
 
 using CarKey = std::tuple<std::string, double, double>;
 
+/// Returns a text of the given numbers of a trailer.
+std::string KeyOf(const std::optional<TrailerOptions>& trailer) {
+  std::string key;
+  if (trailer) {
+    for (const std::optional<double>& number :
+         {trailer->hitch, trailer->hitch_height, trailer->tongue, trailer->track, trailer->length,
+          trailer->width, trailer->height, trailer->body_ahead, trailer->mass, trailer->yaw_inertia,
+          trailer->cg_ahead, trailer->cg_height, trailer->wheel_radius}) {
+      key += number ? fmt::format("{} ", *number) : "- ";
+    }
+  }
+  return key;
+}
+
 /// Returns a key that is equal for scenarios whose compiled car models, without obstacles, are
 /// equal.
 CarKey MakeCarKey(const Scenario& scenario) {
   const VehicleSpec& vehicle = scenario.vehicle;
-  return {fmt::format("{}\n{}\n{}", FindModel(vehicle.model, scenario.folder).string(),
-                      vehicle.tyre_file.value_or(""), vehicle.tyre_file_rear.value_or("")),
+  return {fmt::format("{}\n{}\n{}\n{}", FindModel(vehicle.model, scenario.folder).string(),
+                      vehicle.tyre_file.value_or(""), vehicle.tyre_file_rear.value_or(""),
+                      KeyOf(vehicle.trailer)),
           scenario.drive.timestep, vehicle.steering_rate.value_or(0.0)};
 }
 

@@ -70,8 +70,8 @@ double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point,
   return std::copysign(nearest, inside);
 }
 
-/// Distance between the car's footprint and the nearest track edge (TrackMargin) at one row of the
-/// log.
+/// Distance between the footprints of car and trailer and the nearest track edge (TrackMargin) at
+/// one row of the log.
 struct Margin {
   double margin = 0.0;  // [m]
   const LogRow* row = nullptr;
@@ -85,7 +85,12 @@ std::vector<Margin> Margins(const MetricInput& input) {
     const OrientedBox footprint = FootprintAt(input.vehicle, row.state.pose);
     const double ahead = (footprint.center.position() - row.state.pose.position()).norm();
     const double s = counter.Advance(row.state.pose.position());
-    margins.push_back({TrackMargin(track, footprint, s + ahead), &row});
+    double margin = TrackMargin(track, footprint, s + ahead);
+    if (const std::optional<OrientedBox> trailer = TrailerFootprint(input.log, row)) {
+      const double behind = (trailer->center.position() - row.state.pose.position()).norm();
+      margin = std::min(margin, TrackMargin(track, *trailer, s - behind));
+    }
+    margins.push_back({margin, &row});
   }
   return margins;
 }

@@ -24,8 +24,8 @@ bool HasExpectationFor(std::string_view metric, const PlantExpectation& expect) 
 
 bool HasExpectations(const PlantExpectation& expect) {
   return expect.reach_goal || expect.max_cross_track || expect.rms_cross_track ||
-         expect.max_heading_error || expect.min_clearance || expect.collision ||
-         !expect.metrics.empty() || !expect.requirements.empty();
+         expect.max_heading_error || expect.max_hitch_angle || expect.min_clearance ||
+         expect.collision || !expect.metrics.empty() || !expect.requirements.empty();
 }
 
 bool HasExpectations(const Expectations& expect) {
@@ -260,6 +260,7 @@ void JudgePlant(const PlantExpectation& expect, const PlantMetrics& metrics, Ver
       AddCheck(std::move(own), verdict);
     }
   }
+  check(expect.max_hitch_angle, Relation::kAtMost, "hitch_angle.max", "largest hitch angle");
   for (const MetricExpectation& metric : expect.metrics) {
     JudgeMetric(metric, metrics, verdict);
   }

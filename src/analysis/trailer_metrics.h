@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "trackbed/analysis/metric_registry.h"
+
+/// Measures the motion of a trailer (TrailerState). Without a trailer, there are no values.
+namespace trackbed {
+
+/// Returns the largest magnitude of the hitch angle [rad].
+std::optional<MetricReading> LargestHitchAngle(const MetricInput& input);
+
+/// Returns the largest magnitude of the rate of the hitch angle [rad/s].
+std::optional<MetricReading> LargestHitchRate(const MetricInput& input);
+
+/// Returns the largest distance of the middle of the trailer's axle from the line that the middle
+/// of the car's rear axle has driven up to then, extended straight back from the start [m].
+std::optional<MetricReading> LargestOffTracking(const MetricInput& input);
+
+}  // namespace trackbed
