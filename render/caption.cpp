@@ -56,6 +56,10 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
   if (readings.aids) {
     shown.push_back({"aids", *readings.aids, "ABS ESC"});
   }
+  if (readings.hitch_angle) {
+    shown.push_back(
+        {"hitch", Signed(*readings.hitch_angle * 180.0 / kPi, 1, " deg"), "+000.0 deg"});
+  }
   if (readings.cross_track) {
     shown.push_back({"off path", Signed(*readings.cross_track, 2, " m"), "+0.00 m"});
   }

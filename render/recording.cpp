@@ -208,7 +208,8 @@ PlantRecording::PlantRecording(const fs::path& folder, const std::string& plant,
       steering_command_(log_.Require("steering_command_rad")),
       steering_(log_.Require("steering_rad")),
       cross_track_(log_.Find("cross_track_m")),
-      lateral_acceleration_(log_.Find("lateral_acceleration_mps2")) {
+      lateral_acceleration_(log_.Find("lateral_acceleration_mps2")),
+      hitch_angle_(log_.Find("hitch_angle_rad")) {
   for (const char* column : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"}) {
     pose_columns_.push_back(state_.Require(column));
   }
@@ -293,6 +294,9 @@ Readings PlantRecording::ReadingsAt(double time) const {
     readings.lateral_acceleration = log_.Value(place, *lateral_acceleration_);
   }
   readings.aids = InterveningAids(log_, place);
+  if (hitch_angle_) {
+    readings.hitch_angle = log_.Value(place, *hitch_angle_);
+  }
   return readings;
 }
 

@@ -60,6 +60,7 @@ struct Readings {
   std::optional<double> tyre_use;
   /// Driver aids that intervene, such as "ABS ESC", or "-"; nullopt for a car without these aids.
   std::optional<std::string> aids;
+  std::optional<double> hitch_angle;  ///< Hitch angle of the trailer [rad]; nullopt: no trailer.
   /// Position of the first ghost relative to the recorded car.
   std::optional<RelativePosition> apart;
   std::optional<Vec2> wind;  ///< Wind at the car [m/s]; nullopt if the run has no
@@ -117,6 +118,7 @@ class PlantRecording {
   std::size_t steering_ = 0;
   std::optional<std::size_t> cross_track_;
   std::optional<std::size_t> lateral_acceleration_;
+  std::optional<std::size_t> hitch_angle_;
 };
 
 /// The data of a recorded run, read from the run folder.

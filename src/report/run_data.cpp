@@ -65,7 +65,8 @@ constexpr std::array kChannels{
     Channel{"heading_error", "heading_error_rad", false},
     Channel{"sideslip", "sideslip_rad", false},
     Channel{"longitudinal_acceleration", "longitudinal_acceleration_mps2", false},
-    Channel{"clearance", "clearance_m", false}};
+    Channel{"clearance", "clearance_m", false},
+    Channel{"hitch_angle", "hitch_angle_rad", false}};
 
 /// Extends the bounding box with corners `low` and `high` such that it contains the points of a
 /// line.
@@ -302,6 +303,14 @@ void AddCar(const fs::path& folder, const World& world, std::size_t row_limit, o
   const CarModel car(ComposeScene(run_folder::RequireFile(model), {}), model.string());
   const TyreLaw law = ReadVehicleSpec(folder / run_folder::kScenarioYaml).tyre;
   run["car"] = CarJson(car.params());
+  if (car.trailer()) {
+    const TrailerParams& trailer = car.trailer()->params;
+    run["car"]["trailer"] = {{"hitch", Rounded(trailer.hitch)},
+                             {"tongue", Rounded(trailer.tongue)},
+                             {"length", Rounded(trailer.length)},
+                             {"width", Rounded(trailer.width)},
+                             {"body_ahead", Rounded(trailer.body_ahead)}};
+  }
   for (ordered_json& plant : run["plants"]) {
     const auto name = plant.at("name").get<std::string>();
     const fs::path log = folder / run_folder::LogCsv(name);

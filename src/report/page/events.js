@@ -4,6 +4,7 @@
 const EVENT_KINDS = {
   collided: { mark: 'M-5 -5L5 5M-5 5L5 -5', name: 'collision' },
   rolled_over: { mark: 'M-5.5 4.5H5.5L0 -5.5Z', name: 'roll-over', filled: true },
+  jackknifed: { mark: 'M-5 5L0 -5L5 5', name: 'jackknife' },
   ended: { mark: 'M-4.5 -4.5H4.5V4.5H-4.5Z', name: 'other end', filled: true },
   plan: { mark: 'M0 -6L6 0L0 6L-6 0Z', name: 'new plan', filled: true },
   known: { mark: 'M-5 0A5 5 0 1 1 5 0A5 5 0 1 1 -5 0', name: 'obstacle becomes known' },

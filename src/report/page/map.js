@@ -255,6 +255,17 @@ function drawMap(parent) {
     car.append('title').text(track.label);
     return car;
   });
+  // The trailer of each car, in a frame whose origin is the hitch; null for a car without trailer.
+  const trailers = cars.map((car, i) => {
+    const { trailer } = runs[tracks[i].run].car;
+    if (!trailer || !tracks[i].log.hitch_angle) return null;
+    const front = trailer.body_ahead - trailer.tongue + trailer.length / 2;
+    const side = trailer.width / 2;
+    const group = car.append('g').attr('class', 'trailer');
+    group.append('path').attr('class', 'body')
+      .attr('d', `M0 0H${front}M${front} ${-side}V${side}H${front - trailer.length}V${-side}Z`);
+    return { group, hitch: trailer.hitch };
+  });
 
   let size = { width: 0, height: 0 };
   let zoomed = d3.zoomIdentity;
@@ -347,6 +358,11 @@ function drawMap(parent) {
     tracks.forEach((track, i) => {
       const pose = ways[i].pose(time);
       cars[i].attr('transform', placed(pose));
+      if (trailers[i]) {
+        const last = track.log.t[track.log.t.length - 1];
+        const angle = valueAt(track, 'hitch_angle', Math.min(time, last));
+        trailers[i].group.attr('transform', `translate(${-trailers[i].hitch} 0) rotate(${(180 / Math.PI) * angle})`);
+      }
       const { row } = placeAt(track.log, time);
       layers[i].trail.attr('d', `${lineText(ways[i].x, ways[i].y, row + 1)}L${pose.x} ${pose.y}`);
     });

@@ -8,6 +8,7 @@ const QUANTITIES = [
   { name: 'yaw_rate', title: 'Yaw rate', unit: 'rad/s', digits: 4 },
   { name: 'lateral_acceleration', title: 'Lateral acceleration', unit: 'm/s²', digits: 3 },
   { name: 'clearance', title: 'Clearance from obstacles', unit: 'm', digits: 3 },
+  { name: 'hitch_angle', title: 'Hitch angle', unit: 'rad', digits: 4, note: 'positive: trailer turned to the left' },
 ];
 
 /**
@@ -34,6 +35,7 @@ function limitsOf(name) {
     heading_error: 'heading_error.max',
     lateral_acceleration: 'lateral_acceleration_max',
     clearance: 'clearance_min',
+    hitch_angle: 'hitch_angle.max',
   }[name];
   const limits = runs.flatMap((run) => run.expectations)
     .filter((check) => check.metric === metric && typeof check.bound === 'number').map((check) => check.bound);
