@@ -134,7 +134,7 @@ class MujocoPlant : public Plant, private MujocoSimulation {
   std::vector<bool> is_of_car_;
   std::array<double, 4> tyre_friction_{};  // Friction coefficient of each tyre contact on a road
                                            // with friction factor 1.
-  double trailer_friction_ = 0.0;          // The same for the tyres of the trailer.
+  double trailer_friction_ = 0.0;          // Friction coefficient of the trailer's tyre contacts.
   std::array<double, 2> trailer_road_{};
   double yaw_ = 0.0;       // Heading, unwrapped [rad].
   double distance_ = 0.0;  // Driven distance [m].

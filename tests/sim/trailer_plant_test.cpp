@@ -328,8 +328,8 @@ CarModel Planar(const TrailerOptions& options) {
   return CarModel(WithTrailer(bare, MakeTrailer(flat, bare.params())), "prius");
 }
 
-// What is left are the finite amplitude of 0.5 degrees, the small roll, and the timing of extremes
-// to one step of 2 ms: over 2.5 periods of a second, 0.1 % of the frequency.
+// The finite amplitude of 0.5 degrees, the small roll, and the timing of the extremes to one step of
+// 2 ms change the frequency by 0.2 % and the damping ratio by 0.003.
 TEST(Snaking, AgreesWithTheEigenvaluesOfTheLinearModel) {
   const CarModel car = Planar({.mass = 900.0, .cg_ahead = 0.0});
   double before = -1e9;
