@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "src/analysis/evaluations.h"
 #include "src/analysis/log_reading.h"
@@ -61,6 +62,23 @@ struct Departure {
   }
 };
 
+/// Returns the speed of the center of gravity, whatever its direction [m/s].
+double TotalSpeed(const LogRow& row) {
+  return std::hypot(row.state.speed, row.state.lateral_speed);
+}
+
+/// Returns the length of the path of the center of gravity up to each row [m]. The speed is
+/// interpolated linearly between rows.
+std::vector<double> DrivenOf(const RunLog& log) {
+  std::vector<double> driven(log.rows.size());
+  for (std::size_t i = 1; i < driven.size(); ++i) {
+    const double time = log.rows[i].state.time - log.rows[i - 1].state.time;
+    const double mean = 0.5 * (TotalSpeed(log.rows[i - 1]) + TotalSpeed(log.rows[i]));
+    driven[i] = driven[i - 1] + mean * time;
+  }
+  return driven;
+}
+
 }  // namespace
 
 std::vector<ManeuverMetric> MethodMetrics(const BrakingTestOptions& /*options*/) {
@@ -90,12 +108,18 @@ void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
   }
   const VehicleState& start = rows[onset].state;
   metrics.begin = start.time;
-  metrics.values.emplace_back("initial_speed", start.speed);
-  const auto slowness = [](const LogRow& row) { return -row.state.speed; };
+  const double initial_speed = TotalSpeed(rows[onset]);
+  metrics.values.emplace_back("initial_speed", initial_speed);
+  // The forward speed of a spinning car is zero while the car slides sideways.
+  const auto slowness = [](const LogRow& row) { return -TotalSpeed(row); };
+  const std::vector<double> driven = DrivenOf(input.log);
+  const auto driven_at = [&](const LogRow& row) {
+    return driven[static_cast<std::size_t>(&row - rows.data())];
+  };
   const auto distance_at = [&](double speed) -> std::optional<double> {
     const auto time = TimeOfReaching(input.log, onset, -speed, slowness);
-    const auto driven = [](const LogRow& row) { return row.state.distance; };
-    return time ? std::optional(ValueAt(input.log, *time, driven) - start.distance) : std::nullopt;
+    return time ? std::optional(ValueAt(input.log, *time, driven_at) - driven[onset])
+                : std::nullopt;
   };
   const double end_speed = std::max(options.to_speed, kStandstill);
   const std::optional<double> end = TimeOfReaching(input.log, onset, -end_speed, slowness);
@@ -105,8 +129,8 @@ void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
   } else {
     metrics.missing = fmt::format("the speed does not drop to {:.3g} m/s", options.to_speed);
   }
-  const double v_b = 0.8 * start.speed;
-  const double v_e = 0.1 * start.speed;
+  const double v_b = 0.8 * initial_speed;
+  const double v_e = 0.1 * initial_speed;
   if (const auto s_e = distance_at(v_e)) {
     metrics.values.emplace_back("mean_fully_developed_deceleration",
                                 (v_b * v_b - v_e * v_e) / (2.0 * (*s_e - *distance_at(v_b))));
