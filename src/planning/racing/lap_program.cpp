@@ -174,13 +174,12 @@ void LapProgram::AddBounds(const TrackLine& line, const Lap& lap, const LapTrust
 
 /// Adds rows that limit the curvature of the line, and rows that limit the steering rate between
 /// adjacent stations.
-void LapProgram::AddCurvatures(const Lap& lap, double share) {
+void LapProgram::AddCurvatures(const Lap& lap) {
   const double most = model_.limits().curvature_max;
   for (std::size_t i = 0; i < model_.count(); ++i) {
     const double curvature = lap.curvature[i];
     if (most > 0.0 && std::abs(curvature) > 0.5 * most) {
-      const double beyond = std::max(0.0, std::abs(curvature) - most);
-      const double reach = most + (1.0 - share) * beyond;
+      const double reach = std::max(most, std::abs(curvature));
       AddRow(curvature_[i], -reach - curvature, reach - curvature);
     }
     AddSteering(lap, i);
@@ -337,7 +336,7 @@ void LapProgram::AddForces(const Lap& lap, std::size_t i, GgvSide side) {
 }
 
 SparseQuadraticProgram LapProgram::About(const TrackLine& line, const Lap& lap,
-                                         const LapTrust& trust, double share) {
+                                         const LapTrust& trust) {
   const Eigen::Index variables = SpeedVariable(model_.count());
   rows_.clear();
   tangents_.clear();
@@ -348,7 +347,7 @@ SparseQuadraticProgram LapProgram::About(const TrackLine& line, const Lap& lap,
   Linearize(lap);
   AddTime(lap);
   AddBounds(line, lap, trust);
-  AddCurvatures(lap, share);
+  AddCurvatures(lap);
   for (std::size_t i = 0; i < model_.count(); ++i) {
     AddLateral(lap, i);
     for (const GgvSide side : {GgvSide::kDriving, GgvSide::kBraking}) {

@@ -38,10 +38,9 @@ class LapProgram {
   }
 
   /// Builds the quadratic program that is linearized about a lap along `line`. Where the curvature
-  /// exceeds LapLimits::curvature_max, the program requires that the excess falls by the fraction
-  /// `share`.
-  SparseQuadraticProgram About(const TrackLine& line, const Lap& lap, const LapTrust& trust,
-                               double share);
+  /// exceeds LapLimits::curvature_max, the program does not let the curvature grow. The program
+  /// always has solutions, because the lap itself meets all constraints.
+  SparseQuadraticProgram About(const TrackLine& line, const Lap& lap, const LapTrust& trust);
 
   /// Stores the Lagrange multipliers of the last program. The next program uses the multipliers to
   /// weight the curvature of the boundary, which tangents neglect.
@@ -75,7 +74,7 @@ class LapProgram {
   void AddRow(const Form& form, double lower, double upper);
   void AddTime(const Lap& lap);
   void AddBounds(const TrackLine& line, const Lap& lap, const LapTrust& trust);
-  void AddCurvatures(const Lap& lap, double share);
+  void AddCurvatures(const Lap& lap);
   void AddSteering(const Lap& lap, std::size_t i);
   void AddLateral(const Lap& lap, std::size_t i);
   void AddTyres(const Lap& lap, std::size_t i, GgvSide side);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace trackbed {
 
@@ -44,6 +45,16 @@ std::string TooNarrow(const Track& track, double s, double beside) {
       "the track is {:.3g} m wide at s = {:.4g} m; the car and its margins need "
       "{:.3g} m",
       edges.left - edges.right, s, 2.0 * beside);
+}
+
+std::string RemedyForNarrowTrack(double room, double car_width) {
+  // Round the margin down to centimeters, to a value that is certain to leave room.
+  const double margin = std::floor(100.0 * (room - 0.5 * car_width) - 0.1) / 100.0;
+  return margin >= 0.0 ? fmt::format("plan.margin must be at most {:.2f} m", margin)
+                       : fmt::format(
+                             "the car alone is {:.3g} m wide and needs a narrower body or a wider "
+                             "track",
+                             car_width);
 }
 
 }  // namespace trackbed

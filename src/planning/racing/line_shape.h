@@ -42,4 +42,8 @@ OffsetBounds BoundsAt(const Track& track, const PathPoint& center, double s, dou
 /// Returns an error message about a station at which no offset satisfies the bounds.
 std::string TooNarrow(const Track& track, double s, double beside);
 
+/// Returns the remedy for a track on which lines can keep at most the distance `room` [m] from the
+/// edges: the largest margin for a car of the given width [m], or that the car does not fit.
+std::string RemedyForNarrowTrack(double room, double car_width);
+
 }  // namespace trackbed

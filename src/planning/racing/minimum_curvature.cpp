@@ -3,6 +3,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/planning/racing/line_shape.h"
 #include "trackbed/optimize/sparse_quadratic_program.h"
@@ -28,6 +29,7 @@ class CurvatureProblem {
     program_.lower.resize(Samples());
     program_.upper.resize(Samples());
     std::vector<Eigen::Triplet<double>> entries;
+    double narrowest = 0.0;
     for (Eigen::Index i = 0; i < Samples(); ++i) {
       const double s = step_ * static_cast<double>(i);
       centers_.push_back(track.At(s));
@@ -35,8 +37,10 @@ class CurvatureProblem {
       const OffsetBounds bounds = BoundsAt(track, centers_.back(), s, beside);
       program_.lower[i] = bounds.lower;
       program_.upper[i] = bounds.upper;
-      if (refused_.empty() && bounds.lower >= bounds.upper) {
-        refused_ = TooNarrow(track, s, beside);
+      const double room = 0.5 * (bounds.upper - bounds.lower) + beside;
+      if (room < room_) {
+        room_ = room;
+        narrowest = s;
       }
       for (std::size_t k = 0; k < ClosedSplineBasis::kSupport; ++k) {
         entries.emplace_back(i, locals_.back().index[k], locals_.back().weight[0][k]);
@@ -44,9 +48,13 @@ class CurvatureProblem {
     }
     program_.constraints.resize(Samples(), Variables());
     program_.constraints.setFromTriplets(entries.begin(), entries.end());
+    if (room_ <= beside) {
+      refused_ = TooNarrow(track, narrowest, beside);
+    }
   }
 
   [[nodiscard]] const std::string& refused() const { return refused_; }
+  [[nodiscard]] double room() const { return room_; }
   [[nodiscard]] const ClosedSplineBasis& basis() const { return basis_; }
   [[nodiscard]] Eigen::Index Variables() const { return static_cast<Eigen::Index>(basis_.count()); }
 
@@ -105,6 +113,7 @@ class CurvatureProblem {
   std::vector<ClosedSplineBasis::Local> locals_;
   SparseQuadraticProgram program_;
   std::string refused_;
+  double room_ = std::numeric_limits<double>::infinity();  // MinimumCurvatureLine::room
 };
 
 Plan PlanWith(const MinimumCurvatureOptions& options, const PlanRequest& request) {
@@ -115,7 +124,9 @@ Plan PlanWith(const MinimumCurvatureOptions& options, const PlanRequest& request
   const MinimumCurvatureLine found =
       FindMinimumCurvature(track, 0.5 * request.vehicle.width + options.margin);
   if (!found.refused.empty()) {
-    return route::Refused(PlanStatus::kNoPath, found.refused);
+    return route::Refused(
+        PlanStatus::kNoPath,
+        found.refused + "; " + RemedyForNarrowTrack(found.room, request.vehicle.width));
   }
   Plan plan = FollowLine(request, found.line);
   if (const auto* own = plan.diagnostics.planner.As<TrackPlanDiagnostics>()) {
@@ -134,7 +145,7 @@ MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside) {
   // Relative change of the integral below which the iteration ends.
   constexpr double kConvergenceTolerance = 1e-6;
   CurvatureProblem problem(track, beside);
-  MinimumCurvatureLine found{.refused = problem.refused(), .line = {}};
+  MinimumCurvatureLine found{.refused = problem.refused(), .line = {}, .room = problem.room()};
   Eigen::VectorXd line = Eigen::VectorXd::Zero(problem.Variables());
   double integral = 0.0;
   bool done = !found.refused.empty();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "src/planning/racing/gentle_line.h"
 #include "src/planning/racing/lap_model.h"
 #include "src/planning/racing/lap_program.h"
 #include "trackbed/core/error.h"
@@ -16,12 +17,14 @@
 #include "trackbed/planning/racing/minimum_curvature.h"
 
 // Finds the line with the least lap time (problem of Casanova 2000 and Christ et al. 2021) by a
-// trust-region method. The search starts at the line with the least curvature. Each step solves a
-// quadratic program (LapProgram) for changes of the line and of the speeds. The search tries the
-// whole step, then a half, a quarter and a tenth of the step. For each new line, the lap time is
-// computed with the speed profile at the car's limit on this line. The search accepts a step only
-// if the lap gets faster, or if an excess of curvature falls. If no step is accepted, the trust
-// region shrinks. The lap times of the result come from a finer model with twice as many stations.
+// trust-region method. The search starts at the line with the least curvature. If this line has
+// bends that are too tight for the car, ReduceCurvature makes them wider, or shows that no line
+// nearby is wide enough, before any lap time is optimized. Each step solves a quadratic program
+// (LapProgram) for changes of the line and of the speeds. The search tries the whole step, then a
+// half, a quarter and a tenth of the step. For each new line, the lap time is computed with the
+// speed profile at the car's limit on this line. The search accepts a step only if the lap gets
+// faster within the largest curvature. If no step is accepted, the trust region shrinks. The lap
+// times of the result come from a finer model with twice as many stations.
 
 namespace trackbed {
 namespace {
@@ -71,11 +74,10 @@ class LapSearch {
     return bounds;
   }
 
-  /// Returns the excess of the line's curvature over the largest permitted curvature [1/m].
-  [[nodiscard]] double Beyond(const Lap& lap) const {
+  /// Returns whether the car can drive all bends of a lap, or at least those of the present lap.
+  [[nodiscard]] bool IsWithin(const Lap& lap) const {
     const double most = model_.limits().curvature_max;
-    const double beyond = most > 0.0 ? lap.sharpest - most * (1.0 + kSameCurvature) : 0.0;
-    return std::max(0.0, beyond);
+    return most <= 0.0 || lap.sharpest <= std::max(lap_.sharpest, most * (1.0 + kSameCurvature));
   }
 
   /// Solves one quadratic program and tries the resulting step. Returns whether the search is over.
@@ -84,28 +86,26 @@ class LapSearch {
     // Predicted gain below which the search ends, as a fraction of the lap time.
     constexpr double kConvergenceTolerance = 1e-4;
     const LapTrust trust{.offset = kTrustOffset * scale_, .squared = kTrustSquared * scale_};
-    const SparseQuadraticProgram program = program_.About(line_, lap_, trust, share_);
+    const SparseQuadraticProgram program = program_.About(line_, lap_, trust);
     const SparseQuadraticSolution solution = Solve(
         program, Eigen::VectorXd::Zero(program.linear.size()), InteriorSteps::kPredictorCorrector);
     ++found_.iterations;
     if (!solution.ok) {
       found_.end = MinimumTimeEnd::kProgramNotSolved;
       scale_ *= 0.1;
-      share_ *= 0.1;
       return scale_ < kMinScale;
     }
     program_.TakeMultipliers(solution.multipliers);
     const double promised =
         -(program.linear.dot(solution.x) + 0.5 * solution.x.dot(program.hessian * solution.x));
-    const bool within = Beyond(lap_) == 0.0;
     found_.end = MinimumTimeEnd::kConverged;
-    if (within && promised < kConvergenceTolerance * lap_.time) {
+    if (promised < kConvergenceTolerance * lap_.time) {
       return true;
     }
     if (Take(solution.x, promised)) {
       return false;
     }
-    if (within && promised < 5.0 * kConvergenceTolerance * lap_.time) {
+    if (promised < 5.0 * kConvergenceTolerance * lap_.time) {
       return true;
     }
     found_.end = MinimumTimeEnd::kNoGain;
@@ -115,18 +115,13 @@ class LapSearch {
   /// Applies the step, or the largest fraction of the step that improves the lap. Returns false if
   /// no fraction improves the lap.
   bool Take(const Eigen::VectorXd& step, double promised) {
-    const double beyond = Beyond(lap_);
     for (const double part : {1.0, 0.5, 0.25, 0.1}) {
       TrackLine line(basis_, line_.coefficients() + part * step.head(program_.coefficients()));
       Lap lap = model_.Drive(line);
       const double gain = lap_.time - lap.time;
-      const bool better = beyond > 0.0 ? Beyond(lap) < (1.0 - 0.1 * part * share_) * beyond
-                                       : Beyond(lap) == 0.0 && gain > 0.1 * part * promised;
-      if (better) {
-        scale_ = part == 1.0 && (beyond > 0.0 || gain > 0.75 * promised)
-                     ? std::min(2.0 * scale_, kMaxScale)
-                     : std::max(0.5, part) * scale_;
-        share_ = 1.0;
+      if (IsWithin(lap) && gain > 0.1 * part * promised) {
+        scale_ = part == 1.0 && gain > 0.75 * promised ? std::min(2.0 * scale_, kMaxScale)
+                                                       : std::max(0.5, part) * scale_;
         found_.last_gain = gain;
         line_ = std::move(line);
         lap_ = std::move(lap);
@@ -137,7 +132,6 @@ class LapSearch {
     const double squared =
         step.tail(step.size() - program_.coefficients()).lpNorm<Eigen::Infinity>();
     scale_ = 0.1 * std::min(scale_, squared / kTrustSquared);
-    share_ *= 0.3;
     return false;
   }
 
@@ -152,13 +146,18 @@ class LapSearch {
   TrackLine line_;
   Lap lap_;
   double scale_ = 1.0;  // Factor by which the trust region is scaled.
-  double share_ = 1.0;  // Value of the argument `share` of LapProgram::About.
   MinimumTimeLine found_;
 };
 
-/// Returns a lap model for comparing lines, with twice as many stations as the quadratic programs.
+/// Returns the number of stations at which lines are compared, twice that of the quadratic
+/// programs.
+std::size_t FineStations(const Track& track) {
+  return 2 * ProgramStations(track);
+}
+
+/// Returns a lap model for comparing lines.
 LapModel FineModel(const Track& track, const LapLimits& limits) {
-  return {track, limits, 2 * ProgramStations(track)};
+  return {track, limits, FineStations(track)};
 }
 
 std::string DescribeEnd(const MinimumTimeLine& found) {
@@ -191,6 +190,38 @@ std::string Describe(const MinimumTimeLine& found) {
       DescribeEnd(found));
 }
 
+/// Returns an error message about a line with a bend that is too tight for the car.
+std::string TooTight(const LapLimits& limits, const GentleLine& line) {
+  return fmt::format(
+      "the car turns on a radius of {:.3g} m at least; the widest line found within the margins "
+      "bends on {:.3g} m at s = {:.4g} m",
+      1.0 / limits.curvature_max, 1.0 / line.curvature, line.s);
+}
+
+/// Returns the remedy for a track on which no line was found, with "; " before it.
+std::string RemedyFor(const MinimumTimeLine& found, const PlanRequest& request,
+                      const MinimumTimeOptions& options) {
+  const VehicleParams& vehicle = request.vehicle;
+  if (found.room > 0.0) {
+    return "; " + RemedyForNarrowTrack(found.room, vehicle.width);
+  }
+  if (found.sharpest <= 0.0) {
+    return "";
+  }
+  const Track& track = *request.on_track.track;
+  const double beside = 0.5 * vehicle.width;
+  const MinimumCurvatureLine widest = FindMinimumCurvature(track, beside);
+  const double most = LimitsOfLap(request).curvature_max;
+  if (options.margin > 0.0 && widest.refused.empty() &&
+      ReduceCurvature(track, beside, widest.line, most, FineStations(track)).curvature <= most) {
+    return fmt::format("; plan.margin: 0 leaves room for a wide enough line, {} does not",
+                       options.margin);
+  }
+  return fmt::format(
+      "; the track needs a car whose wheels turn by {:.3g} rad instead of {:.3g} rad",
+      std::abs(SteeringForCurvature(vehicle, found.sharpest)), vehicle.steering_limit);
+}
+
 Plan PlanWith(const MinimumTimeOptions& options, const PlanRequest& request) {
   if (!request.on_track.track) {
     return FollowLine(request, TrackLine());
@@ -204,7 +235,7 @@ Plan PlanWith(const MinimumTimeOptions& options, const PlanRequest& request) {
       FindMinimumTime(*request.on_track.track, 0.5 * request.vehicle.width + options.margin,
                       LimitsOfLap(request), options.iterations);
   if (!found.refused.empty()) {
-    return route::Refused(PlanStatus::kNoPath, found.refused);
+    return route::Refused(PlanStatus::kNoPath, found.refused + RemedyFor(found, request, options));
   }
   Plan plan = FollowLine(request, found.line);
   if (const auto* own = plan.diagnostics.planner.As<TrackPlanDiagnostics>()) {
@@ -246,27 +277,39 @@ MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimi
                                 int iterations) {
   const MinimumCurvatureLine start = FindMinimumCurvature(track, beside);
   if (!start.refused.empty()) {
-    return {.refused = start.refused, .line = {}};
+    return {.refused = start.refused, .line = {}, .room = start.room};
+  }
+  // Relative excess of the curvature that the stations of the search may leave between them.
+  constexpr double kCurvatureTolerance = 1e-3;
+  const double most =
+      limits.curvature_max > 0.0 ? limits.curvature_max * (1.0 + kCurvatureTolerance) : 1e9;
+  TrackLine first = start.line;
+  if (limits.curvature_max > 0.0) {
+    GentleLine gentle =
+        ReduceCurvature(track, beside, start.line, limits.curvature_max, FineStations(track));
+    if (gentle.curvature > most) {
+      return {.refused = TooTight(limits, gentle), .line = {}, .sharpest = gentle.curvature};
+    }
+    first = std::move(gentle.line);
   }
   const LapModel model = FineModel(track, limits);
   const Lap before = model.Drive(start.line);
   if (!std::isfinite(before.time)) {
     return {.refused = "the car cannot keep moving on the line of least curvature", .line = {}};
   }
-  LapSearch search(track, beside, limits, start.line);
+  LapSearch search(track, beside, limits, first);
   search.Run(iterations);
   MinimumTimeLine found = search.found();
   const Lap after = model.Drive(search.line());
   found.start_time = before.time;
-  const double most = limits.curvature_max > 0.0 ? limits.curvature_max * (1.0 + 1e-3) : 1e9;
-  if (std::min(before.sharpest, after.sharpest) > most) {
-    found.refused = fmt::format(
-        "the car turns on a radius of {:.3g} m at least; the line found bends on {:.3g} m within "
-        "the margins",
-        1.0 / limits.curvature_max, 1.0 / after.sharpest);
+  if (before.sharpest > most) {
+    // The line of least curvature is too tight: keep the fastest line that is not.
+    found.improved = true;
+    found.line = after.sharpest <= most ? search.line() : first;
+    found.time = after.sharpest <= most ? after.time : model.Drive(first).time;
     return found;
   }
-  found.improved = after.sharpest <= most && (after.time < before.time || before.sharpest > most);
+  found.improved = after.sharpest <= most && after.time < before.time;
   found.line = found.improved ? search.line() : start.line;
   found.time = found.improved ? after.time : before.time;
   return found;

@@ -260,12 +260,36 @@ TEST(MinimumTime, KeepsTheCarsSmallestRadius) {
 }
 
 TEST(MinimumTime, RefusesATrackThatIsTooTightForTheCar) {
-  // The largest circle on this ring has a radius of 17.5 m.
+  // The largest circle on this ring has a radius of 17.5 m. No quadratic program for the lap time
+  // is solved, because it would have no solution.
   LapLimits limits = CircleOfFriction();
   limits.curvature_max = 1.0 / 20.0;
-  EXPECT_THAT(
-      FindMinimumTime(Track(RingPoints(15.0, 24, 4.0, 3.0)), 1.5, limits).refused,
-      HasSubstr("the car turns on a radius of 20 m at least; the line found bends on 17.5 m"));
+  const MinimumTimeLine found = FindMinimumTime(Track(RingPoints(15.0, 24, 4.0, 3.0)), 1.5, limits);
+  EXPECT_THAT(found.refused,
+              HasSubstr("the car turns on a radius of 20 m at least; the widest line found within "
+                        "the margins bends on 17.5 m at s = "));
+  EXPECT_EQ(found.iterations, 0);
+  EXPECT_NEAR(found.sharpest, 1.0 / 17.5, Tolerance(1e-4));
+}
+
+TEST(MinimumTime, FindsTheLineWithTheWidestBends) {
+  // Between two straights, a half circle of the center line with radius r leaves room for a half
+  // circle of radius r + w that touches the outer edge in its whole bend, for w = half the width
+  // less the distance to the edges. A closed line through both bends cannot have larger bends: it
+  // lies within the convex curve that the outer edges bound, and turns by pi on each side.
+  const Track track = Hairpins(60.0, 18.0, 4.0);
+  const double beside = 1.2;
+  LapLimits limits = CircleOfFriction();
+  const double least = MeasureLine(track, FindMinimumCurvature(track, beside).line).radius_min;
+  const double widest = 18.0 + 4.0 - beside;
+  ASSERT_LT(least, widest);
+  // The points of the track are 4 m apart, and its smoothing rounds the steps of the curvature, so
+  // the outer edge is up to 3 % wider than the circle.
+  limits.curvature_max = 1.0 / (1.04 * widest);
+  const MinimumTimeLine found = FindMinimumTime(track, beside, limits);
+  EXPECT_THAT(found.refused, HasSubstr("the widest line found within the margins bends on "));
+  EXPECT_GT(1.0 / found.sharpest, least);
+  EXPECT_NEAR(1.0 / found.sharpest, widest, Tolerance(0.04 * widest));
 }
 
 TEST(MinimumTime, IsAFunctionOfItsArguments) {
@@ -292,6 +316,36 @@ PlanRequest LimitLaps(int laps) {
   request.speed = {.speed = 30.0, .acceleration = 1.5, .deceleration = 2.0};
   request.limits = SpeedAtLimit{.diagram = CircleOfFriction().diagram, .options = {.share = 0.9}};
   return request;
+}
+
+TEST(MinimumTime, NamesTheMarginOfATrackThatIsTooNarrow) {
+  PlanRequest request = LimitLaps(1);
+  // The track is 8 m wide, the car 1.8 m: a margin of 3.1 m is the largest.
+  request.vehicle.width = 1.8;
+  for (const double margin : {3.2, 10.0}) {
+    for (const Plan& plan : {MakePlan(request, MinimumTimeOptions{.margin = margin}),
+                             MakePlan(request, MinimumCurvatureOptions{.margin = margin})}) {
+      EXPECT_EQ(plan.status, PlanStatus::kNoPath);
+      EXPECT_THAT(plan.reason, HasSubstr("; plan.margin must be at most 3.09 m"));
+    }
+  }
+  const Plan widest = MakePlan(request, MinimumCurvatureOptions{.margin = 3.09});
+  EXPECT_TRUE(widest.ok()) << widest.reason;
+  request.vehicle.width = 8.5;
+  EXPECT_THAT(MakePlan(request, MinimumTimeOptions{}).reason,
+              HasSubstr("; the car alone is 8.5 m wide"));
+}
+
+TEST(MinimumTime, NamesTheRemedyOfATrackThatIsTooTight) {
+  // With a margin of 0, the widest bend has a radius of 21.1 m, and with a margin of 2 m, 19.1 m.
+  PlanRequest request = LimitLaps(1);
+  request.vehicle.width = 1.8;
+  request.vehicle.steering_limit = SteeringForCurvature(request.vehicle, 1.0 / 20.2);
+  EXPECT_THAT(MakePlan(request, MinimumTimeOptions{.margin = 2.0}).reason,
+              HasSubstr("; plan.margin: 0 leaves room for a wide enough line, 2 does not"));
+  request.vehicle.steering_limit = SteeringForCurvature(request.vehicle, 1.0 / 25.0);
+  EXPECT_THAT(MakePlan(request, MinimumTimeOptions{.margin = 2.0}).reason,
+              HasSubstr("; the track needs a car whose wheels turn by "));
 }
 
 TEST(MinimumTime, IsPlannedWithTheLapTimeThatItStates) {

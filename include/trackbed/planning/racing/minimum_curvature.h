@@ -30,10 +30,13 @@ struct MinimumCurvatureLine {
   std::string refused;  ///< Reason why no line was found; else empty.
   TrackLine line;
   int iterations = 0;  ///< Number of quadratic programs that were solved.
+  /// Half of the room between the bounds where it is least, plus b [m]: lines exist for smaller b.
+  double room = 0.0;
 };
 
 /// Finds the line of least curvature that stays at least b = `beside` [m] away from the track's
-/// edges. If the track is too narrow, the result contains no line.
+/// edges. If the track is too narrow, the result contains no line, and `refused` names the
+/// narrowest place.
 ///
 /// Guarantees: at two points per knot, the line keeps the distance b from the edges, to within 1e-6
 /// m; the last step changed the integral of kappa^2 by a fraction of less than 1e-6. The problem is

@@ -71,6 +71,10 @@ struct MinimumTimeLine {
   MinimumTimeEnd end = MinimumTimeEnd::kConverged;
   int iterations = 0;      ///< Number of quadratic programs that were solved.
   double last_gain = 0.0;  ///< Reduction of the lap time by the last accepted step [s].
+  /// MinimumCurvatureLine::room if the track is too narrow; else 0.
+  double room = 0.0;
+  /// Least curvature of the tightest bend that was found, if it is above kappa_max; else 0 [1/m].
+  double sharpest = 0.0;
 };
 
 /// Finds the fastest line that stays at least b = `beside` [m] away from the track's edges. The
@@ -83,7 +87,9 @@ struct MinimumTimeLine {
 /// bit-identical line. The problem is not convex, so that the line is only a local minimum. The
 /// function ignores slopes, banks and changes of friction along the track. Throws RunError if the
 /// program was built without IPOPT. Computing time: 5 to 20 quadratic programs, each 1.4 s per
-/// kilometer of track, for track points 5 m apart.
+/// kilometer of track, for track points 5 m apart. If the line of least curvature is too tight for
+/// the car, some 5 programs of the size of FindMinimumCurvature's come before; a track that is too
+/// narrow or too tight is refused without any program for the lap time.
 MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimits& limits,
                                 int iterations = 40);
 
