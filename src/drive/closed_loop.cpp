@@ -236,12 +236,18 @@ double LoopCore::WantedAcceleration(SteeringController& controller, const Contro
   if (own) {
     return *own;
   }
-  const double hardest =
-      MaxDeceleration(controlled_, RoadFactor(config_.world, row_.state.pose.position()));
-  const double wanted =
-      SpeedControl(config_.speed, sequencer_.speed(), input.station, speed, input.period, hardest);
   const bool at_limit =
       sequencer_.has_path() && sequencer_.plan().diagnostics.speed_profile.has_value();
+  const SpeedProfile& plan = sequencer_.speed();
+  double hardest =
+      MaxDeceleration(controlled_, RoadFactor(config_.world, row_.state.pose.position()));
+  if (at_limit && hardest > 0.0) {
+    // A plan at the limit brakes with the tyres and the drag, so at high speed it decelerates more
+    // than the tyres alone can. Its deceleration is within the grip of the road.
+    hardest = std::max(hardest, -plan.AccelerationAt(input.station));
+  }
+  const double wanted =
+      SpeedControl(config_.speed, plan, input.station, speed, input.period, hardest);
   return at_limit ? command_.gear * EaseForSlip(command_.gear * wanted, input.state) : wanted;
 }
 
