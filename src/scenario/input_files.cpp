@@ -10,6 +10,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/recording/banked_track.h"
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
@@ -42,6 +43,10 @@ std::vector<InputFile> InputFiles(const Scenario& from_origin) {
   std::vector<InputFile> files;
   if (const auto& record = scenario.record) {
     files.push_back({kRecordCsv, RecordCsv(*record->data), "record " + record->file});
+    if (record->ground_data) {
+      files.push_back(
+          {kBankCsv, BankedTrackCsv(*record->ground_data), "ground " + *record->ground});
+    }
   }
   if (const auto& track = scenario.mission.track) {
     files.push_back({kTrackCsv, TrackCsv(track->data->points()), "track " + track->file});
@@ -75,7 +80,7 @@ std::vector<std::string> InputFileNames() {
   for (const PlannerEntry& planner : Planners()) {
     names.insert(names.end(), planner.input_names.begin(), planner.input_names.end());
   }
-  names.insert(names.end(), {kRecordCsv, kTrackCsv, kMapYaml, kMapPgm});
+  names.insert(names.end(), {kRecordCsv, kBankCsv, kTrackCsv, kMapYaml, kMapPgm});
   return names;
 }
 
@@ -115,6 +120,9 @@ Scenario WithResolvedFiles(const Scenario& scenario) {
   if (auto& record = resolved.record) {
     record->file = kRecordCsv;
     record->map.reset();
+    if (record->ground) {
+      record->ground = kBankCsv;
+    }
     record->from.reset();
     record->to.reset();
     if (record->data) {

@@ -16,6 +16,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/recording/banked_track.h"
 #include "trackbed/recording/import_log.h"
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/road_network/open_drive.h"
@@ -51,16 +52,6 @@ std::vector<Problem> Attempt(const std::function<void()>& read, const char* key,
     add_error(key, error.what());
   }
   return {};
-}
-
-/// Adds Trackbed's data folder to the folders from which files may be read.
-std::vector<std::filesystem::path> WithOwnData(std::vector<std::filesystem::path> folders) {
-  try {
-    folders.push_back(DataFolder());
-  } catch (const InputError&) {
-    // Ignore the error, which means that this installation has no data folder.
-  }
-  return folders;
 }
 
 RecordedDrive ReadRecord(const Scenario& scenario, const std::optional<LogMap>& given) {
@@ -115,6 +106,33 @@ std::vector<Problem> ReadRecord(Scenario& scenario, ReaderContext& context,
   return Attempt(
       [&] { record.data = std::make_shared<const RecordedDrive>(ReadRecord(scenario, map)); },
       "record.file", context, add_error);
+}
+
+/// Reads the banked track of the record, and uses its surface as the ground of the world.
+std::vector<Problem> ReadRecordGround(Scenario& scenario, ReaderContext& context,
+                                      const AddKeyError& add_error) {
+  RecordSpec& record = *scenario.record;
+  constexpr const char* kKey = "record.ground";
+  if (!record.ground || !context.Read("record") || !context.Read(kKey)) {
+    return {};
+  }
+  if (const std::string why =
+          ReadAccessError(*record.ground, scenario.folder, WithOwnData(scenario.asset_folders));
+      !why.empty()) {
+    add_error(kKey, fmt::format("{} {}", *record.ground, why));
+    return {};
+  }
+  if (!IsFlat(scenario.world.ground)) {
+    add_error("world.ground", "must be left out, because record.ground is the ground");
+    return {};
+  }
+  return Attempt(
+      [&] {
+        record.ground_data =
+            std::make_shared<const BankedTrack>(ReadBankedTrack(scenario.folder / *record.ground));
+        scenario.world.ground.terrain = MakeTerrain(*record.ground_data);
+      },
+      kKey, context, add_error);
 }
 
 /// Passes the recorded inputs to the controller if the controller replays the drive, and checks
@@ -316,6 +334,15 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
 
 }  // namespace
 
+std::vector<std::filesystem::path> WithOwnData(std::vector<std::filesystem::path> folders) {
+  try {
+    folders.push_back(DataFolder());
+  } catch (const InputError&) {
+    // Ignore the error, which means that this installation has no data folder.
+  }
+  return folders;
+}
+
 std::string ImageAccessError(const std::filesystem::path& image,
                              const std::filesystem::path& folder,
                              const std::vector<std::filesystem::path>& others) {
@@ -337,6 +364,7 @@ std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
     if (!scenario.record->data) {
       context.unread.emplace_back("record");
     }
+    add(ReadRecordGround(scenario, context, add_error));
     add(TakeInputs(scenario, context, add_error));
   }
   if (scenario.mission.track) {

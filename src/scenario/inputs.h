@@ -13,6 +13,9 @@ namespace trackbed {
 /// Function that reports a problem of a key in the scenario.
 using AddKeyError = std::function<void(const std::string& key, std::string message)>;
 
+/// Adds Trackbed's data folder to the folders from which files may be read.
+std::vector<std::filesystem::path> WithOwnData(std::vector<std::filesystem::path> folders);
+
 /// Checks that the YAML file of a map in `folder` may name an image: the image must lie in `folder`
 /// or in one of the folders `others`. Returns an error message if the image must not be read,
 /// otherwise an empty text.

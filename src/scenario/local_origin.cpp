@@ -20,6 +20,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/recording/banked_track.h"
 #include "trackbed/recording/recorded_drive.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/track/track.h"
@@ -130,6 +131,13 @@ std::vector<Site> SitesOfFiles(const Scenario& scenario) {
     }
     sites.push_back({"record.file", "the record " + scenario.record->file, bounds});
   }
+  if (scenario.record && scenario.record->ground_data) {
+    Bounds2 bounds;
+    for (const TrackPoint& point : scenario.record->ground_data->points) {
+      bounds.Include(point.position);
+    }
+    sites.push_back({"record.ground", "the ground " + *scenario.record->ground, bounds});
+  }
   if (const auto& track = scenario.mission.track; track && track->data) {
     Bounds2 bounds;
     for (const TrackPoint& point : track->data->points()) {
@@ -227,6 +235,14 @@ void TranslateFiles(Scenario& scenario, const Vec2& by) {
     }
     scenario.record->data = std::move(moved);
   }
+  if (scenario.record && scenario.record->ground_data) {
+    auto moved = std::make_shared<BankedTrack>(*scenario.record->ground_data);
+    for (TrackPoint& point : moved->points) {
+      point.position += by;
+    }
+    scenario.world.ground.terrain = MakeTerrain(*moved);
+    scenario.record->ground_data = std::move(moved);
+  }
   if (auto& track = scenario.mission.track; track && track->data) {
     track->data = std::make_shared<const Track>(Moved(*track->data, by));
   }
@@ -261,7 +277,7 @@ void Move(Scenario& scenario, const Vec2& origin) {
   TranslateFiles(scenario, -origin);
   if (auto& roads = scenario.world.road_network; roads && roads->data) {
     roads->data = std::make_shared<const OpenDriveFile>(RoadsFrom(*roads->data, origin));
-    if (scenario.world.ground.terrain) {
+    if (scenario.world.ground.terrain && !(scenario.record && scenario.record->ground_data)) {
       AddRouteGround(scenario.mission.route, scenario.world);
     }
   }

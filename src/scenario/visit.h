@@ -187,6 +187,8 @@ inline void Visit(KeyVisitor& a, RecordSpec& record) {
   a.Field({"from", "s", "what is before is left out; default: the map's"}, record.from,
           kNonNegative);
   a.Field({"to", "s", "what is after is left out; default: the map's"}, record.to, kPositive);
+  a.Field({"ground", "", "closed track with its bank, a CSV file, whose surface is the ground"},
+          record.ground);
   static const EnumNames<ReplaySteering> steering{{ReplaySteering::kCommand, "command"},
                                                   {ReplaySteering::kMeasured, "measured"}};
   a.Field({"steering", "", "what a replay steers with: the recorded command or measured angle"},

@@ -14,6 +14,8 @@
 /// compared with the recorded drive.
 namespace trackbed {
 
+struct BankedTrack;
+
 /// The section `record` of a scenario.
 struct RecordSpec {
   std::string file;  ///< File of the recorded drive: a log, or the `record.csv` of a run.
@@ -21,6 +23,9 @@ struct RecordSpec {
   std::optional<std::string> map;
   std::optional<double> from{};  ///< Start time in the log that replaces `from` of the log map [s].
   std::optional<double> to{};    ///< End time in the log that replaces `to` of the log map [s].
+  /// File of a closed track with its bank, whose surface is the ground (recording/banked_track.h);
+  /// nullopt: the ground of the world.
+  std::optional<std::string> ground{};
   ReplaySteering steering = ReplaySteering::kCommand;
   ReplayDrive drive = ReplayDrive::kSpeed;
   std::vector<double> windows{};  ///< Lengths of the prediction windows [s].
@@ -32,6 +37,8 @@ struct RecordSpec {
 
   // Data of the recorded drive, which copies of the scenario share; not a key of the scenario file.
   std::shared_ptr<const RecordedDrive> data{};
+  // Content of the file `ground`, which copies of the scenario share, too.
+  std::shared_ptr<const BankedTrack> ground_data{};
 };
 
 /// Returns the plant names that are allowed in drive.plants: the names in Plants(), and

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "trackbed/track/track.h"
+#include "trackbed/world/terrain.h"
+
+/// The ground along a closed track with bank and grade, on which recorded drives are replayed.
+///
+/// Symbols: s is the station along the track's center line [m], d the offset from it, positive to
+/// the left [m], beta(s) the bank, positive if the road rises to the left [rad], and z(s) the
+/// height of the center line [m]. The height of the road is z(s) + d tan(beta(s)).
+namespace trackbed {
+
+struct BankedTrack {
+  std::vector<TrackPoint> points;  ///< Center line and widths; Track::kMinPoints or more.
+  std::vector<double> banks;       ///< Bank at each point [rad], between -pi/4 and pi/4.
+  std::vector<double> heights;     ///< Height at each point [m].
+};
+
+/// Makes terrains along one center line, for any banks.
+///
+/// Between the edges of the track and 1.5 m beyond them, the terrain is the banked road,
+/// interpolated from points every 0.5 m. Beyond, it blends into smooth ground within 8 m. Bank and
+/// height are smoothed as the center line is (Track). Where parts of the track are close to each
+/// other, each part keeps its height on the road, and the ground in between is their mean, weighted
+/// by proximity. On the inside of bends, the road ends at 0.9 of the bend's radius.
+class BankedGround {
+ public:
+  /// Throws InputError if the track spreads over more than 4 km along x or y. Cost: 0.3 s per
+  /// kilometer.
+  explicit BankedGround(std::vector<TrackPoint> points);
+
+  [[nodiscard]] const Track& track() const { return track_; }
+
+  /// Returns the terrain for the bank [rad] and the height [m] at each point of the center line.
+  /// Throws PreconditionError unless there is a number for each point. Cost: 0.1 s per kilometer.
+  [[nodiscard]] std::shared_ptr<const Terrain> With(const std::vector<double>& banks,
+                                                    const std::vector<double>& heights) const;
+
+ private:
+  /// A place of the ground on one part of the track.
+  struct Place {
+    double s = 0.0;
+    double d = 0.0;
+    double weight = 0.0;  // by proximity, the sum over the parts is 1
+  };
+  /// A node of the terrain: its places on all parts of the track nearby.
+  struct Node {
+    std::vector<Place> places{};
+    double share = 0.0;  // weight of the road against the coarse ground
+  };
+  struct Block {
+    int column = 0;
+    int row = 0;
+    std::vector<Node> nodes{};  // in the order in which Terrain::Refine asks for them
+  };
+
+  void FindNodes();
+  [[nodiscard]] Node NodeAt(const Vec2& point, const std::vector<std::size_t>& near) const;
+  [[nodiscard]] std::vector<std::size_t> NearestOfRuns(const Vec2& point,
+                                                       const std::vector<std::size_t>& near) const;
+  [[nodiscard]] std::vector<double> Coarse(const std::vector<double>& heights, double base) const;
+
+  Track track_;
+  Terrain::Size size_;
+  std::vector<PathPoint> samples_;  // of the center line
+  std::vector<double> stations_;    // of the samples
+  double reach_ = 0.0;              // largest distance of changed ground from the center line
+  std::vector<Block> blocks_;
+};
+
+/// Returns the terrain of a banked track. Throws the same errors as BankedGround.
+std::shared_ptr<const Terrain> MakeTerrain(const BankedTrack& track);
+
+/// Reads a track file (track/track_file.h) with the column `bank_rad`, `z_m`, or both; a missing
+/// column counts as 0. Throws InputError in the same cases as ReadTrackFile, and if both columns
+/// are missing or a number is out of range.
+BankedTrack ReadBankedTrack(const std::filesystem::path& file);
+
+/// The file name of a banked track in a run folder and in the folder of an identification.
+inline constexpr const char* kBankCsv = "bank.csv";
+
+/// Formats a banked track as a file from which ReadBankedTrack reads equal numbers.
+std::string BankedTrackCsv(const BankedTrack& track);
+
+}  // namespace trackbed

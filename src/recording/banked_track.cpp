@@ -1,0 +1,320 @@
+#include "trackbed/recording/banked_track.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/algorithm/string/predicate.hpp>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "trackbed/core/csv_rows.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/table.h"
+#include "trackbed/track/closed_spline.h"
+#include "trackbed/track/track_file.h"
+
+// Makes a terrain from a closed track with bank and grade. The node of the terrain at a point p has
+// a place (s, d) on each part of the track nearby: the samples of the center line within reach are
+// split into runs of consecutive samples, and the nearest sample of each run is refined by Newton's
+// method. The places do not depend on the bank, so they are computed once for many banks.
+
+namespace trackbed {
+namespace {
+
+constexpr double kSampleSpacing = 1.0;  // of the center line [m]
+constexpr double kSurfaceMargin = 1.5;  // Width by which the road extends beyond its edges [m].
+constexpr double kBlendWidth = 8.0;     // Width of the transition to the coarse ground [m].
+constexpr double kMargin = 128.0;       // Width of the terrain around the track [m].
+constexpr double kLevelBorder = 24.0;   // Width of the level border of the terrain [m].
+constexpr double kSlopeToBorder = 72.0;
+// Height by which the level border lies below the lowest point of the road [m].
+constexpr double kBorderDepth = 1.0;
+constexpr double kMaxSide = 4000.0;  // [m]
+
+/// Falls from 1 at u = 0 to 0 at u = 1, with zero first and second derivative at both ends.
+double Fade(double u) {
+  const double v = 1.0 - std::clamp(u, 0.0, 1.0);
+  return v * v * v * (10.0 - v * (15.0 - 6.0 * v));
+}
+
+/// Returns a closed spline of bank slopes and heights through the points of the track.
+Eigen::MatrixXd SurfaceSpline(const Track& track, const ClosedSplineBasis& basis,
+                              const std::vector<double>& banks,
+                              const std::vector<double>& heights) {
+  const std::size_t count = track.points().size();
+  SplineSamples samples;
+  samples.values.resize(static_cast<Eigen::Index>(count), 2);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double before =
+        i == 0 ? track.StationOf(count - 1) - track.length() : track.StationOf(i - 1);
+    const double after = i + 1 == count ? track.length() : track.StationOf(i + 1);
+    samples.t.push_back(track.StationOf(i));
+    samples.weights.push_back(0.5 * (after - before));
+    samples.values.row(static_cast<Eigen::Index>(i)) << std::tan(banks[i]), heights[i];
+  }
+  return FitClosedSpline(basis, samples, track.smoothing());
+}
+
+}  // namespace
+
+BankedGround::BankedGround(std::vector<TrackPoint> points) : track_(std::move(points)) {
+  Vec2 low = track_.points().front().position;
+  Vec2 high = low;
+  for (const TrackPoint& point : track_.points()) {
+    low = low.cwiseMin(point.position);
+    high = high.cwiseMax(point.position);
+    reach_ = std::max({reach_, point.width_left, point.width_right});
+  }
+  reach_ += kSurfaceMargin + kBlendWidth;
+  if ((high - low).maxCoeff() > kMaxSide) {
+    throw InputError(Problem{
+        .message = fmt::format("the track spreads over {:.4g} m; a track with bank may spread over "
+                               "at most {:.4g} m along x and y",
+                               (high - low).maxCoeff(), kMaxSide)});
+  }
+  size_.low = Terrain::kBlock * ((low.array() - kMargin) / Terrain::kBlock).floor();
+  size_.columns =
+      static_cast<int>(std::ceil((high.x() + kMargin - size_.low.x()) / Terrain::kBlock));
+  size_.rows = static_cast<int>(std::ceil((high.y() + kMargin - size_.low.y()) / Terrain::kBlock));
+  const double parts = std::ceil(track_.length() / kSampleSpacing);
+  for (double i = 0.0; i < parts; i += 1.0) {
+    stations_.push_back(track_.length() * i / parts);
+    samples_.push_back(track_.At(stations_.back()));
+  }
+  FindNodes();
+}
+
+void BankedGround::FindNodes() {
+  for (int row = 0; row < size_.rows; ++row) {
+    for (int column = 0; column < size_.columns; ++column) {
+      const Vec2 low = size_.low + Terrain::kBlock * Vec2(column, row);
+      const Vec2 middle = low + 0.5 * Terrain::kBlock * Vec2::Ones();
+      // Half of a block's diagonal, with a cell beyond the block.
+      const double radius = std::numbers::sqrt2 * (0.5 * Terrain::kBlock + Terrain::kCell);
+      std::vector<std::size_t> near;
+      for (std::size_t i = 0; i < samples_.size(); ++i) {
+        if ((samples_[i].pose.position() - middle).norm() < radius + reach_ + kSampleSpacing) {
+          near.push_back(i);
+        }
+      }
+      if (near.empty()) {
+        continue;
+      }
+      Block block{.column = column, .row = row};
+      for (int j = -1; j <= Terrain::kCells + 1; ++j) {
+        for (int i = -1; i <= Terrain::kCells + 1; ++i) {
+          block.nodes.push_back(NodeAt(low + Terrain::kCell * Vec2(i, j), near));
+        }
+      }
+      blocks_.push_back(std::move(block));
+    }
+  }
+}
+
+BankedGround::Node BankedGround::NodeAt(const Vec2& point,
+                                        const std::vector<std::size_t>& near) const {
+  Node node;
+  double sum = 0.0;
+  const auto take = [&](std::size_t nearest) {
+    double s = stations_[nearest];
+    PathPoint at = samples_[nearest];
+    double d = 0.0;
+    double fold = 1.0;
+    for (int i = 0; i < 3; ++i) {
+      const Vec2 offset = point - at.pose.position();
+      const Vec2 ahead = Direction(at.pose.yaw);
+      d = offset.dot(LeftNormal(ahead));
+      fold = 1.0 - at.curvature * d;
+      s += offset.dot(ahead) / std::max(fold, 0.3);
+      at = track_.At(s);
+    }
+    const TrackEdges edges = track_.EdgesAt(s);
+    const double beside = std::max({0.0, d - edges.left, edges.right - d});
+    // The road ends where 1 - kappa d falls from a half to a tenth.
+    const double share = Fade((0.5 - fold) / 0.4) * Fade((beside - kSurfaceMargin) / kBlendWidth);
+    if (share <= 0.0) {
+      return;
+    }
+    constexpr double kMinSquared = 1e-6;  // [m^2]
+    const double square = beside * beside + kMinSquared;
+    node.places.push_back({.s = s, .d = d, .weight = share / (square * square)});
+    node.share = std::max(node.share, share);
+    sum += node.places.back().weight;
+  };
+  for (const std::size_t nearest : NearestOfRuns(point, near)) {
+    take(nearest);
+  }
+  for (Place& place : node.places) {
+    place.weight /= sum;
+  }
+  return node;
+}
+
+/// Returns the nearest sample of each run of consecutive samples within reach of a point. A run may
+/// continue across the start line.
+std::vector<std::size_t> BankedGround::NearestOfRuns(const Vec2& point,
+                                                     const std::vector<std::size_t>& near) const {
+  struct Run {
+    std::size_t first = 0;
+    std::size_t last = 0;
+    std::size_t nearest = 0;
+    double square = 0.0;  // of the distance [m^2]
+  };
+  std::vector<Run> runs;
+  for (const std::size_t i : near) {
+    const double square = (samples_[i].pose.position() - point).squaredNorm();
+    if (square > reach_ * reach_) {
+      continue;
+    }
+    if (runs.empty() || i != runs.back().last + 1) {
+      runs.push_back({i, i, i, square});
+      continue;
+    }
+    runs.back().last = i;
+    if (square < runs.back().square) {
+      runs.back().nearest = i;
+      runs.back().square = square;
+    }
+  }
+  if (runs.size() > 1 && runs.front().first == 0 && runs.back().last + 1 == samples_.size()) {
+    if (runs.back().square < runs.front().square) {
+      runs.front() = runs.back();
+    }
+    runs.pop_back();
+  }
+  std::vector<std::size_t> nearest;
+  for (const Run& run : runs) {
+    nearest.push_back(run.nearest);
+  }
+  return nearest;
+}
+
+std::vector<double> BankedGround::Coarse(const std::vector<double>& heights, double base) const {
+  // The mean height of the points, weighted by proximity; level at the border.
+  constexpr std::size_t kMaxPoints = 500;
+  const std::vector<TrackPoint>& points = track_.points();
+  const std::size_t stride = 1 + points.size() / kMaxPoints;
+  std::vector<double> coarse;
+  for (int row = 0; row < size_.CoarseRows(); ++row) {
+    for (int column = 0; column < size_.CoarseColumns(); ++column) {
+      const Vec2 at = size_.low + Terrain::kCoarseCell * Vec2(column, row);
+      double sum = 0.0;
+      double weights = 0.0;
+      for (std::size_t i = 0; i < points.size(); i += stride) {
+        const double square = (points[i].position - at).squaredNorm() + 1.0;
+        sum += heights[i] / (square * square);
+        weights += 1.0 / (square * square);
+      }
+      const int cells =
+          std::min({column, row, size_.CoarseColumns() - 1 - column, size_.CoarseRows() - 1 - row});
+      const double u =
+          std::clamp((Terrain::kCoarseCell * cells - kLevelBorder) / kSlopeToBorder, 0.0, 1.0);
+      coarse.push_back(std::lerp(base, sum / weights, u * u * (3.0 - 2.0 * u)));
+    }
+  }
+  return coarse;
+}
+
+std::shared_ptr<const Terrain> BankedGround::With(const std::vector<double>& banks,
+                                                  const std::vector<double>& heights) const {
+  const std::size_t count = track_.points().size();
+  TRACKBED_REQUIRE(banks.size() == count && heights.size() == count,
+                   "BankedGround: {} banks, {} heights for {} points", banks.size(), heights.size(),
+                   count);
+  const ClosedSplineBasis basis(track_.length(), count);
+  const Eigen::MatrixXd surface = SurfaceSpline(track_, basis, banks, heights);
+  double steepest = 0.0;
+  for (const double bank : banks) {
+    steepest = std::max(steepest, std::abs(std::tan(bank)));
+  }
+  Terrain::Size size = size_;
+  size.base = *std::min_element(heights.begin(), heights.end()) - steepest * reach_ - kBorderDepth;
+  auto terrain = std::make_shared<Terrain>(size, Coarse(heights, size.base));
+  for (const Block& block : blocks_) {
+    auto node = block.nodes.begin();
+    terrain->Refine(block.column, block.row, [&](const Vec2& /*point*/, double coarse) {
+      double z = 0.0;
+      for (const Place& place : node->places) {
+        const Eigen::RowVectorXd at = Evaluate(basis.At(place.s, 0), surface, 0);
+        z += place.weight * (at[1] + place.d * at[0]);
+      }
+      const double share = (node++)->share;
+      return share * (z - coarse);
+    });
+  }
+  return terrain;
+}
+
+std::shared_ptr<const Terrain> MakeTerrain(const BankedTrack& track) {
+  return BankedGround(track.points).With(track.banks, track.heights);
+}
+
+BankedTrack ReadBankedTrack(const std::filesystem::path& file) {
+  BankedTrack track{.points = ReadTrackFile(file).track.points(), .banks = {}, .heights = {}};
+  constexpr double kMaxBank = 0.25 * std::numbers::pi;
+  constexpr double kMaxHeight = 1e4;  // [m]
+  struct Column {
+    const char* name;
+    double most;
+    std::vector<double>& numbers;
+    std::optional<std::size_t> index{};
+  };
+  std::array<Column, 2> columns{
+      {{"bank_rad", kMaxBank, track.banks}, {"z_m", kMaxHeight, track.heights}}};
+  ProblemList problems;
+  ReadCsvTable(
+      file, {.delimiter = kFindDelimiter}, problems,
+      [&](const std::vector<std::string>& names, int line) {
+        for (Column& column : columns) {
+          for (std::size_t i = 0; i < names.size(); ++i) {
+            column.index = boost::iequals(names[i], column.name) ? i : column.index;
+          }
+        }
+        if (!columns[0].index && !columns[1].index) {
+          problems.Add({.file = file.string(),
+                        .line = line,
+                        .message = "no column 'bank_rad' and no column 'z_m'; add the bank of the "
+                                   "road at each point, positive if it rises to the left"});
+        }
+      },
+      [&](const std::vector<std::string>& cells, int line) {
+        for (Column& column : columns) {
+          double number = 0.0;
+          if (column.index) {
+            const std::string& cell = cells[*column.index];
+            const auto [end, error] =
+                std::from_chars(cell.data(), cell.data() + cell.size(), number);
+            if (error != std::errc{} || end != cell.data() + cell.size() ||
+                !(std::abs(number) <= column.most)) {
+              problems.Add({file.string(), line, 0, column.name,
+                            fmt::format("'{}'; must be a number between {:.4g} and {:.4g}", cell,
+                                        -column.most, column.most)});
+              number = 0.0;
+            }
+          }
+          column.numbers.push_back(number);
+        }
+      });
+  problems.ThrowIfAny();
+  // ReadTrackFile drops a last row that repeats the first point.
+  track.banks.resize(track.points.size());
+  track.heights.resize(track.points.size());
+  return track;
+}
+
+std::string BankedTrackCsv(const BankedTrack& track) {
+  Table table({"# x_m", "y_m", "w_tr_right_m", "w_tr_left_m", "bank_rad", "z_m"});
+  for (std::size_t i = 0; i < track.points.size(); ++i) {
+    const TrackPoint& point = track.points[i];
+    table.AddRow({point.position.x(), point.position.y(), point.width_right, point.width_left,
+                  track.banks[i], track.heights[i]});
+  }
+  return table.ToCsv();
+}
+
+}  // namespace trackbed
