@@ -10,6 +10,7 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file_name.h"
+#include "trackbed/recording/banked_track.h"
 #include "trackbed/scenario/input_files.h"
 #include "trackbed/scenario/record.h"
 #include "trackbed/sim/scene.h"
@@ -150,7 +151,8 @@ const std::vector<ResultNames>& AllResultNames() {
       {kVerification, {kVerifyJson}},
       {kCounterexample, {kCounterexampleYaml}},
       {kIdentification,
-       With({kIdentifyJson, "<vehicle>.xml", "<record>.residuals.csv", kTimingJson}, AssetNames())},
+       With({kIdentifyJson, "<vehicle>.xml", "<record>.residuals.csv", kBankCsv, kTimingJson},
+            AssetNames())},
       {kSubmission, {kArraySh, kMergeSh}},
   };
   return results;

@@ -30,7 +30,8 @@ void ProgressCounter::SkipTo(int evaluations) {
 std::vector<double> StartValues(const Identification& study, const CarModel& car) {
   std::vector<double> values;
   for (const IdentifiedParameter& parameter : study.parameters) {
-    const double own = CarParameterValue(car, parameter.name);
+    const double own =
+        IsBankParameter(parameter.name) ? 0.0 : CarParameterValue(car, parameter.name);
     values.push_back(std::clamp(parameter.start.value_or(own), parameter.from, parameter.to));
   }
   return values;

@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "src/identify/bank_model.h"
 #include "src/identify/estimator.h"
 #include "src/identify/linear_model.h"
 #include "src/identify/residuals.h"
@@ -69,6 +70,21 @@ Identification WithSteeringOffset(Identification study) {
   constexpr double kLargest = 0.1;  // Bound of the offset [rad].
   study.parameters.push_back({.name = kSteeringOffset, .from = -kLargest, .to = kLargest});
   return study;
+}
+
+/// Adds the bank of the study's track to the parameters of the study.
+Identification WithBank(Identification study, const std::optional<BankModel>& bank) {
+  if (bank) {
+    for (IdentifiedParameter& parameter : bank->Parameters()) {
+      study.parameters.push_back(std::move(parameter));
+    }
+  }
+  return study;
+}
+
+/// Returns the model of the bank; nullopt if the study does not estimate it.
+std::optional<BankModel> BankOf(const Identification& study) {
+  return study.bank ? std::optional<BankModel>(std::in_place, study) : std::nullopt;
 }
 
 /// Returns notes on fitted records whose signals do not have the clock of the pose.
@@ -137,7 +153,12 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
                    IdentificationResult& result) {
   std::vector<CarParameter> start;
   std::vector<CarParameter> fitted;
+  std::vector<double> values;
   for (const ParameterEstimate& estimate : result.parameters) {
+    values.push_back(estimate.value);
+    if (result.study.bank && IsBankParameter(estimate.parameter.name)) {
+      continue;
+    }
     start.push_back({.name = estimate.parameter.name, .value = estimate.start});
     std::string origin = fmt::format("estimated by {}", result.study.name);
     if (estimate.standard_error) {
@@ -151,24 +172,29 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
         {.name = estimate.parameter.name, .value = estimate.value, .origin = std::move(origin)});
   }
   result.model = WithCarParameters(model.car(), fitted);
+  result.bank = model.BankAt(values);
   if (result.interrupted) {
     return;
   }
+  const std::shared_ptr<const Terrain> terrain = result.bank ? MakeTerrain(*result.bank) : nullptr;
   const auto replay = [&](Scenario scenario, bool held_out) {
     std::vector<double>& windows = scenario.record->windows;
     if (std::find(windows.begin(), windows.end(), result.study.horizon) == windows.end()) {
       windows.push_back(result.study.horizon);
     }
-    const CarModel base = LoadCar(scenario);
-    const auto run = [&](const std::vector<CarParameter>& parameters) {
+    const auto run = [&](const Scenario& replayed, const std::vector<CarParameter>& parameters) {
+      const CarModel base = LoadCar(replayed);
       const CarModel car(WithCarParameters(base, parameters), base.file());
       const RunHooks run_hooks{.drive = [&](const std::string&) {
         return DriveHooks{.interrupted = hooks.interrupted};
       }};
-      return SimulateRun(PlanRun(scenario, car), car, run_hooks);
+      return SimulateRun(PlanRun(replayed, car), car, run_hooks);
     };
-    IdentifiedRecord record{
-        .name = scenario.name, .held_out = held_out, .start = run(start), .fitted = run(fitted)};
+    const Scenario banked = terrain ? OnGround(scenario, result.bank, terrain) : scenario;
+    IdentifiedRecord record{.name = scenario.name,
+                            .held_out = held_out,
+                            .start = run(scenario, start),
+                            .fitted = run(banked, fitted)};
     result.interrupted = result.interrupted || (hooks.interrupted && hooks.interrupted());
     if (!result.interrupted) {
       result.records.push_back(std::move(record));
@@ -288,9 +314,11 @@ const ParameterEstimate* IdentificationResult::Find(const std::string& name) con
 }
 
 void CheckIdentification(const Identification& asked) {
-  const Identification study = WithSteeringOffset(asked);
+  Identification study = WithSteeringOffset(asked);
+  const std::optional<BankModel> bank = BankOf(study);
+  study = WithBank(std::move(study), bank);
   try {
-    const ResidualModel model(study, 1);
+    const ResidualModel model(study, bank ? &*bank : nullptr, 1);
     static_cast<void>(model.CarsAt(StartValues(study, model.car())));
   } catch (const InputError& error) {
     ThrowPlaced(error, study);
@@ -302,9 +330,15 @@ IdentificationResult Identify(const Identification& asked, const IdentificationH
                    "Identify: {} parameters, {} scenarios to fit; at least one of each",
                    asked.parameters.size(), asked.fit_scenarios.size());
   const auto begun = std::chrono::steady_clock::now();
-  const Identification study = WithSteeringOffset(asked);
+  Identification study = WithSteeringOffset(asked);
+  const std::size_t count = asked.parameters.size();
+  const std::optional<std::size_t> offset =
+      study.parameters.size() > count ? std::optional(count) : std::nullopt;
+  const std::optional<BankModel> bank = BankOf(study);
+  study = WithBank(std::move(study), bank);
   IdentificationResult result{.study = study};
-  const ResidualModel model(result.study, std::max(1, hooks.threads), hooks.interrupted);
+  const ResidualModel model(result.study, bank ? &*bank : nullptr, std::max(1, hooks.threads),
+                            hooks.interrupted);
   ProgressCounter work(hooks, study.starts * study.evaluations);
   try {
     Estimator estimator(result.study, model, work);
@@ -320,9 +354,7 @@ IdentificationResult Identify(const Identification& asked, const IdentificationH
           {.parameter = study.parameters[i], .start = estimator.start()[i]});
     }
     try {
-      const std::size_t count = asked.parameters.size();
-      Estimate(estimator, model, work,
-               study.parameters.size() > count ? std::optional(count) : std::nullopt, result);
+      Estimate(estimator, model, work, offset, result);
     } catch (const Interrupted&) {
       result.interrupted = true;
       for (ParameterEstimate& estimate : result.parameters) {

@@ -7,6 +7,7 @@
 #include "trackbed/core/file_name.h"
 #include "trackbed/core/table.h"
 #include "trackbed/identify/identify.h"
+#include "trackbed/recording/banked_track.h"
 
 namespace trackbed {
 namespace {
@@ -117,6 +118,9 @@ ordered_json ToJson(const IdentificationResult& result) {
   for (const double cost : result.start_costs) {
     json["cost"]["of_starts"].push_back(OrNull(cost));
   }
+  if (result.bank) {
+    json["bank"] = {{"file", kBankCsv}, {"track_length_m", Track(result.bank->points).length()}};
+  }
   json["parameters"] = ordered_json::array();
   ordered_json names = ordered_json::array();
   for (const ParameterEstimate& estimate : result.parameters) {
@@ -180,6 +184,9 @@ void WriteIdentification(const IdentificationResult& result, const OutputFolder&
   for (const IdentifiedRecord& record : result.records) {
     writer.Add(run_folder::ResidualsCsv(record.name),
                Residuals(record, result.study.plant).ToCsv());
+  }
+  if (result.bank) {
+    writer.Add(kBankCsv, BankedTrackCsv(*result.bank));
   }
   writer.Add(run_folder::kTimingJson, JsonText(ordered_json{{"wall_s", result.wall_time}}));
   writer.Add(run_folder::kIdentifyJson, JsonText(json));

@@ -78,9 +78,9 @@ std::vector<std::vector<double>> ResidualsOf(const WindowPrediction& prediction,
 
 }  // namespace
 
-ResidualModel::ResidualModel(const Identification& study, int threads,
+ResidualModel::ResidualModel(const Identification& study, const BankModel* bank, int threads,
                              std::function<bool()> interrupted)
-    : study_(study), threads_(threads), interrupted_(std::move(interrupted)) {
+    : study_(study), bank_(bank), threads_(threads), interrupted_(std::move(interrupted)) {
   for (std::size_t i = 0; i < study.fit_scenarios.size(); ++i) {
     const Scenario& scenario = study.fit_scenarios[i];
     cars_.push_back(LoadCar(scenario));
@@ -99,22 +99,54 @@ ResidualModel::ResidualModel(const Identification& study, int threads,
   }
 }
 
-std::vector<CarModel> ResidualModel::CarsAt(std::span<const double> values) const {
+std::vector<double> ResidualModel::BankOf(std::span<const double> values) const {
+  std::vector<double> bank;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (IsBankParameter(study_.parameters[i].name)) {
+      bank.push_back(values[i]);
+    }
+  }
+  return bank;
+}
+
+std::shared_ptr<const BankedTrack> ResidualModel::BankAt(std::span<const double> values) const {
+  return bank_ == nullptr ? nullptr
+                          : std::make_shared<const BankedTrack>(bank_->At(BankOf(values)));
+}
+
+std::shared_ptr<const Terrain> ResidualModel::TerrainAt(std::span<const double> values) const {
+  return bank_ == nullptr ? nullptr : bank_->GroundAt(BankOf(values));
+}
+
+std::vector<CarModel> ResidualModel::CarsOn(const std::shared_ptr<const Terrain>& terrain,
+                                            std::span<const double> values) const {
   std::vector<CarParameter> parameters;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    parameters.push_back({.name = study_.parameters[i].name, .value = values[i]});
+    const std::string& name = study_.parameters[i].name;
+    if (bank_ == nullptr || !IsBankParameter(name)) {
+      parameters.push_back({.name = name, .value = values[i]});
+    }
   }
   std::vector<CarModel> cars;
   for (const CarModel& car : cars_) {
-    cars.emplace_back(WithCarParameters(car, parameters), car.file());
+    Scene scene = WithCarParameters(car, parameters);
+    if (terrain) {
+      scene = WithGround(scene, {.terrain = terrain});
+    }
+    cars.emplace_back(std::move(scene), car.file());
   }
   return cars;
 }
 
+std::vector<CarModel> ResidualModel::CarsAt(std::span<const double> values) const {
+  return CarsOn(TerrainAt(values), values);
+}
+
 std::vector<SignalResiduals> ResidualModel::At(std::span<const double> values) const {
   std::vector<CarModel> cars;
+  const std::shared_ptr<const Terrain> terrain = TerrainAt(values);
   try {
-    cars = CarsAt(values);
+    cars = CarsOn(terrain, values);
   } catch (const InputError&) {
     return {};
   }
@@ -137,6 +169,9 @@ std::vector<SignalResiduals> ResidualModel::At(std::span<const double> values) c
       const CarModel& car = cars[index];
       ReplayOptions options = ReplayOptionsOf(scenario);
       options.interrupted = interrupted_;
+      if (terrain) {
+        options.world.ground.terrain = terrain;
+      }
       const std::vector<WindowPrediction> predictions = PredictWindows(
           car, study_.plant, *scenario.record->data, starts, study_.horizon, options);
       if (predictions.size() < starts.size()) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "src/identify/bank_model.h"
 #include "trackbed/scenario/identification.h"
 #include "trackbed/sim/car_model.h"
 
@@ -27,7 +29,10 @@ class ResidualModel {
  public:
   /// The study must outlive the ResidualModel. Before each prediction window, each thread calls
   /// `interrupted`, which returns true if the caller asks to stop.
-  ResidualModel(const Identification& study, int threads, std::function<bool()> interrupted = {});
+  /// `bank` is the bank of the study's track, whose parameters are parameters of the study; null if
+  /// the study does not estimate it. It must outlive the ResidualModel, too.
+  ResidualModel(const Identification& study, const BankModel* bank, int threads,
+                std::function<bool()> interrupted = {});
 
   [[nodiscard]] const CarModel& car() const { return cars_.front(); }
   [[nodiscard]] std::size_t windows() const { return windows_.size(); }
@@ -39,6 +44,9 @@ class ResidualModel {
   /// Returns the car model of each fitted scenario with the given parameter values. CarsAt throws
   /// InputError if the cars cannot be compiled.
   [[nodiscard]] std::vector<CarModel> CarsAt(std::span<const double> values) const;
+  /// Returns the bank of the study's track for the given parameter values; null if the study does
+  /// not estimate it.
+  [[nodiscard]] std::shared_ptr<const BankedTrack> BankAt(std::span<const double> values) const;
 
  private:
   struct Window {
@@ -46,7 +54,15 @@ class ResidualModel {
     double start;  // [s]
   };
 
+  /// Returns the values of the parameters that are the bank.
+  [[nodiscard]] std::vector<double> BankOf(std::span<const double> values) const;
+  /// Returns the cars with the given parameter values on the given ground; null: on level ground.
+  [[nodiscard]] std::vector<CarModel> CarsOn(const std::shared_ptr<const Terrain>& terrain,
+                                             std::span<const double> values) const;
+  [[nodiscard]] std::shared_ptr<const Terrain> TerrainAt(std::span<const double> values) const;
+
   const Identification& study_;
+  const BankModel* bank_;
   int threads_;
   std::function<bool()> interrupted_;
   std::vector<CarModel> cars_;  // car model of each fitted scenario

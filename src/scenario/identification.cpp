@@ -6,12 +6,16 @@
 #include <utility>
 
 #include "src/scenario/identification_visit.h"
+#include "src/scenario/inputs.h"
 #include "src/scenario/yaml_file.h"
 #include "src/scenario/yaml_reader.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/input_files.h"
 #include "trackbed/sim/plant.h"
+#include "trackbed/sim/scene.h"
+#include "trackbed/track/track_file.h"
 
 namespace trackbed {
 namespace {
@@ -113,6 +117,38 @@ void CheckRecordNames(const Identification& study, const YAML::Node& root, Reade
   }
 }
 
+/// Reads the track of the bank. Checks that the plant knows the ground, and that no scenario has a
+/// ground.
+void ReadBank(Identification& study, const std::vector<fs::path>& assets, const YAML::Node& root,
+              ReaderContext& context) {
+  const auto add_error = [&](const std::string& key, std::string message) {
+    context.AddError(NodeAt(root, key).Mark(), key, std::move(message));
+  };
+  if (!study.plant.starts_with("mujoco")) {
+    add_error("bank", fmt::format("the plant {} ignores the ground; set plant: mujoco, or remove "
+                                  "bank",
+                                  study.plant));
+  }
+  for (const auto* scenarios : {&study.fit_scenarios, &study.held_out_scenarios}) {
+    for (const Scenario& scenario : *scenarios) {
+      if (!IsFlat(scenario.world.ground)) {
+        add_error("bank", fmt::format("{} has a ground already; remove its ground, or bank",
+                                      scenario.name));
+      }
+    }
+  }
+  if (!study.bank->track) {
+    return;
+  }
+  const fs::path folder = study.file.parent_path();
+  if (const std::string why = ReadAccessError(*study.bank->track, folder, WithOwnData(assets));
+      !why.empty()) {
+    add_error("bank.track", fmt::format("{} {}", *study.bank->track, why));
+    return;
+  }
+  study.bank->points = ReadTrackFile(folder / *study.bank->track).track.points();
+}
+
 }  // namespace
 
 Identification ReadIdentification(const fs::path& file,
@@ -135,6 +171,9 @@ Identification ReadIdentification(const fs::path& file,
       ReadRecords(study.held_out, "held_out", folder, asset_folders, first, root, context);
   context.ThrowProblems();
   CheckRecordNames(study, root, context);
+  if (study.bank) {
+    ReadBank(study, asset_folders, root, context);
+  }
   context.ThrowProblems();
   return study;
 }

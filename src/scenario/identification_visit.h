@@ -41,6 +41,17 @@ inline void Visit(KeyVisitor& a, ResidualDeviations& residuals) {
           kPositive);
 }
 
+inline void Visit(KeyVisitor& a, BankEstimation& bank) {
+  a.Field({"track", "", "track file; default: the first lap of the first fitted record"},
+          bank.track);
+  a.Field({"spacing", "m", "distance of the knots of the bank; default: an eighth of a lap"},
+          bank.spacing, kPositive);
+  a.Field({"deviation", "rad", "standard deviation of the bank before the fit, about 0"},
+          bank.deviation, Need::kOptional, kPositive);
+  a.Field({"largest", "rad", "bound of the bank to either side"}, bank.largest, Need::kOptional,
+          Range{.max = 0.7, .above = 0.0});
+}
+
 inline void Visit(KeyVisitor& a, Identification& study) {
   int schema = 1;
   a.Field({"schema", "", "version of this format"}, schema, Need::kRequired,
@@ -70,6 +81,9 @@ inline void Visit(KeyVisitor& a, Identification& study) {
   a.Field({"steering_offset", "",
            "also estimate a constant steering offset, unless it is one of the parameters"},
           study.steering_offset, Need::kOptional);
+  a.Section(
+      {"bank", "", "also estimate the bank of a closed track that all records were driven on"},
+      study.bank);
   a.Field({"starts", "", "the search begins so often: first at `start`, then at random points"},
           study.starts, Need::kOptional, Range{.min = 1.0, .max = 1000.0});
   a.Field({"evaluations", "", "of the cost, about, from each start: then the search ends"},

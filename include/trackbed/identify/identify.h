@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -29,6 +30,11 @@
 /// fixed before the others. The offset is left out if the study names it as a parameter or has 40
 /// parameters, if a record has prescribed steering, which bypasses the offset, and for vehicles
 /// without steered wheels.
+///
+/// With `bank`, the bank of the track that all records were driven on is estimated besides: the
+/// coefficients bank[0], bank[1], … of a closed spline over the station of the track, each with a
+/// normal prior distribution about 0. The search starts at 0. All records are replayed on the
+/// estimated ground (recording/banked_track.h).
 ///
 /// Standard errors are computed as for an M-estimator with windows as independent clusters (Huber
 /// 1967; White 1980). The covariance matrix is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p), where g_i is
@@ -95,6 +101,8 @@ struct IdentificationResult {
   std::vector<std::string> notes;
   /// Fitted model as XML, with comments that state the estimates and the source of each estimate.
   Scene model;
+  /// The track with the estimated bank; null if the study does not estimate the bank.
+  std::shared_ptr<const BankedTrack> bank{};
   std::vector<IdentifiedRecord> records;
   double wall_time = 0.0;  ///< Wall-clock time [s].
 

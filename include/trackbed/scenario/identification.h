@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trackbed/scenario/scenario.h"
+#include "trackbed/track/track.h"
 
 /// The input of `trackbed identify`: the parameters of a car that are estimated, and the recorded
 /// drives from which they are estimated.
@@ -52,6 +53,22 @@ enum class RobustLoss {
   kSoftL1,   ///< Loss s^2 (sqrt(1 + (r/s)^2) - 1) with s = `loss_scale`.
 };
 
+/// The bank of a closed track on which all records were driven, as a function of the station: a
+/// closed spline (track/closed_spline.h).
+struct BankEstimation {
+  /// File of the track; nullopt: the middle of the first lap of the first fitted record.
+  std::optional<std::string> track{};
+  /// Distance between two knots of the bank along the track [m]; nullopt: an eighth of a lap.
+  std::optional<double> spacing{};
+  /// Standard deviation of the bank at each knot before the fit, the deviation of a normal
+  /// distribution about 0 [rad], > 0.
+  double deviation = 0.1;
+  double largest = 0.5;  ///< Bound of the magnitude of the bank at each knot [rad], > 0.
+
+  // Center line of `track` with its widths; not a key of the study.
+  std::vector<TrackPoint> points{};
+};
+
 struct Identification {
   std::string name;
   std::string plant = "single_track";
@@ -72,6 +89,9 @@ struct Identification {
   std::vector<IdentifiedParameter> parameters;
   /// Whether a constant steering offset is estimated besides `parameters` (identify.h).
   bool steering_offset = true;
+  /// Estimates the bank of the track besides `parameters`, for the plant `mujoco`; nullopt: the
+  /// ground is that of the scenarios.
+  std::optional<BankEstimation> bank{};
   /// Number of searches: the first search begins at the parameters' `start` values, the others at
   /// random values within the bounds.
   int starts = 2;
