@@ -3,7 +3,7 @@
 // A shortest path through the graph of legs: a node is a leg between two points of the polyline, an
 // edge is the corner between two legs. The cost of an edge counts, in this order, corners that do
 // not fit on their legs, points left out, and distances of the points left out.
-#include "src/planning/common/fewer_corners.h"
+#include "trackbed/planning/common/fewer_corners.h"
 
 #include <algorithm>
 #include <array>
@@ -48,13 +48,8 @@ class SlowCorners {
     entries_.back() = {kInfinity, kInfinity};
   }
 
-  struct Entry {
-    double tangent = 0.0;  // [m]
-    double gap = 0.0;      // [m]
-  };
-
   /// Returns the entry of the next larger heading change, which needs at least as much room.
-  [[nodiscard]] const Entry& operator()(double turn) const {
+  [[nodiscard]] const CornerRoom& operator()(double turn) const {
     const double place = std::ceil(std::sqrt(turn / kPi) * kCount);
     return turn <= kStraightOn ? entries_.front()
                                : entries_[std::min(static_cast<std::size_t>(place), kCount)];
@@ -62,7 +57,7 @@ class SlowCorners {
 
  private:
   static constexpr std::size_t kCount = 300;
-  std::array<Entry, kCount + 1> entries_{};
+  std::array<CornerRoom, kCount + 1> entries_{};
 };
 
 /// Cost of a polyline up to a leg, compared from the first member to the last.
@@ -86,9 +81,8 @@ struct Leg {
 
 class CornerChoice {
  public:
-  CornerChoice(const VehicleParams& vehicle, const std::vector<Vec2>& points,
-               const CornerLimits& limits)
-      : points_(points), limits_(limits), corners_(vehicle, limits), is_waypoint_(points.size()) {
+  CornerChoice(const std::vector<Vec2>& points, const WaypointChoice& limits)
+      : points_(points), limits_(limits), is_waypoint_(points.size()) {
     constexpr double kAtWaypoint = 1e-6;  // [m]
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
       is_waypoint_[i] =
@@ -144,10 +138,10 @@ class CornerChoice {
   }
 
   [[nodiscard]] bool Fits(std::size_t from, std::size_t at, std::size_t to) const {
-    const double room =
-        std::min((points_[at] - points_[from]).norm() * (from == 0 ? 1.0 : 0.5),
-                 (points_[to] - points_[at]).norm() * (to + 1 == points_.size() ? 1.0 : 0.5));
-    const SlowCorners::Entry& corner = corners_(TurnAt(points_[from], points_[at], points_[to]));
+    const double room = std::min(
+        (points_[at] - points_[from]).norm() * (from == 0 ? limits_.end_share : 0.5),
+        (points_[to] - points_[at]).norm() * (to + 1 == points_.size() ? limits_.end_share : 0.5));
+    const CornerRoom corner = limits_.room(TurnAt(points_[from], points_[at], points_[to]));
     return corner.tangent <= room && (!is_waypoint_[at] || corner.gap <= limits_.max_gap);
   }
 
@@ -193,20 +187,26 @@ class CornerChoice {
   }
 
   const std::vector<Vec2>& points_;
-  const CornerLimits& limits_;
-  SlowCorners corners_;
+  const WaypointChoice& limits_;
   std::vector<bool> is_waypoint_;
   std::vector<std::vector<Leg>> legs_;  // by end, then by number of points from the beginning
 };
 
 }  // namespace
 
+std::vector<Vec2> LeaveOutCloseWaypoints(const std::vector<Vec2>& polyline,
+                                         const WaypointChoice& choice) {
+  return polyline.size() < 3 || choice.waypoints.size() < 2 ? polyline
+                                                            : CornerChoice(polyline, choice).Run();
+}
+
 std::vector<Vec2> LeaveOutCloseWaypoints(const VehicleParams& vehicle,
                                          const std::vector<Vec2>& polyline,
                                          const CornerLimits& limits) {
-  return polyline.size() < 3 || limits.waypoints.size() < 2
-             ? polyline
-             : CornerChoice(vehicle, polyline, limits).Run();
+  const SlowCorners corners(vehicle, limits);
+  return LeaveOutCloseWaypoints(
+      polyline,
+      {limits.waypoints, limits.max_gap, [&](double turn) -> CornerRoom { return corners(turn); }});
 }
 
 }  // namespace trackbed

@@ -3,9 +3,9 @@
 #include <optional>
 #include <utility>
 
-#include "src/planning/common/fewer_corners.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/corners.h"
+#include "trackbed/planning/common/fewer_corners.h"
 #include "trackbed/planning/common/waypoint_miss.h"
 
 // Rounds polylines that turn too sharply at a waypoint. Where waypoints are close to each other,

@@ -79,8 +79,14 @@ FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& wa
           fmt::format("neutral_steering {:.4g} rad exceeds the steering limit of {:.4g} rad",
                       options.neutral_steering, vehicle.steering_limit)};
     }
-    const Route route = fillet::MakeRoute(waypoints);
+    const Route route =
+        fillet::WithoutCloseWaypoints(vehicle, fillet::MakeRoute(waypoints), speed, options);
     plan = PlanRoute(vehicle, route, speed, options, seed);
+    for (int i = 1; i + 1 < static_cast<int>(waypoints.size()); ++i) {
+      if (std::find(route.numbers.begin(), route.numbers.end(), i) == route.numbers.end()) {
+        plan.left_out.push_back(i);
+      }
+    }
     plan.verification =
         SimulateOpenLoop(vehicle, plan.path, plan.schedule, plan.stop_distance, options.reference);
   } catch (const Refusal& refusal) {

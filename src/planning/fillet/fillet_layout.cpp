@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -16,7 +17,9 @@ namespace {
 constexpr double kNoTurn = 1e-9;
 
 void PlaceArc(const Route& route, FilletTurn& turn) {
-  const auto corner = static_cast<std::size_t>(turn.waypoint);
+  const auto corner = static_cast<std::size_t>(
+      std::find(route.numbers.begin() + 1, route.numbers.end(), turn.waypoint) -
+      route.numbers.begin());
   const Leg& in = route.legs[corner - 1];
   const Leg& out = route.legs[corner];
   const Vec2& w = route.waypoints[corner];
@@ -52,7 +55,7 @@ Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
   auto turn = turns.begin();
   for (std::size_t i = 0; i < route.legs.size(); ++i) {
     pending += route.legs[i].length;
-    const int waypoint = static_cast<int>(i) + 1;
+    const int waypoint = route.numbers[i + 1];
     if (turn == turns.end() || turn->waypoint != waypoint) {
       continue;
     }
@@ -64,7 +67,7 @@ Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
     pending = -turn->tangent_length;
     ++turn;
   }
-  straight(pending, static_cast<int>(route.legs.size()));
+  straight(pending, route.numbers.back());
   return {StartOfRoute(route.waypoints), std::move(segments)};
 }
 
@@ -87,7 +90,8 @@ Route MakeRoute(const std::vector<Vec2>& waypoints) {
         PlanStatus::kTooFewWaypoints, static_cast<int>(waypoints.size()) - 1,
         fmt::format("{} waypoints; must be at least {}", waypoints.size(), kMinFilletWaypoints)};
   }
-  Route route{waypoints, {}};
+  Route route{waypoints, {}, std::vector<int>(waypoints.size())};
+  std::iota(route.numbers.begin(), route.numbers.end(), 0);
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
     const Vec2 leg = waypoints[i + 1] - waypoints[i];
     const double length = leg.norm();
@@ -108,7 +112,7 @@ std::vector<FilletTurn> FindTurns(const Route& route) {
     const Leg& in = route.legs[i];
     const Leg& out = route.legs[i + 1];
     FilletTurn turn;
-    turn.waypoint = static_cast<int>(i) + 1;
+    turn.waypoint = route.numbers[i + 1];
     // Use atan2 instead of the arc cosine in equation C.9, because atan2 yields the sign and is
     // accurate near 0 and pi.
     turn.heading_change =

@@ -24,9 +24,25 @@ struct Leg {
 struct Route {
   std::vector<Vec2> waypoints;
   std::vector<Leg> legs;
+  std::vector<int> numbers;  ///< index in the mission of each of `waypoints`
 };
 
 Route MakeRoute(const std::vector<Vec2>& waypoints);
+
+/// Share of the car's width within which a path passes a point unnoticed.
+inline constexpr double kShareOfWidth = 0.25;
+
+/// Returns the least part of a leg that eq. (C.40) reserves for a turn at `speed`, over all radii
+/// within `bounds` [m]. The wheels are straight between turns.
+double LeastSteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
+                         RadiusInterval bounds);
+
+/// Leaves out waypoints if a turn has no room on its legs, but the remaining turns have, and if the
+/// remaining legs pass each waypoint within a quarter of the car's width and
+/// FilletOptions::max_waypoint_miss. Otherwise, returns the route itself. Start, goal and the
+/// direction of the first leg stay the same.
+Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, double speed,
+                            const FilletOptions& options);
 
 /// Returns the turns of the route, each with waypoint, angles and the length of the shorter
 /// adjacent leg.

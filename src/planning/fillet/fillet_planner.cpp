@@ -109,6 +109,21 @@ std::vector<SpeedCap> MakeSpeedCaps(const FilletPlan& plan, double speed) {
   return caps;
 }
 
+/// Says how close the path passes the waypoints that it leaves out.
+std::string DescribeLeftOut(const FilletPlan& plan, const std::vector<Vec2>& waypoints) {
+  std::vector<Vec2> left_out{waypoints.front()};
+  for (const int i : plan.left_out) {
+    left_out.push_back(waypoints[static_cast<std::size_t>(i)]);
+  }
+  const auto miss = LargestWaypointMiss(plan.path, left_out);
+  return fmt::format(
+      "{} waypoint{} without room for turns {} left out; the path passes {} at {:.3g} m",
+      plan.left_out.size(), plan.left_out.size() == 1 ? "" : "s",
+      plan.left_out.size() == 1 ? "is" : "are",
+      DescribeWaypoint(static_cast<std::size_t>(plan.left_out[miss->waypoint - 1]), miss->at),
+      miss->distance);
+}
+
 Plan PlanWith(const FilletOptions& given, const PlanRequest& request) {
   FilletOptions options = given;
   options.max_waypoint_miss = request.max_waypoint_miss.value_or(given.max_waypoint_miss);
@@ -124,6 +139,9 @@ Plan PlanWith(const FilletOptions& given, const PlanRequest& request) {
   if (!plan.ok()) {
     plan.diagnostics.planner = FilletDiagnostics{.failed_waypoint = fillets.waypoint};
     return plan;
+  }
+  if (!fillets.left_out.empty()) {
+    plan.notes.push_back(DescribeLeftOut(fillets, request.waypoints));
   }
   plan.reference.path = fillets.path;
   plan.schedule = fillets.schedule;

@@ -101,6 +101,13 @@ std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double int
 }
 
 namespace fillet {
+
+double LeastSteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
+                         RadiusInterval bounds) {
+  const double radius = RoomiestRadius(vehicle, speed, interior_angle, 0.0, bounds);
+  return SteeringRoom(vehicle, speed, interior_angle, 0.0, 0.0, radius);
+}
+
 namespace {
 
 /// Returns the argument `neutral` of SteeringRoomRadii: the neutral steering angle [rad], positive
@@ -136,16 +143,23 @@ std::string DescribeMiss(double max_miss, const FilletTurn& turn, double radius)
 }
 
 /// Returns the radii that equation C.40 permits. If equation C.40 permits no radius at the
-/// mission's speed, lowers the speed of the turn. Returns none if only equation C.34 is to limit
+/// mission's speed, first raises the upper bound to the radius that leaves most room, at most to
+/// `largest`, and then lowers the speed of the turn. Returns none if only equation C.34 is to limit
 /// the radius.
 std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle, double speed,
-                                                    const FilletOptions& options,
-                                                    const RadiusInterval& bounds,
-                                                    FilletTurn& turn) {
+                                                    const FilletOptions& options, double largest,
+                                                    RadiusInterval& bounds, FilletTurn& turn) {
   const auto room_at = [&](double v) {
     return SteeringRoomRadii(vehicle, v, turn.interior_angle, turn.shorter_leg, bounds,
                              NeutralTowardTurn(turn));
   };
+  if (auto room = room_at(speed)) {
+    return room;
+  }
+  // The steering ramp of a gentle turn may be too long for its leg because the radius is too small.
+  bounds.high = std::max(
+      bounds.high, RoomiestRadius(vehicle, speed, turn.interior_angle, NeutralTowardTurn(turn),
+                                  {bounds.low, std::max(bounds.low, largest)}));
   if (auto room = room_at(speed)) {
     return room;
   }
@@ -190,7 +204,6 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
 /// arc by S^2/(24 r). The permitted displacement is a quarter of the car's width.
 double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double speed,
                   double radius) {
-  constexpr double kShareOfWidth = 0.25;
   const double travel = SteeringForCurvature(vehicle, 1.0 / radius) - NeutralTowardTurn(turn);
   return std::abs(SteeringDistance(vehicle, travel, speed)) -
          std::sqrt(24.0 * radius * kShareOfWidth * vehicle.width);
@@ -253,7 +266,7 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
     throw Refusal{PlanStatus::kWaypointMissed, turn.waypoint,
                   DescribeMiss(options.max_waypoint_miss, turn, smallest)};
   }
-  const RadiusInterval bounds =
+  RadiusInterval bounds =
       options.radius ? RadiusInterval{*options.radius, *options.radius}
                      : RadiusInterval{r_min, std::min(near, std::max(r_min, options.max_radius))};
   if (options.radius && options.constraint == RadiusConstraint::kNone) {
@@ -270,7 +283,8 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
   RadiusLimits limits{*half_leg, ActiveConstraint::kMinRadius, ActiveConstraint::kHalfLeg,
                       RadiusConstraint::kHalfLeg};
   if (options.constraint == RadiusConstraint::kSteeringRoom) {
-    auto room = RadiiWithSteeringRoom(vehicle, speed, options, bounds, turn);
+    auto room =
+        RadiiWithSteeringRoom(vehicle, speed, options, options.radius.value_or(near), bounds, turn);
     if (room) {
       room = SlowDownForRamp(vehicle, options, bounds, *room, turn);
       limits = {
@@ -283,8 +297,9 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
     limits.radii = bounds;
     limits.at_low = limits.at_high = ActiveConstraint::kGiven;
   } else if (limits.radii.high >= bounds.high) {
-    limits.at_high =
-        near < options.max_radius ? ActiveConstraint::kWaypointMiss : ActiveConstraint::kMaxRadius;
+    limits.at_high = near <= bounds.high                ? ActiveConstraint::kWaypointMiss
+                     : bounds.high > options.max_radius ? ActiveConstraint::kSteeringRoom
+                                                        : ActiveConstraint::kMaxRadius;
   }
   return limits;
 }

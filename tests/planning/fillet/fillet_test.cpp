@@ -607,6 +607,11 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
     ++planned;
     EXPECT_EQ(plan.waypoint, -1);
     EXPECT_EQ(plan.reason, "");
+    if (!plan.left_out.empty()) {
+      EXPECT_LE(plan.turns.size(), route.size() - 2 - plan.left_out.size());
+      ExpectContinuous(plan.path);
+      continue;  // the turns have other legs
+    }
     ASSERT_EQ(plan.turns.size(), route.size() - 2);
     ExpectFilletIdentities(route, plan);
     ExpectContinuous(plan.path);

@@ -97,7 +97,8 @@ struct FilletOptions {
   /// radius L/tan(d_0) between turns.
   double neutral_steering = 0.0;
   /// Upper bound of the radii that the search considers [m]. The default of 154 m is taken from
-  /// listing F.1 and corresponds to a steering angle of one degree.
+  /// listing F.1 and corresponds to a steering angle of one degree. The radius is larger at a turn
+  /// of less than a degree for which only a larger radius meets eq. (C.40).
   double max_radius = 154.0;
   InfeasibleTurnPolicy without_room = InfeasibleTurnPolicy::kSlowDown;
   double min_speed = 0.5;  ///< Lowest speed of the car in a turn [m/s].
@@ -181,6 +182,8 @@ struct FilletPlan {
   int waypoint = -1;
   std::string reason;  ///< Reason why planning failed; empty if ok.
   std::vector<FilletTurn> turns;
+  /// Indices of waypoints that the route leaves out, because a turn there has no room.
+  std::vector<int> left_out;
   Path path;
   SteeringSchedule schedule;
   /// Driven distance D_end at which the car stops [m]; unless optimized, the path's length.
@@ -226,7 +229,9 @@ inline constexpr std::size_t kMinFilletWaypoints = 2;
 
 /// Plans a path along a route of N >= 2 waypoints. The car drives at `speed` [m/s], and more slowly
 /// in turns that require a lower speed. A waypoint at which the route continues straight is no
-/// turn. The argument `seed` initializes the random numbers of the search.
+/// turn. If a turn has no room, the route leaves out waypoints that it then passes within a quarter
+/// of the car's width and FilletOptions::max_waypoint_miss, provided that all turns then have room.
+/// The argument `seed` initializes the random numbers of the search.
 ///
 /// Guarantees: the path is continuous in position and heading to 1e-9, starts at the first waypoint
 /// along the first leg and ends at the last waypoint. Every radius meets the constraint of its

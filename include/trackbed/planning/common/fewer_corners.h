@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "trackbed/planning/common/corners.h"
+
+namespace trackbed {
+
+/// Room that the curve of a corner needs.
+struct CornerRoom {
+  double tangent = 0.0;  ///< Length of each leg that the curve replaces [m].
+  double gap = 0.0;      ///< Distance of the curve from the corner [m].
+};
+
+/// Conditions under which LeaveOutCloseWaypoints keeps a corner or leaves out a waypoint.
+struct WaypointChoice {
+  std::vector<Vec2> waypoints;  ///< The mission's waypoints, beginning with the start [m].
+  double max_gap = 0.0;         ///< Largest distance of the polyline from each waypoint [m].
+  /// Returns the least room of a corner with a heading change, positive and at most pi [rad].
+  std::function<CornerRoom(double)> room;
+  /// Share of the first and of the last leg that a corner may use; half of each other leg.
+  double end_share = 1.0;
+};
+
+/// Leaves out waypoints that are too close to each other for the curves of their corners. The first
+/// and last point and the direction of the first leg stay the same. A point may be left out if it
+/// is a waypoint within `max_gap` of the leg that replaces it or of the first leg, or if it lies on
+/// the leg that replaces it. Of all
+/// such polylines, returns the one with the fewest corners that the car cannot drive at
+/// `min_speed`; then the one with the most points; then the one that is nearest to the points left
+/// out. Cost: O(n w^2) for n points, of which at most w = 50 are left out in a row.
+std::vector<Vec2> LeaveOutCloseWaypoints(const VehicleParams& vehicle,
+                                         const std::vector<Vec2>& polyline,
+                                         const CornerLimits& limits);
+
+/// Same, for corners of any shape: a corner counts as drivable if `choice.room` says so.
+std::vector<Vec2> LeaveOutCloseWaypoints(const std::vector<Vec2>& polyline,
+                                         const WaypointChoice& choice);
+
+}  // namespace trackbed

@@ -1,0 +1,169 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tests/geometry/random.h"
+#include "tests/planning/routes.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/fillet/fillet.h"
+
+// Waypoints that lie nearly on a line, at any distance from each other: as closely as a turn
+// permits, and closer.
+namespace trackbed {
+namespace nearly_straight_test {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// Distance per speed and steering angle that the reference car drives while its wheels turn [s].
+constexpr double kPerRadian = 17.6 / 2.65;
+constexpr double kAxles = 2.7;  // wheelbase [m]
+
+/// Returns the part of each leg that a turn needs at a speed: the least r tan(h/2) + S over a dense
+/// scan of radii r [m], with the ramp S = v/omega_delta atan(L/r).
+double ScannedRoom(double heading_change, double speed) {
+  double least = std::numeric_limits<double>::infinity();
+  constexpr int kRadii = 2000;
+  for (int i = 0; i <= kRadii; ++i) {
+    const double radius = 5.1 * std::pow(1e7, static_cast<double>(i) / kRadii);
+    least = std::min(least, radius * std::tan(0.5 * heading_change) +
+                                speed * kPerRadian * std::atan(kAxles / radius));
+  }
+  return least;
+}
+
+/// Returns a route of two legs of a length [m] with a turn [rad] between them.
+std::vector<Vec2> TwoLegs(double leg, double heading_change) {
+  return {{0.0, 0.0},
+          {leg, 0.0},
+          {leg + leg * std::cos(heading_change), leg * std::sin(heading_change)}};
+}
+
+// For large radii, r h/2 + v k L/r is least at r = sqrt(2 v k L/h), where both parts are equal,
+// with k = 1/omega_delta. The sum equals half of the leg q at the speed v = q^2/(8 k L h). The
+// error of atan(L/r) = L/r is at most (L/r)^2/3 = 3e-6 for r > 900 m.
+TEST(NearlyStraight, TakesALargerRadiusWhereARampNeedsIt) {
+  constexpr double kLeg = 0.04;   // [m]
+  constexpr double kTurn = 2e-5;  // [rad]
+  const FilletPlan plan = PlanFillets(ReferenceCar(), TwoLegs(kLeg, kTurn), 3.0, {});
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  ASSERT_EQ(plan.turns.size(), 1U);
+  EXPECT_THAT(plan.left_out, IsEmpty());
+  const double speed = kLeg * kLeg / (8.0 * kPerRadian * kAxles * kTurn);
+  EXPECT_NEAR(plan.turns[0].speed, speed, Tolerance(1e-5));
+  const double radius = std::sqrt(2.0 * speed * kPerRadian * kAxles / kTurn);
+  EXPECT_GT(radius, 900.0);
+  EXPECT_NEAR(plan.turns[0].radius, radius, Tolerance(1e-4 * radius));
+  EXPECT_EQ(plan.turns[0].active, ActiveConstraint::kSteeringRoom);
+}
+
+// A turn of 1e-6 rad on legs of 4 cm has room at the mission's speed with a radius of 10 km.
+TEST(NearlyStraight, KeepsItsSpeedWhereALargerRadiusHasRoom) {
+  const FilletPlan plan = PlanFillets(ReferenceCar(), TwoLegs(0.04, 1e-6), 3.0, {});
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  EXPECT_EQ(plan.turns.at(0).speed, 3.0);
+  EXPECT_GT(plan.turns.at(0).radius, 154.0);
+}
+
+// Points every 5 cm, of which one is 1 mm beside the line: the turns of 0.02 and 0.04 rad need 5.1
+// tan(0.02) = 0.1 m of legs, which have 0.025 m.
+TEST(NearlyStraight, LeavesOutAPointBesideTheLine) {
+  std::vector<Vec2> route;
+  for (int i = 0; i < 40; ++i) {
+    route.emplace_back(0.05 * i, i == 20 ? 0.001 : 0.0);
+  }
+  const FilletPlan plan = PlanFillets(ReferenceCar(), route, 3.0, {});
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  EXPECT_THAT(plan.left_out, ElementsAre(20));
+  EXPECT_THAT(plan.turns, IsEmpty());
+  EXPECT_NEAR(plan.path.length(), 0.05 * 39, Tolerance(1e-12));
+  FilletOptions exact;
+  exact.max_waypoint_miss = 0.0005;
+  EXPECT_EQ(PlanFillets(ReferenceCar(), route, 3.0, exact).status, PlanStatus::kTurnTooTight);
+}
+
+TEST(NearlyStraight, KeepsPointsFarBesideTheLine) {
+  // The second turn has no room, and no route without its waypoint passes it within a quarter of
+  // the car's width.
+  const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {50, 60}};
+  const FilletPlan plan = PlanFillets(ReferenceCar(), route, 3.0, {});
+  EXPECT_EQ(plan.status, PlanStatus::kTurnTooTight);
+  EXPECT_EQ(plan.waypoint, 2);
+}
+
+/// Points on a line at any distances, rounded to a digit.
+std::vector<Vec2> RoundedLine(Random& random, double digit) {
+  const double heading = random.Uniform(-kPi, kPi);
+  const double spacing = std::pow(10.0, random.Uniform(-3.0, 3.0));
+  const int count = 3 + static_cast<int>(random.Below(6));
+  std::vector<Vec2> route;
+  double s = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const Vec2 at(std::round(s * std::cos(heading) / digit) * digit,
+                  std::round(s * std::sin(heading) / digit) * digit);
+    if (route.empty() || at != route.back()) {
+      route.push_back(at);
+    }
+    s += spacing * (random.Below(2) == 0 ? random.Uniform(0.8, 1.2)
+                                         : std::pow(10.0, random.Uniform(-1.0, 1.0)));
+  }
+  return route;
+}
+
+/// Whether a single turn fits that begins in the direction of the first leg, halfway to the goal.
+bool FitsOneTurn(const std::vector<Vec2>& route) {
+  const Vec2 first = (route[1] - route[0]).normalized();
+  const Vec2 corner = route[0] + 0.5 * (route.back() - route[0]).norm() * first;
+  const Vec2 out = route.back() - corner;
+  const double turn =
+      std::abs(std::atan2(first.x() * out.y() - first.y() * out.x(), first.dot(out)));
+  const double room = 0.5 * std::min((corner - route[0]).norm(), out.norm());
+  // The path may have to turn up to four times as sharply, on legs half as long, because it tries
+  // lengths of the first leg that differ by a factor of two.
+  return ScannedRoom(4.0 * turn, 0.25) < 0.25 * room;
+}
+
+TEST(NearlyStraight, IsPlannedAtAnyDistanceOfThePoints) {
+  Random random(20261126);
+  int planned = 0;
+  int left_out = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const double digit = std::pow(10.0, random.Uniform(-6.0, -1.0));
+    const std::vector<Vec2> route = RoundedLine(random, digit);
+    if (route.size() < 2 || (route.back() - route.front()).norm() < 20.0 * digit) {
+      continue;
+    }
+    const FilletPlan plan =
+        PlanFillets(ReferenceCar(), route, random.Below(2) == 0 ? 3.0 : 0.5, {});
+    if (plan.status != PlanStatus::kOk) {
+      EXPECT_FALSE(FitsOneTurn(route)) << "trial " << trial << ": " << plan.reason;
+      continue;
+    }
+    ++planned;
+    left_out += plan.left_out.empty() ? 0 : 1;
+    double wide = 0.0;  // largest distance of an arc from its corner [m]
+    for (const FilletTurn& turn : plan.turns) {
+      wide = std::max(wide, turn.radius * (1.0 / std::cos(0.5 * turn.heading_change) - 1.0));
+    }
+    for (const Vec2& at : route) {
+      const double s = plan.path.Project({at.x(), at.y(), 0.0}, {0.0, plan.path.length()}).s;
+      EXPECT_LT((plan.path.At(s).pose.position() - at).norm(),
+                0.25 * ReferenceCar().width + wide + 1e-9)
+          << "trial " << trial;
+    }
+    const Vec2 end = plan.path.At(plan.path.length()).pose.position();
+    // The path is accurate to 1e-9 m at 100 m, and routes are at most 70 km long.
+    EXPECT_LT((end - route.back()).norm(), 1e-9 + 1e-11 * plan.path.length()) << "trial " << trial;
+  }
+  EXPECT_GT(planned, 2000);
+  EXPECT_GT(left_out, 100);
+}
+
+}  // namespace nearly_straight_test
+}  // namespace trackbed
