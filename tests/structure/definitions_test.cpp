@@ -20,7 +20,7 @@ const fs::path kRoot = TRACKBED_SOURCE_DIR;
 
 /// Headers that declare functions of several sources of their folder, such as the verbs, the plants
 /// and the path formats. Other headers must not be added: split the header instead.
-constexpr std::array<std::string_view, 56> kOfSeveralSources{
+constexpr std::array<std::string_view, 55> kOfSeveralSources{
     "include/trackbed/analysis/metric_registry.h",
     "include/trackbed/analysis/metric_value.h",
     "include/trackbed/analysis/metrics.h",
@@ -36,7 +36,6 @@ constexpr std::array<std::string_view, 56> kOfSeveralSources{
     "include/trackbed/identify/identify.h",
     "include/trackbed/path_files/globe.h",
     "include/trackbed/path_files/path_file.h",
-    "include/trackbed/planning/avoidance/avoidance_options.h",
     "include/trackbed/planning/common/corners.h",
     "include/trackbed/planning/fillet/fillet.h",
     "include/trackbed/planning/frenet/frenet_options.h",

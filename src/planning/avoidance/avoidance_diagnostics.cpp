@@ -1,4 +1,4 @@
-#include "trackbed/planning/avoidance/avoidance.h"
+#include "trackbed/planning/avoidance/avoidance_diagnostics.h"
 
 namespace trackbed {
 namespace {

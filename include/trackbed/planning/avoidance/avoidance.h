@@ -1,20 +1,15 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <variant>
 #include <vector>
 
 #include "trackbed/geometry/oriented_box.h"
-#include "trackbed/optimize/search.h"
+#include "trackbed/planning/avoidance/avoidance_diagnostics.h"
 #include "trackbed/planning/avoidance/avoidance_options.h"
 #include "trackbed/planning/avoidance/turn_maneuver.h"
 #include "trackbed/planning/common/feasibility.h"
-#include "trackbed/planning/common/plan_diagnostics.h"
 #include "trackbed/planning/common/planner.h"
-#include "trackbed/planning/sampling/rrt_star.h"
 #include "trackbed/vehicle/params.h"
 
 /// Local planners, which reroute an existing plan around the obstacles that are in its way. The
@@ -29,45 +24,6 @@
 /// obstacle in a turn, the car leaves its path at most the distance S before the turn, and returns
 /// to the path at most the distance S after the turn.
 namespace trackbed {
-
-/// Result of the safety check in the original code listing (condition Salyga_2), kept for
-/// comparison. The check measures the distance from the obstacle's corners to a single point of the
-/// path, two meters before the obstacle.
-struct OnePointCheck {
-  double distance = 0.0;  ///< Distance from the checked point to the obstacle's nearest corner [m].
-  /// Whether `distance` is at least the safe distance SD plus half the car's width.
-  bool passed = false;
-};
-void Visit(DiagnosticsVisitor& out, const OnePointCheck& check);
-
-/// Diagnostics of the local planner `bezier` for one replaced stretch of the path, stored in
-/// AvoidedStretch::method.
-struct BezierAvoidanceDiagnostics {
-  int curves_tried = 0;
-  RrtStarStatus tree_status = RrtStarStatus::kNotReached;
-  int tree_iterations = 0;
-  std::size_t tree_nodes = 0;
-  double tree_cost = 0.0;       ///< Cost of the path that the RRT* tree found, if any [m].
-  std::vector<Vec2> tree_path;  ///< Points of the path that the RRT* tree found, if any [m].
-  std::string search_method;
-  int search_evaluations = 0;
-  double search_objective = 0.0;
-  OnePointCheck one_point_check;
-};
-void Visit(DiagnosticsVisitor& out, const BezierAvoidanceDiagnostics& own);
-
-/// Diagnostics of the local planner `listing` for one replaced stretch of the path, stored in
-/// AvoidedStretch::method.
-struct ListingAvoidanceDiagnostics {
-  /// Position of the obstacle on the turn's arc as the method assumes it, in sixths of the arc.
-  int obstacle_sixth = 0;
-  std::size_t tree_nodes = 0;
-  /// Distance from the goal to the nearest node of the search tree [m].
-  double goal_distance = 0.0;
-  double final_y = 0.0;  ///< Coordinate y of the search tree's final node [m], see turn_maneuver.h.
-  OnePointCheck one_point_check;
-};
-void Visit(DiagnosticsVisitor& out, const ListingAvoidanceDiagnostics& own);
 
 struct AvoiderEntry {
   const char* name;
