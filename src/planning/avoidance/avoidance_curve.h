@@ -1,16 +1,13 @@
 #pragma once
 
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "trackbed/geometry/oriented_box.h"
-#include "trackbed/optimize/search.h"
 #include "trackbed/path/bezier.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/vehicle/params.h"
 
-/// Functions that fit, check and change a curve past obstacles.
+/// Functions that fit a curve past obstacles to a polyline, and check a curve.
 namespace trackbed::avoidance {
 
 /// Coordinate frame in which the tree search and the curve are computed. The origin is the curve's
@@ -91,21 +88,12 @@ CurveCheck Check(const CurveProblem& problem, const BezierCurve& curve);
 /// length.
 BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline);
 
-struct Repair {
-  BezierCurve curve;
-  CurveCheck check;
-  SearchResult search;
-};
+/// Returns the y coordinate at which the line between two points on either side of the y axis
+/// crosses the axis.
+double CrossingY(const Vec2& a, const Vec2& b);
 
 /// Returns whether a polyline passes an obstacle on the required side, which means that it crosses
 /// the lateral axis of the obstacle's frame on this side an odd number of times.
 bool GoesThrough(const PassageConstraint& passage, const std::vector<Vec2>& polyline);
-
-/// Minimizes the integral of (dkappa/ds)^2 ds along a curve, starting at the curve `guess`. The
-/// variables are the positions of the control points P_3 and P_4 and the end lengths. The repaired
-/// curve passes on the required side and keeps the safe distance and the limits. Returns none if
-/// the search finds no feasible curve.
-std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve& guess,
-                                  const SearchOptions& search, std::uint64_t seed);
 
 }  // namespace trackbed::avoidance

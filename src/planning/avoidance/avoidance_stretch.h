@@ -5,6 +5,7 @@
 #include <string>
 
 #include "src/planning/avoidance/avoidance_curve.h"
+#include "src/planning/avoidance/curve_repair.h"
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/plan.h"
 
