@@ -20,7 +20,7 @@ const fs::path kRoot = TRACKBED_SOURCE_DIR;
 
 /// Headers that declare functions of several sources of their folder, such as the verbs, the plants
 /// and the path formats. Other headers must not be added: split the header instead.
-constexpr std::array<std::string_view, 55> kOfSeveralSources{
+constexpr std::array<std::string_view, 53> kOfSeveralSources{
     "include/trackbed/analysis/metric_registry.h",
     "include/trackbed/analysis/metric_value.h",
     "include/trackbed/analysis/metrics.h",
@@ -41,8 +41,6 @@ constexpr std::array<std::string_view, 55> kOfSeveralSources{
     "include/trackbed/planning/frenet/frenet_options.h",
     "include/trackbed/planning/grid/hybrid_astar.h",
     "include/trackbed/planning/replan/along_route.h",
-    "include/trackbed/planning/replan/replan.h",
-    "include/trackbed/planning/replan/replan_options.h",
     "include/trackbed/planning/sampling/rrt_planner.h",
     "include/trackbed/render/film.h",
     "include/trackbed/report/live.h",

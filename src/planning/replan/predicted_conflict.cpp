@@ -1,8 +1,10 @@
+#include "trackbed/planning/replan/predicted_conflict.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "trackbed/planning/common/collision_checker.h"
-#include "trackbed/planning/replan/replan.h"
+#include "trackbed/planning/replan/detour.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed {

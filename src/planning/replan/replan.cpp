@@ -1,13 +1,11 @@
 #include "trackbed/planning/replan/replan.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "src/planning/replan/stop_planner.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
-#include "trackbed/planning/common/course_schedule.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/plan_stretch.h"
@@ -33,18 +31,6 @@ constexpr double kLastMeters = 1.0;
 constexpr double kBackOffset = 0.02;     // Largest distance from the route [m].
 constexpr double kBackHeading = 0.005;   // Largest difference of the heading [rad].
 constexpr double kBackSteering = 0.002;  // Largest difference of the steering angle [rad].
-/// Length below which a path is replaced by an empty path [m].
-constexpr double kMinPathLength = 1e-3;
-/// Distance before the place of a conflict at which a braking car stops [m].
-constexpr double kBrakeRoom = 0.5;
-
-bool Stands(const MovingBox& box) {
-  return box.velocity.norm() < kStandstillSpeed;
-}
-
-std::string Place(const OrientedBox& box) {
-  return fmt::format("({:.4g}, {:.4g})", box.center.x, box.center.y);
-}
 
 /// Converts a motion to a plan.
 Plan ToPlan(const VehicleParams& vehicle, const std::vector<TrajectoryPoint>& points,
@@ -67,7 +53,10 @@ Plan ToPlan(const VehicleParams& vehicle, const std::vector<TrajectoryPoint>& po
 class Replanning {
  public:
   Replanning(const ReplanRequest& request, const Driving& driving, const ReplanOptions& options)
-      : request_(request), driving_(driving), options_(options) {}
+      : request_(request),
+        driving_(driving),
+        options_(options),
+        stops_(request, driving, options) {}
 
   Replanned Run() {
     auto conflict = NextConflict(driving_.plan.reference, driving_.station);
@@ -159,8 +148,9 @@ class Replanning {
   /// of the planned speed.
   [[nodiscard]] std::optional<PredictedConflict> AheadOfTheCar() const {
     const double speed = request_.car.speed;
-    const Plan plan = StopAfter(
-        std::max(LeftToDrive(), 0.0) + 0.5 * speed * speed / ComfortableBraking(), speed, true);
+    const Plan plan = stops_.StopAfter(
+        std::max(LeftToDrive(), 0.0) + 0.5 * speed * speed / stops_.ComfortableBraking(), speed,
+        true);
     std::optional<PredictedConflict> conflict = NextConflict(plan.reference, 0.0);
     if (conflict) {
       conflict->station += driving_.station;
@@ -337,118 +327,28 @@ class Replanning {
     return found;
   }
 
-  /// Plans a stop along the driven plan before the place of the conflict. The car brakes
-  /// comfortably if possible, otherwise as hard as necessary, up to its limit.
+  /// Stops along the driven plan before the place of the conflict, even if the road's grip is too
+  /// low for the braking force.
   Replanned Brake(const PredictedConflict& conflict) {
-    const MovingBox& obstacle = request_.obstacles[conflict.obstacle];
-    const double speed = std::max(Start().speed, request_.car.speed);
-    const double room = conflict.station - driving_.station - kBrakeRoom;
-    const double braking = Stands(obstacle) ? BrakingWithin(room, speed) : BrakingFor(speed);
-    const double shortest = speed * speed / (2.0 * braking);
-    const bool comfortable = braking <= ComfortableBraking();
-    // For a static obstacle, brake as late as comfortable braking allows. For a moving obstacle,
-    // brake at once, because the obstacle may come closer.
-    const double way = Stands(obstacle) && comfortable ? std::max(shortest, room) : shortest;
-    if (way < kMinPathLength && LeftToDrive() < kMinPathLength) {
-      return Keep();  // the car is already at the end of the plan
-    }
-    Plan stop = StopAfter(way, speed, comfortable);
-    if (!Stands(obstacle) && !DelaysConflict(stop, conflict)) {
+    std::optional<BrakingPlan> stop =
+        stops_.StopBefore(conflict, std::max(Start().speed, request_.car.speed));
+    if (!stop) {
       return Keep();
     }
-    stop.goal = driving_.route.goal;
-    stop.blocked =
-        fmt::format("stops before the obstacle at {}: no path around it", Place(obstacle.box));
     diagnostics_.kind = "brake";
-    diagnostics_.deceleration = braking;
-    stop.diagnostics.replan = diagnostics_;
-    FeasiblePlan held = Held(stop, request_.road.infeasible, braking);
-    if (!held.ok()) {  // brake even if the road's grip is too low for the braking force
-      held = Held(stop, InfeasiblePolicy::kAllow, braking);
+    diagnostics_.deceleration = stop->deceleration;
+    stop->plan.diagnostics.replan = diagnostics_;
+    FeasiblePlan held = Held(stop->plan, request_.road.infeasible, stop->deceleration);
+    if (!held.ok()) {
+      held = Held(std::move(stop->plan), InfeasiblePolicy::kAllow, stop->deceleration);
     }
     return {ReplanKind::kStop, std::move(held)};
-  }
-
-  /// Returns whether the next conflict of `plan` is not earlier than `conflict`, because braking
-  /// can cause an earlier collision from behind.
-  [[nodiscard]] bool DelaysConflict(const Plan& plan, const PredictedConflict& conflict) const {
-    const auto braked = NextConflict(plan.reference, 0.0);
-    return !braked || braked->time >= conflict.time;
-  }
-
-  /// Returns the largest deceleration that the car can achieve [m/s^2]; on ice, it is less than the
-  /// comfortable deceleration and replaces it.
-  [[nodiscard]] double HardestBraking() const {
-    return request_.max_deceleration > 0.0 ? request_.max_deceleration
-                                           : request_.speed.deceleration;
-  }
-
-  [[nodiscard]] double ComfortableBraking() const {
-    return std::min(request_.speed.deceleration, HardestBraking());
-  }
-
-  /// Returns the deceleration that stops the car from `speed` within `room` [m], clamped to the
-  /// range between the comfortable and the largest deceleration.
-  [[nodiscard]] double BrakingWithin(double room, double speed) const {
-    const double needed = 0.5 * speed * speed / std::max(room, kMinPathLength);
-    return std::min(std::max(needed, ComfortableBraking()), HardestBraking());
-  }
-
-  /// Returns the smallest deceleration with which the car hits no known obstacle, moving obstacles
-  /// included; if a collision is unavoidable, returns the largest deceleration.
-  [[nodiscard]] double BrakingFor(double speed) const {
-    const double hardest = HardestBraking();
-    constexpr int kSteps = 8;
-    for (int i = 0; i < kSteps; ++i) {
-      const double braking =
-          std::lerp(ComfortableBraking(), hardest, static_cast<double>(i) / kSteps);
-      const Plan plan = StopAfter(0.5 * speed * speed / braking, speed, i == 0);
-      if (!NextConflict(plan.reference, 0.0)) {
-        return braking;
-      }
-    }
-    return hardest;
-  }
-
-  /// Makes a plan that stops the car from `speed` over the distance `way` along the driven plan. A
-  /// comfortable stop is at the end of the driven plan if this end is nearer than `way`.
-  [[nodiscard]] Plan StopAfter(double way, double speed, bool comfortable) const {
-    const Path& path = driving_.plan.reference.path;
-    const double from = driving_.station;
-    const double shortest = 0.5 * speed * speed / ComfortableBraking();
-    double to = from + way;
-    if (comfortable && to > path.length()) {
-      to = std::max(path.length(), from + shortest);
-    }
-    Plan plan;
-    plan.reference.path =
-        Path(path.At(from).pose, to - from < kMinPathLength ? std::vector<Segment>{}
-                                                            : SegmentsBetween(path, {from, to}));
-    const Path& own = plan.reference.path;
-    // A plan with hard braking needs no speed caps, because the car already slows down as fast as
-    // it can.
-    plan.caps =
-        comfortable ? Moved(CapsOf(driving_.plan), {from, to}, -from) : std::vector<SpeedCap>{};
-    SpeedLimits limits = request_.speed;
-    limits.deceleration = ComfortableBraking();
-    plan.reference.speed = StopAtEnd(own.length(), speed, limits, plan.caps);
-    // For a sampled motion, use the steering angles at the samples, because the path's curvature
-    // between samples may change faster than the wheels can turn.
-    plan.sampled = driving_.plan.sampled;
-    plan.schedule =
-        plan.sampled && own.length() > 0.0
-            ? SteeringSchedule::Through(SteeringBetween(driving_.plan.schedule, {from, to}))
-        : own.length() > 0.0 ? CourseSchedule(request_.vehicle, own.segments(),
-                                              std::max(request_.speed.speed, speed), plan.caps)
-                             : SteeringSchedule::Constant(
-                                   SteeringForCurvature(request_.vehicle, path.At(from).curvature));
-    plan.schedule_speed = plan.reference.speed;
-    return plan;
   }
 
   const ReplanRequest& request_;
   const Driving& driving_;
   const ReplanOptions& options_;
+  StopPlanner stops_;
   ReplanDiagnostics diagnostics_;
 };
 

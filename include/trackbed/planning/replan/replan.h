@@ -8,6 +8,7 @@
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/replan/along_route.h"
 #include "trackbed/planning/replan/detour.h"
+#include "trackbed/planning/replan/predicted_conflict.h"
 #include "trackbed/planning/replan/replan_options.h"
 
 /// Replans during a run, with the obstacles known so far. The new plan is a motion along the route
@@ -78,34 +79,6 @@ struct Replanned {
   /// ReplanDiagnostics (PlanDiagnostics::replan). The new plan is empty if the old plan is kept.
   FeasiblePlan plan;
 };
-
-/// The first conflict on a plan: time and place at which the car, following the plan, will come too
-/// close to a known obstacle.
-struct PredictedConflict {
-  double time = 0.0;     ///< Time from now until the conflict [s].
-  double station = 0.0;  ///< Station of the car on the plan at the conflict [m].
-  std::size_t obstacle = 0;
-};
-
-/// Predicts the first conflict with an obstacle for a car that drives the plan from `station` on,
-/// at the planned speeds and `offset` [m] to the left of the plan. The function tests for a
-/// conflict every 0.1 s, and then finds the start of the conflict to 0.1 ms by bisection. Returns
-/// nullopt if there is no conflict within the time `look_ahead` [s].
-std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
-                                                 const Reference& reference, double station,
-                                                 const std::vector<MovingBox>& obstacles,
-                                                 double distance, double look_ahead,
-                                                 double offset = 0.0);
-
-/// Returns whether an obstacle stands in a turn, that is, whether the path beyond `station` is
-/// curved at a place where the car is closer to the obstacle than `distance` [m].
-bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station,
-                  const OrientedBox& obstacle, double distance);
-
-/// Returns whether waiting may clear the path, that is, whether a moving obstacle is closer than
-/// `distance` [m] to the next 30 m of the path now or within a minute.
-bool MightClear(const VehicleParams& vehicle, const Path& path, double station,
-                const std::vector<MovingBox>& obstacles, double distance);
 
 /// Replans at the present moment of a run. Keeps the current plan if this plan is clear of
 /// obstacles and leads to the goal. Otherwise, uses the first available option in this order: the

@@ -1,10 +1,12 @@
+#include "trackbed/planning/replan/replan_options.h"
+
 #include <cmath>
 #include <limits>
 
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/registry/planners.h"
-#include "trackbed/planning/replan/replan.h"
+#include "trackbed/planning/replan/along_route.h"
 
 /// Option keys of `plan.replan`, which configure replanning while the car drives.
 namespace trackbed {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "trackbed/geometry/oriented_box.h"
+#include "trackbed/path/path.h"
+#include "trackbed/path/reference.h"
+#include "trackbed/vehicle/params.h"
+
+/// Predicts conflicts of a plan with obstacles that stand or move at constant velocity.
+namespace trackbed {
+
+/// The first conflict on a plan: time and place at which the car, following the plan, will come too
+/// close to a known obstacle.
+struct PredictedConflict {
+  double time = 0.0;     ///< Time from now until the conflict [s].
+  double station = 0.0;  ///< Station of the car on the plan at the conflict [m].
+  std::size_t obstacle = 0;
+};
+
+/// Predicts the first conflict with an obstacle for a car that drives the plan from `station` on,
+/// at the planned speeds and `offset` [m] to the left of the plan. The function tests for a
+/// conflict every 0.1 s, and then finds the start of the conflict to 0.1 ms by bisection. Returns
+/// nullopt if there is no conflict within the time `look_ahead` [s].
+std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
+                                                 const Reference& reference, double station,
+                                                 const std::vector<MovingBox>& obstacles,
+                                                 double distance, double look_ahead,
+                                                 double offset = 0.0);
+
+/// Returns whether an obstacle stands in a turn, that is, whether the path beyond `station` is
+/// curved at a place where the car is closer to the obstacle than `distance` [m].
+bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station,
+                  const OrientedBox& obstacle, double distance);
+
+/// Returns whether waiting may clear the path, that is, whether a moving obstacle is closer than
+/// `distance` [m] to the next 30 m of the path now or within a minute.
+bool MightClear(const VehicleParams& vehicle, const Path& path, double station,
+                const std::vector<MovingBox>& obstacles, double distance);
+
+}  // namespace trackbed
