@@ -8,6 +8,7 @@
 #include "src/scenario/study_visit.h"
 #include "src/scenario/variation_reader.h"
 #include "src/scenario/yaml_file.h"
+#include "src/scenario/yaml_value.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
@@ -94,7 +95,7 @@ class StudyReader {
     if (!node.IsSequence() || node.size() == 0) {
       AddError(node, section,
                fmt::format("expected a list of points, found {}",
-                           node.IsSequence() ? "an empty one" : YamlReader::Describe(node)));
+                           node.IsSequence() ? "an empty one" : DescribeValue(node)));
       return;
     }
     for (std::size_t i = 0; i < node.size(); ++i) {
@@ -103,23 +104,22 @@ class StudyReader {
   }
 
   void ReadDerived(const YAML::Node& node, const std::string& section, Study& study) {
-    ForEachKey(
-        context_, node, section,
-        [&](const YAML::Node& key, const YAML::Node& value, const std::string& dotted) {
-          if (!value.IsScalar() || value.Scalar().empty()) {
-            AddError(value, dotted,
-                     fmt::format("expected a formula, found {}", YamlReader::Describe(value)));
-            return;
-          }
-          study.derive.push_back(
-              {key.Scalar(), value.Scalar(), value.Mark().line + 1, value.Mark().column + 1});
-        });
+    ForEachKey(context_, node, section,
+               [&](const YAML::Node& key, const YAML::Node& value, const std::string& dotted) {
+                 if (!value.IsScalar() || value.Scalar().empty()) {
+                   AddError(value, dotted,
+                            fmt::format("expected a formula, found {}", DescribeValue(value)));
+                   return;
+                 }
+                 study.derive.push_back({key.Scalar(), value.Scalar(), value.Mark().line + 1,
+                                         value.Mark().column + 1});
+               });
   }
 
   void ReadOutputs(const YAML::Node& node, const std::string& section, Study& study) {
     if (!node.IsSequence()) {
       AddError(node, section,
-               fmt::format("expected a list of names, found {}", YamlReader::Describe(node)));
+               fmt::format("expected a list of names, found {}", DescribeValue(node)));
       return;
     }
     for (std::size_t i = 0; i < node.size(); ++i) {
@@ -129,7 +129,7 @@ class StudyReader {
         return other.path == item.Scalar();
       };
       if (!item.IsScalar() || item.Scalar().empty()) {
-        AddError(item, key, fmt::format("expected a name, found {}", YamlReader::Describe(item)));
+        AddError(item, key, fmt::format("expected a name, found {}", DescribeValue(item)));
       } else if (std::any_of(study.outputs.begin(), study.outputs.end(), is_same_path)) {
         AddError(item, key, fmt::format("'{}' is listed twice", item.Scalar()));
       } else {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/scenario/study_visit.h"
+#include "src/scenario/yaml_value.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
@@ -252,7 +253,7 @@ class VariationReader {
     if (!node.IsSequence() || node.size() == 0) {
       AddError(node, dotted,
                fmt::format("expected a list of values, or {{from, to, steps}}, found {}",
-                           node.IsSequence() ? "an empty list" : YamlReader::Describe(node)));
+                           node.IsSequence() ? "an empty list" : DescribeValue(node)));
       return values;
     }
     for (const auto& value : node) {
@@ -295,7 +296,7 @@ void ForEachKey(ReaderContext& context, const YAML::Node& node, const std::strin
   if (!node.IsMap() || node.size() == 0) {
     context.AddError(node.Mark(), section,
                      fmt::format("expected a section of scenario keys, found {}",
-                                 node.IsMap() ? "an empty one" : YamlReader::Describe(node)));
+                                 node.IsMap() ? "an empty one" : DescribeValue(node)));
     return;
   }
   std::vector<std::string> seen;

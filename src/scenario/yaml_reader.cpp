@@ -4,52 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "src/scenario/car_lengths.h"
-#include "trackbed/core/angle.h"
-#include "trackbed/core/classic_locale.h"
+#include "src/scenario/yaml_value.h"
 #include "trackbed/core/file_name.h"
 #include "trackbed/core/spelling.h"
 
 // Implements a KeyVisitor that reads a YAML mapping. Each call of Field reads one key of the
 // mapping and checks type, range and allowed names. Each problem is reported with the key's
-// position in the file and a hint. A value in quotes is always a text, never a number. Finish
-// reports duplicate keys and unknown keys, and suggests the most similar valid key. If a key is
-// misspelled, Finish marks the intended key as unread, so that the missing value causes no
-// follow-up errors.
+// position in the file and a hint. Finish reports duplicate keys and unknown keys, and suggests the
+// most similar valid key. If a key is misspelled, Finish marks the intended key as unread, so that
+// the missing value causes no follow-up errors.
 namespace trackbed {
-namespace {
-
-bool IsQuoted(const YAML::Node& node) {
-  return node.IsScalar() && node.Tag() == "!";
-}
-
-/// Reads a value of type T. A quoted value is text, even if it looks like a number.
-template <typename T>
-bool Decode(const YAML::Node& node, T& value) {
-  const ClassicLocale locale;  // yaml-cpp uses the global locale to parse numbers
-  return node.IsScalar() && !IsQuoted(node) && YAML::convert<T>::decode(node, value);
-}
-
-std::string Numbers(std::size_t count) {
-  return count == 0 ? "an empty list"
-                    : fmt::format("{} {}", count, count == 1 ? "number" : "numbers");
-}
-
-/// Returns whether the value is a number that is too large for a double.
-bool IsTooLarge(const YAML::Node& node) {
-  if (!node.IsScalar() || IsQuoted(node)) {
-    return false;
-  }
-  const ClassicLocale locale;
-  char* end = nullptr;
-  const std::string& text = node.Scalar();
-  const double number = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isinf(number);
-}
-
-}  // namespace
 
 YamlReader::YamlReader(ReaderContext& context, const YAML::Node& node, std::string key)
     : context_(context), node_(node), key_(std::move(key)) {}
@@ -62,27 +28,6 @@ void YamlReader::AddError(const YAML::Node& node, const std::string& dotted, std
   // If the value is missing, use the position of the key, because yaml-cpp reports the position of
   // the next token for a missing value.
   context_.AddError(node.IsNull() ? last_key_mark_ : node.Mark(), dotted, std::move(message));
-}
-
-std::string YamlReader::Describe(const YAML::Node& node) {
-  switch (node.Type()) {
-    case YAML::NodeType::Map:
-      return "a section";
-    case YAML::NodeType::Sequence:
-      return "a list";
-    case YAML::NodeType::Scalar:
-      return IsQuoted(node) ? fmt::format("the text \"{}\"", node.Scalar())
-                            : fmt::format("'{}'", node.Scalar());
-    default:
-      return "nothing";
-  }
-}
-
-template <typename T>
-std::string YamlReader::DescribeNo(const YAML::Node& node) {
-  T value{};
-  const bool is_one = IsQuoted(node) && YAML::convert<T>::decode(node, value);
-  return Describe(node) + (is_one ? "; write it without quotes" : "");
 }
 
 std::optional<YAML::Node> YamlReader::Take(const char* key, Need need) {
@@ -123,7 +68,8 @@ void YamlReader::VisitList(const Key& key, std::size_t,
     return;
   }
   if (!node->IsSequence()) {
-    AddError(*node, Dotted(key.name), fmt::format("expected a list, found {}", Describe(*node)));
+    AddError(*node, Dotted(key.name),
+             fmt::format("expected a list, found {}", DescribeValue(*node)));
     return;
   }
   resize(node->size());
@@ -167,7 +113,7 @@ bool YamlReader::HasAny(const char* key, const Names& inner) const {
 bool YamlReader::CheckMap(const YAML::Node& node, const std::string& dotted) {
   if (!node.IsMap()) {
     AddError(node, dotted,
-             fmt::format("expected a section of 'key: value', found {}", Describe(node)));
+             fmt::format("expected a section of 'key: value', found {}", DescribeValue(node)));
     return false;
   }
   return true;
@@ -175,35 +121,11 @@ bool YamlReader::CheckMap(const YAML::Node& node, const std::string& dotted) {
 
 bool YamlReader::ReadNumber(const YAML::Node& node, const std::string& dotted, Range range,
                             double& value) {
-  double number = 0.0;
-  const bool is_number = Decode(node, number);
-  if (range.min == range.max && (!is_number || number != range.min)) {
-    AddError(node, dotted,
-             fmt::format("must be {}, found {}", range.min,
-                         is_number ? fmt::format("{}", number) : DescribeNo<double>(node)));
-    return false;
+  const std::string problem = ParseNumber(node, range, value);
+  if (!problem.empty()) {
+    AddError(node, dotted, problem);
   }
-  if (!is_number && IsTooLarge(node)) {
-    const std::string allowed = AllowedBy(range);
-    AddError(node, dotted,
-             fmt::format("{} is out of range; must be {}", node.Scalar(),
-                         allowed.empty() ? "representable as a double" : allowed));
-    return false;
-  }
-  if (!is_number) {
-    AddError(node, dotted, fmt::format("expected a number, found {}", DescribeNo<double>(node)));
-    return false;
-  }
-  if (!std::isfinite(number)) {
-    AddError(node, dotted, fmt::format("expected a finite number, found {}", Describe(node)));
-    return false;
-  }
-  if (number < range.min || number > range.max || number <= range.above) {
-    AddError(node, dotted, fmt::format("{} is out of range; must be {}", number, AllowedBy(range)));
-    return false;
-  }
-  value = range.is_direction ? WrapAngle(number) : number;
-  return true;
+  return problem.empty();
 }
 
 double YamlReader::DefaultOf(const Key& key, Range range, double value) const {
@@ -240,7 +162,8 @@ void YamlReader::Field(const Key& key, std::optional<double>& value, Range range
 
 bool YamlReader::ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value) {
   if (!Decode(node, value)) {
-    AddError(node, dotted, fmt::format("expected true or false, found {}", DescribeNo<bool>(node)));
+    AddError(node, dotted,
+             fmt::format("expected true or false, found {}", DescribeWrong<bool>(node)));
     return false;
   }
   return true;
@@ -279,10 +202,10 @@ void YamlReader::Field(const Key& key, std::uint64_t& value, Need need) {
   if (const auto node = Take(key.name, need)) {
     // Reject a minus sign, because a C++ stream converts -1 to the largest unsigned number.
     if (node->Scalar().starts_with('-') || !Decode(*node, value)) {
-      AddError(
-          *node, Dotted(key.name),
-          fmt::format("expected a whole number from 0 to {}, found {}",
-                      std::numeric_limits<std::uint64_t>::max(), DescribeNo<std::uint64_t>(*node)));
+      AddError(*node, Dotted(key.name),
+               fmt::format("expected a whole number from 0 to {}, found {}",
+                           std::numeric_limits<std::uint64_t>::max(),
+                           DescribeWrong<std::uint64_t>(*node)));
     }
   }
 }
@@ -293,7 +216,8 @@ void YamlReader::Field(const Key& key, std::string& value, Need need, const Name
     return;
   }
   if (!node->IsScalar() || node->Scalar().empty()) {
-    AddError(*node, Dotted(key.name), fmt::format("expected a name, found {}", Describe(*node)));
+    AddError(*node, Dotted(key.name),
+             fmt::format("expected a name, found {}", DescribeValue(*node)));
     return;
   }
   if (!allowed.empty() &&
@@ -336,7 +260,7 @@ void YamlReader::Field(const Key& key, std::vector<std::string>& value, Need nee
   if (!node->IsSequence() || node->size() == 0) {
     AddError(*node, Dotted(key.name),
              fmt::format("expected a list of names, found {}",
-                         node->IsSequence() ? "an empty one" : Describe(*node)));
+                         node->IsSequence() ? "an empty one" : DescribeValue(*node)));
     return;
   }
   Names names;
@@ -344,7 +268,7 @@ void YamlReader::Field(const Key& key, std::vector<std::string>& value, Need nee
     const YAML::Node item = (*node)[i];
     const std::string dotted = fmt::format("{}[{}]", Dotted(key.name), i);
     if (!item.IsScalar()) {
-      AddError(item, dotted, fmt::format("expected a name, found {}", Describe(item)));
+      AddError(item, dotted, fmt::format("expected a name, found {}", DescribeValue(item)));
     } else if (!allowed.empty() &&
                std::find(allowed.begin(), allowed.end(), item.Scalar()) == allowed.end()) {
       AddError(item, dotted, "unknown " + UnknownName(item.Scalar(), allowed));
@@ -365,7 +289,7 @@ void YamlReader::Field(const Key& key, std::vector<Vec2>& value, Need need,
   }
   if (!node->IsSequence()) {
     AddError(*node, Dotted(key.name),
-             fmt::format("expected a list of {}, found {}", shape.many, Describe(*node)));
+             fmt::format("expected a list of {}, found {}", shape.many, DescribeValue(*node)));
     return;
   }
   value.clear();
@@ -375,7 +299,7 @@ void YamlReader::Field(const Key& key, std::vector<Vec2>& value, Need need,
     if (!item.IsSequence() || item.size() != 2) {
       AddError(item, dotted,
                fmt::format("expected {}, found {}", shape.one,
-                           item.IsSequence() ? Numbers(item.size()) : Describe(item)));
+                           item.IsSequence() ? CountNumbers(item.size()) : DescribeValue(item)));
       continue;
     }
     Vec2 point = Vec2::Zero();
@@ -393,7 +317,7 @@ void YamlReader::Field(const Key& key, std::vector<double>& value, Need need, Ra
   }
   if (!node->IsSequence()) {
     AddError(*node, Dotted(key.name),
-             fmt::format("expected a list of numbers, found {}", Describe(*node)));
+             fmt::format("expected a list of numbers, found {}", DescribeValue(*node)));
     return;
   }
   value.clear();
@@ -414,7 +338,7 @@ void YamlReader::Pair(const Key& key, int& first, int& second, Range range) {
   if (!node->IsSequence() || node->size() != 2) {
     AddError(*node, Dotted(key.name),
              fmt::format("expected two whole numbers, found {}",
-                         node->IsSequence() ? Numbers(node->size()) : Describe(*node)));
+                         node->IsSequence() ? CountNumbers(node->size()) : DescribeValue(*node)));
     return;
   }
   for (std::size_t i = 0; i < 2; ++i) {

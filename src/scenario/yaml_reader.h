@@ -58,9 +58,6 @@ class YamlReader final : public KeyVisitor {
 
   void Finish();
 
-  /// Describes a node for error messages, for example as "a section", "a list" or "'word'".
-  static std::string Describe(const YAML::Node& node);
-
  protected:
   bool VisitSection(const Key& key, Need need, bool present, const Inside& inside) override;
   void VisitList(const Key& key, std::size_t size,
@@ -78,10 +75,6 @@ class YamlReader final : public KeyVisitor {
   bool ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value);
   bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);
   void AddError(const YAML::Node& node, const std::string& dotted, std::string message);
-  /// Describes a value that is not of type T, for error messages. If the value would be of type T
-  /// without its quotes, the description suggests removing the quotes.
-  template <typename T>
-  static std::string DescribeNo(const YAML::Node& node);
 
   ReaderContext& context_;
   YAML::Node node_;

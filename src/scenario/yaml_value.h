@@ -1,0 +1,46 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cstddef>
+#include <string>
+
+#include "trackbed/core/classic_locale.h"
+#include "trackbed/options/key_visitor.h"
+
+/// Reads single values of YAML files, and describes them for error messages. A value in quotes is
+/// always a text, never a number.
+namespace trackbed {
+
+/// Returns whether a value is in quotes.
+bool IsQuoted(const YAML::Node& node);
+
+/// Reads a value of type T. Returns false if the value has another type. A quoted value is text,
+/// even if it looks like a number.
+template <typename T>
+bool Decode(const YAML::Node& node, T& value) {
+  const ClassicLocale locale;  // yaml-cpp uses the global locale to parse numbers
+  return node.IsScalar() && !IsQuoted(node) && YAML::convert<T>::decode(node, value);
+}
+
+/// Describes a node for error messages, for example as "a section", "a list" or "'word'".
+std::string DescribeValue(const YAML::Node& node);
+
+/// Describes a value that is not of type T, for error messages. If the value would be of type T
+/// without its quotes, the description suggests removing the quotes.
+template <typename T>
+std::string DescribeWrong(const YAML::Node& node) {
+  T value{};
+  const bool is_one = IsQuoted(node) && YAML::convert<T>::decode(node, value);
+  return DescribeValue(node) + (is_one ? "; write it without quotes" : "");
+}
+
+/// Returns a number of numbers as text: "an empty list", "1 number", "3 numbers".
+std::string CountNumbers(std::size_t count);
+
+/// Reads a finite number within the range. Returns "", or the problem of the value; `value` then
+/// stays unchanged.
+std::string ParseNumber(const YAML::Node& node, Range range, double& value);
+
+}  // namespace trackbed
