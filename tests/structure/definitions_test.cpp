@@ -20,7 +20,7 @@ const fs::path kRoot = TRACKBED_SOURCE_DIR;
 
 /// Headers that declare functions of several sources of their folder, such as the verbs, the plants
 /// and the path formats. Other headers must not be added: split the header instead.
-constexpr std::array<std::string_view, 53> kOfSeveralSources{
+constexpr std::array<std::string_view, 50> kOfSeveralSources{
     "include/trackbed/analysis/metric_registry.h",
     "include/trackbed/analysis/metric_value.h",
     "include/trackbed/analysis/metrics.h",
@@ -38,7 +38,6 @@ constexpr std::array<std::string_view, 53> kOfSeveralSources{
     "include/trackbed/path_files/path_file.h",
     "include/trackbed/planning/common/corners.h",
     "include/trackbed/planning/fillet/fillet.h",
-    "include/trackbed/planning/frenet/frenet_options.h",
     "include/trackbed/planning/grid/hybrid_astar.h",
     "include/trackbed/planning/replan/along_route.h",
     "include/trackbed/planning/sampling/rrt_planner.h",
@@ -63,8 +62,6 @@ constexpr std::array<std::string_view, 53> kOfSeveralSources{
     "src/optimize/ipopt/ipopt.h",
     "src/path_files/formats.h",
     "src/planning/fillet/fillet_layout.h",
-    "src/planning/frenet/frenet_keys.h",
-    "src/planning/frenet/frenet_pieces.h",
     "src/planning/grid/pose_search.h",
     "src/road_network/road_reader.h",
     "src/scenario/diagnostics.h",

@@ -7,7 +7,6 @@
 #include <numeric>
 #include <optional>
 
-#include "src/planning/frenet/frenet_keys.h"
 #include "src/planning/frenet/frenet_pieces.h"
 #include "src/planning/frenet/trajectory_check.h"
 #include "trackbed/core/error.h"
@@ -21,9 +20,6 @@
 
 namespace trackbed {
 namespace {
-
-// Distance below which a motion gets no lateral polynomial d(s) [m].
-constexpr double kShort = 0.05;
 
 /// Returns the polynomials s(t) that reach the longitudinal targets at the end of one duration.
 std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOptions& options,
@@ -66,28 +62,6 @@ bool IsOverStation(const FrenetPiece& piece, const FrenetOptions& options) {
 }
 
 }  // namespace
-
-LineMotion LongitudinalMotion(const FrenetState& state) {
-  return {state.s, state.s_rate, state.s_acceleration};
-}
-
-bool AddOverStation(const FrenetState& start, double offset, FrenetPiece& piece) {
-  const double way = piece.s.At(piece.duration) - start.s;
-  piece.over_station = true;
-  if (!(way > -kShort)) {
-    return false;
-  }
-  piece.d = way < kShort
-                ? Polynomial{{start.d, start.d_slope, 0.5 * start.d_bend}}
-                : QuinticBetween({start.d, start.d_slope, start.d_bend}, {offset, 0.0, 0.0}, way);
-  return true;
-}
-
-void AddOverTime(const FrenetState& start, double offset, FrenetPiece& piece) {
-  piece.over_station = false;
-  piece.d = QuinticBetween({start.d, start.d_rate(), start.d_acceleration()}, {offset, 0.0, 0.0},
-                           piece.duration);
-}
 
 FrenetTarget TargetAt(const FrenetGoal& goal, const VehicleParams& vehicle, double time) {
   if (const auto* keep = std::get_if<KeepSpeed>(&goal)) {
@@ -197,19 +171,6 @@ std::string RejectionCounts::ToString() const {
   return text;
 }
 
-std::string ExplainFailure(const FrenetPlan& plan, const char* of_what, int budget) {
-  if (plan.candidates == 0) {
-    return fmt::format("there are no {}", of_what);
-  }
-  if (plan.checked >= budget && plan.checked < plan.candidates) {
-    return fmt::format("none of the first {} of {} {} is feasible{}{}", plan.checked,
-                       plan.candidates, of_what, plan.checked > 0 ? ": " : "",
-                       plan.rejected.ToString());
-  }
-  return fmt::format("none of {} {} is feasible: {}", plan.candidates, of_what,
-                     plan.rejected.ToString());
-}
-
 FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
                       const FrenetOptions& options) {
   CheckRequest(request, options.limits, options.weights);
@@ -261,64 +222,6 @@ FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
   }
   plan.reason = ExplainFailure(plan, "candidates", options.budget);
   return plan;
-}
-
-void Visit(KeyVisitor& keys, FrenetWeights& weights) {
-  keys.Field({"k_dj", "s^5/m^2", "weight of the lateral jerk"}, weights.k_dj, Need::kOptional,
-             kNonNegative);
-  keys.Field({"k_d", "1/m^2", "weight of the final lateral offset"}, weights.k_d, Need::kOptional,
-             kNonNegative);
-  keys.Field({"k_dt", "1/s", "weight of the time, lateral"}, weights.k_dt, Need::kOptional,
-             kNonNegative);
-  keys.Field({"k_sj", "s^5/m^2", "weight of the longitudinal jerk"}, weights.k_sj, Need::kOptional,
-             kNonNegative);
-  keys.Field({"k_s", "1/m^2", "weight of the final station error"}, weights.k_s, Need::kOptional,
-             kNonNegative);
-  keys.Field({"k_v", "s^2/m^2", "weight of the final speed error"}, weights.k_v, Need::kOptional,
-             kNonNegative);
-  keys.Field({"k_st", "1/s", "weight of the time, longitudinal"}, weights.k_st, Need::kOptional,
-             kNonNegative);
-  keys.Field({"k_lat", "", "weight of the lateral cost"}, weights.k_lat, Need::kOptional,
-             kNonNegative);
-  keys.Field({"k_lon", "", "weight of the longitudinal cost"}, weights.k_lon, Need::kOptional,
-             kNonNegative);
-  keys.Field({"derivative_order", "",
-              "derivative in the cost integrals: 3 jerk (Werling et al. 2010), 2 acceleration"},
-             weights.derivative_order, Need::kOptional, Range{.min = 2, .max = 3});
-}
-
-void VisitLimits(KeyVisitor& keys, FrenetLimits& limits) {
-  keys.Field({"max_lateral_acceleration", "m/s^2", "maximum lateral acceleration"},
-             limits.max_lateral_acceleration, Need::kOptional, kPositive);
-  keys.Field({"max_steering_rate_fraction", "",
-              "maximum fraction of the car's steering rate that a motion may use"},
-             limits.max_steering_rate_fraction, Need::kOptional, Range{.max = 1.0, .above = 0.0});
-  keys.Field({"speed_tolerance", "", "fraction by which a motion may exceed the mission speed"},
-             limits.speed_tolerance, Need::kOptional, Range{.min = 0.0, .max = 1.0});
-}
-
-void Visit(KeyVisitor& keys, FrenetOptions& options) {
-  keys.Field({"end_times", "s", "candidate durations"}, options.end_times, Need::kOptional,
-             Range{.max = 60.0, .above = 0.0});
-  keys.Field(kEndOffsets, options.end_offsets, Need::kOptional, kOffsetRange);
-  keys.Field(kSpeedFactors, options.speed_factors, Need::kOptional, kFactorRange);
-  keys.Field({"station_offsets", "m", "candidate station offsets when stopping or following"},
-             options.station_offsets, Need::kOptional, kOffsetRange);
-  keys.Field(
-      {"horizon", "s", "time until which a motion, extrapolated past its end, must stay clear"},
-      options.horizon, Need::kOptional, Range{.min = 0.0, .max = 60.0});
-  static const EnumNames<LateralMotion> laterals{{LateralMotion::kAuto, "auto"},
-                                                 {LateralMotion::kOverTime, "over_time"},
-                                                 {LateralMotion::kOverStation, "over_station"}};
-  keys.Field({"lateral", "",
-              "lateral motion as a function of time, of station, or of station at low speed"},
-             options.lateral, Need::kOptional, laterals);
-  keys.Field({"low_speed", "m/s", "speed below which 'auto' uses the station"}, options.low_speed,
-             Need::kOptional, kNonNegative);
-  VisitLimits(keys, options.limits);
-  keys.Section({"weights", "", "weights of the cost"}, options.weights);
-  keys.Field({"budget", "", "maximum number of motions checked"}, options.budget, Need::kOptional,
-             Range{.min = 0, .max = 1e9});
 }
 
 }  // namespace trackbed

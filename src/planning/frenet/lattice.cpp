@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "src/planning/frenet/frenet_keys.h"
 #include "src/planning/frenet/frenet_pieces.h"
 #include "src/planning/frenet/trajectory_check.h"
 #include "trackbed/core/error.h"
@@ -255,19 +254,6 @@ FrenetPlan PlanLattice(const Path& reference, const FrenetRequest& request,
   TRACKBED_CHECK(options.layers >= 0 && options.spacing > 0.0, "{} layers {} m apart",
                  options.layers, options.spacing);
   return Lattice(reference, request, options).Search();
-}
-
-void Visit(KeyVisitor& keys, LatticeOptions& options) {
-  keys.Field({"layers", "", "number of layers"}, options.layers, Need::kOptional,
-             Range{.min = 1, .max = 100});
-  keys.Field({"spacing", "m", "distance between layers"}, options.spacing, Need::kOptional,
-             kPositive);
-  keys.Field(kEndOffsets, options.end_offsets, Need::kOptional, kOffsetRange);
-  keys.Field(kSpeedFactors, options.speed_factors, Need::kOptional, kFactorRange);
-  VisitLimits(keys, options.limits);
-  keys.Section({"weights", "", "weights of the cost"}, options.weights);
-  keys.Field({"budget", "", "maximum number of edges checked"}, options.budget, Need::kOptional,
-             Range{.min = 0, .max = 1e9});
 }
 
 }  // namespace trackbed
