@@ -316,26 +316,6 @@ std::vector<Metric> ListMetrics(const PlantComparison& comparison) {
   return all;
 }
 
-std::optional<MetricInfo> DescribeComparisonMetric(std::string_view path) {
-  const std::size_t dot = path.find('.');
-  const std::string_view what = dot == std::string_view::npos ? "" : path.substr(dot + 1);
-  for (const ComparedQuantity& quantity : ComparedQuantities()) {
-    if (path.substr(0, dot) != quantity.key) {
-      continue;
-    }
-    const bool headline = quantity.difference == &PlantComparison::position;
-    return what == "max"   ? std::optional(MetricInfo{quantity.max_label, quantity.unit, headline})
-           : what == "rms" ? std::optional(MetricInfo{quantity.rms_label, quantity.unit})
-           : what == "max_s" ? std::optional(MetricInfo{"… at station", "m"})
-           : what == "max_t" ? std::optional(MetricInfo{"… at", "s"})
-                             : std::nullopt;
-  }
-  return path == "from_s"     ? std::optional(MetricInfo{"Compared from station", "m"})
-         : path == "to_s"     ? std::optional(MetricInfo{"… to station", "m"})
-         : path == "compared" ? std::optional(MetricInfo{"Compared", ""})
-                              : std::nullopt;
-}
-
 nlohmann::ordered_json ToJson(const PlantComparison& comparison) {
   nlohmann::ordered_json json{{"plants", {comparison.first, comparison.second}}};
   for (const Metric& metric : ListMetrics(comparison)) {

@@ -4,26 +4,18 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
-#include <nlohmann/json.hpp>
-#include <set>
 
 #include "src/analysis/metric_table.h"
 #include "trackbed/analysis/requirement_metrics.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/text_table.h"
-#include "trackbed/planning/registry/planners.h"
 
 // Registry of metrics. Each built-in metric (metric_table.cpp) and each registered metric has one
 // entry. ListMetrics lists the metrics of a run with their paths in metrics.json. ListMetrics
 // returns first the metrics that have an entry, then the metrics of the sections maneuver,
 // turns[N], laps[N], windows[N] and requirements. DescribeMetric returns the label and the unit of
-// the metric at a path. AllMetrics sets every metric that a run of a scenario can have to a dummy
-// value, so that the paths of metrics can be checked before the run.
+// the metric at a path.
 namespace trackbed {
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr const char* kManeuver = "maneuver";
 constexpr const char* kTurns = "turns";
@@ -155,26 +147,6 @@ std::optional<MetricInfo> DescribeRequirementMetric(std::string_view path) {
 
 }  // namespace
 
-ordered_json ToJson(const MetricValue& value) {
-  return std::visit(
-      [](const auto& own) -> ordered_json {
-        if constexpr (std::is_same_v<std::decay_t<decltype(own)>, std::monostate>) {
-          return nullptr;
-        } else {
-          return own;
-        }
-      },
-      value);
-}
-
-std::string ToText(const MetricValue& value) {
-  if (const auto* number = std::get_if<double>(&value)) {
-    return ShortestText(*number);
-  }
-  const auto* text = std::get_if<std::string>(&value);
-  return text != nullptr ? *text : ToJson(value).dump();
-}
-
 const std::vector<MetricEntry>& Metrics() {
   return Registry();
 }
@@ -275,97 +247,24 @@ std::optional<MetricInfo> DescribeMetric(std::string_view path) {
   return std::nullopt;
 }
 
-void PutMetric(const Metric& metric, ordered_json& json) {
-  std::string pointer = "/";
-  for (const char c : metric.path) {
-    if (c != ']') {
-      pointer += c == '.' || c == '[' ? '/' : c;
+std::optional<MetricInfo> DescribeComparisonMetric(std::string_view path) {
+  const std::size_t dot = path.find('.');
+  const std::string_view what = dot == std::string_view::npos ? "" : path.substr(dot + 1);
+  for (const ComparedQuantity& quantity : ComparedQuantities()) {
+    if (path.substr(0, dot) != quantity.key) {
+      continue;
     }
+    const bool headline = quantity.difference == &PlantComparison::position;
+    return what == "max"   ? std::optional(MetricInfo{quantity.max_label, quantity.unit, headline})
+           : what == "rms" ? std::optional(MetricInfo{quantity.rms_label, quantity.unit})
+           : what == "max_s" ? std::optional(MetricInfo{"… at station", "m"})
+           : what == "max_t" ? std::optional(MetricInfo{"… at", "s"})
+                             : std::nullopt;
   }
-  json[ordered_json::json_pointer(pointer)] = ToJson(metric.value);
-}
-
-ordered_json ToJson(const PlantMetrics& metrics) {
-  ordered_json json;
-  for (const Metric& metric : ListMetrics(metrics)) {
-    PutMetric(metric, json);
-  }
-  return json;
-}
-
-PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
-  PlantMetrics metrics;
-  metrics.plant = plant;
-  metrics.yaw_rate_ratio = 1.0;
-  metrics.steering_activity = 0.0;
-  if (scenario.plan) {
-    metrics.oscillation.emplace();
-    metrics.tracking.emplace().overspeed_max = 0.0;
-    constexpr double kAnyTime = std::numeric_limits<double>::infinity();
-    if (DisturbedUntil(scenario.disturb, scenario.world.wind, kAnyTime)) {
-      metrics.recovery.emplace();
-    }
-    metrics.blocked = scenario.plan->avoid ? "why" : "";
-    metrics.partial = MayBePartial(scenario.plan->global) ? "why" : "";
-    if (scenario.mission.waypoints.size() > 1) {
-      metrics.waypoint_miss.emplace();
-    }
-    // The path turns at most once at each waypoint between the first and the last waypoint.
-    metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);
-  }
-  if (HasObstacles(scenario.world)) {
-    metrics.clearance.emplace();
-  }
-  if (scenario.maneuver) {
-    metrics.maneuver = AllMetrics(*scenario.maneuver);
-  }
-  if (scenario.record) {
-    metrics.recorded.emplace();
-    metrics.windows.resize(scenario.record->windows.size());
-  }
-  std::set<std::string> requirements;
-  const auto require = [&](const PlantExpectation& expect) {
-    for (const RequirementExpectation& own : expect.requirements) {
-      if (requirements.insert(own.name).second) {
-        metrics.requirements.push_back({.name = own.name, .robustness = 0.0});
-      }
-    }
-  };
-  require(scenario.expect.all);
-  for (const auto& [name, own] : scenario.expect.plants) {
-    if (plant.empty() || name == plant) {
-      require(own);
-    }
-  }
-  if (scenario.mission.track) {
-    metrics.laps.resize(static_cast<std::size_t>(scenario.mission.track->laps));
-  }
-  const AidOptions aids = scenario.vehicle.aids.value_or(AidOptions{});
-  for (const MetricEntry& entry : Metrics()) {
-    // Metrics of track limits exist only for runs on a track, metrics of road limits only for
-    // routes over lanes, metrics of driver aids only for cars with these aids, and metrics of
-    // trailers only for cars with a trailer.
-    const bool of_track = entry.path.starts_with("track_limits.");
-    const bool of_road = entry.path.starts_with("road_limits.");
-    const bool of_abs = entry.path.starts_with("aids.abs_");
-    const bool of_esc = entry.path.starts_with("aids.esc_");
-    const bool of_trailer =
-        entry.path.starts_with("hitch_") || entry.path.starts_with("off_tracking.");
-    if (entry.measure && (!of_track || scenario.mission.track) &&
-        (!of_road || !scenario.mission.route.empty()) && (!of_abs || aids.abs) &&
-        (!of_esc || aids.esc) && (!of_trailer || scenario.vehicle.trailer)) {
-      metrics.measured.emplace_back(entry.path, MetricReading{0.0, {}});
-    }
-  }
-  return metrics;
-}
-
-std::vector<std::string> PossibleMetrics(const Scenario& scenario) {
-  std::vector<std::string> paths;
-  for (const Metric& metric : ListMetrics(AllMetrics(scenario, ""))) {
-    paths.push_back(metric.path);
-  }
-  return paths;
+  return path == "from_s"     ? std::optional(MetricInfo{"Compared from station", "m"})
+         : path == "to_s"     ? std::optional(MetricInfo{"… to station", "m"})
+         : path == "compared" ? std::optional(MetricInfo{"Compared", ""})
+                              : std::nullopt;
 }
 
 }  // namespace trackbed

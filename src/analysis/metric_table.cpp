@@ -1,6 +1,10 @@
 #include "src/analysis/metric_table.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "src/analysis/aid_metrics.h"
 #include "src/analysis/predicted_time.h"
@@ -8,8 +12,11 @@
 #include "src/analysis/sideslip.h"
 #include "src/analysis/track_metrics.h"
 #include "src/analysis/trailer_metrics.h"
+#include "trackbed/planning/registry/planners.h"
 
-// Table of all metrics that Trackbed defines, with one entry per metric.
+// Table of all metrics that Trackbed defines, with one entry per metric. AllMetrics sets every
+// metric that a run of a scenario can have to a dummy value, so that the paths of metrics can be
+// checked before the run.
 namespace trackbed {
 namespace {
 
@@ -294,6 +301,83 @@ const std::vector<WindowMetricEntry>& WindowMetricTable() {
       {"lateral_acceleration.relative_rms", "lateral acceleration, relative rms", "",
        [](E errors) { return known(errors, errors.lateral_acceleration_relative_rms); }}};
   return table;
+}
+
+void PutMetric(const Metric& metric, nlohmann::ordered_json& json) {
+  std::string pointer = "/";
+  for (const char c : metric.path) {
+    if (c != ']') {
+      pointer += c == '.' || c == '[' ? '/' : c;
+    }
+  }
+  json[nlohmann::ordered_json::json_pointer(pointer)] = ToJson(metric.value);
+}
+
+PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
+  PlantMetrics metrics;
+  metrics.plant = plant;
+  metrics.yaw_rate_ratio = 1.0;
+  metrics.steering_activity = 0.0;
+  if (scenario.plan) {
+    metrics.oscillation.emplace();
+    metrics.tracking.emplace().overspeed_max = 0.0;
+    constexpr double kAnyTime = std::numeric_limits<double>::infinity();
+    if (DisturbedUntil(scenario.disturb, scenario.world.wind, kAnyTime)) {
+      metrics.recovery.emplace();
+    }
+    metrics.blocked = scenario.plan->avoid ? "why" : "";
+    metrics.partial = MayBePartial(scenario.plan->global) ? "why" : "";
+    if (scenario.mission.waypoints.size() > 1) {
+      metrics.waypoint_miss.emplace();
+    }
+    // The path turns at most once at each waypoint between the first and the last waypoint.
+    metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);
+  }
+  if (HasObstacles(scenario.world)) {
+    metrics.clearance.emplace();
+  }
+  if (scenario.maneuver) {
+    metrics.maneuver = AllMetrics(*scenario.maneuver);
+  }
+  if (scenario.record) {
+    metrics.recorded.emplace();
+    metrics.windows.resize(scenario.record->windows.size());
+  }
+  std::set<std::string> requirements;
+  const auto require = [&](const PlantExpectation& expect) {
+    for (const RequirementExpectation& own : expect.requirements) {
+      if (requirements.insert(own.name).second) {
+        metrics.requirements.push_back({.name = own.name, .robustness = 0.0});
+      }
+    }
+  };
+  require(scenario.expect.all);
+  for (const auto& [name, own] : scenario.expect.plants) {
+    if (plant.empty() || name == plant) {
+      require(own);
+    }
+  }
+  if (scenario.mission.track) {
+    metrics.laps.resize(static_cast<std::size_t>(scenario.mission.track->laps));
+  }
+  const AidOptions aids = scenario.vehicle.aids.value_or(AidOptions{});
+  for (const MetricEntry& entry : Metrics()) {
+    // Metrics of track limits exist only for runs on a track, metrics of road limits only for
+    // routes over lanes, metrics of driver aids only for cars with these aids, and metrics of
+    // trailers only for cars with a trailer.
+    const bool of_track = entry.path.starts_with("track_limits.");
+    const bool of_road = entry.path.starts_with("road_limits.");
+    const bool of_abs = entry.path.starts_with("aids.abs_");
+    const bool of_esc = entry.path.starts_with("aids.esc_");
+    const bool of_trailer =
+        entry.path.starts_with("hitch_") || entry.path.starts_with("off_tracking.");
+    if (entry.measure && (!of_track || scenario.mission.track) &&
+        (!of_road || !scenario.mission.route.empty()) && (!of_abs || aids.abs) &&
+        (!of_esc || aids.esc) && (!of_trailer || scenario.vehicle.trailer)) {
+      metrics.measured.emplace_back(entry.path, MetricReading{0.0, {}});
+    }
+  }
+  return metrics;
 }
 
 }  // namespace trackbed

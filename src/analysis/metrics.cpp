@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
+#include "src/analysis/metric_table.h"
 #include "src/analysis/peaks.h"
 #include "src/analysis/steering_metrics.h"
 #include "src/analysis/track_metrics.h"
@@ -197,6 +199,22 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
     }
   }
   return metrics;
+}
+
+nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
+  nlohmann::ordered_json json;
+  for (const Metric& metric : ListMetrics(metrics)) {
+    PutMetric(metric, json);
+  }
+  return json;
+}
+
+std::vector<std::string> PossibleMetrics(const Scenario& scenario) {
+  std::vector<std::string> paths;
+  for (const Metric& metric : ListMetrics(AllMetrics(scenario, ""))) {
+    paths.push_back(metric.path);
+  }
+  return paths;
 }
 
 }  // namespace trackbed

@@ -20,10 +20,7 @@ const fs::path kRoot = TRACKBED_SOURCE_DIR;
 
 /// Headers that declare functions of several sources of their folder, such as the verbs, the plants
 /// and the path formats. Other headers must not be added: split the header instead.
-constexpr std::array<std::string_view, 50> kOfSeveralSources{
-    "include/trackbed/analysis/metric_registry.h",
-    "include/trackbed/analysis/metric_value.h",
-    "include/trackbed/analysis/metrics.h",
+constexpr std::array<std::string_view, 46> kOfSeveralSources{
     "include/trackbed/analysis/output_folder.h",
     "include/trackbed/analysis/run.h",
     "include/trackbed/analysis/sweep.h",
@@ -52,7 +49,6 @@ constexpr std::array<std::string_view, 50> kOfSeveralSources{
     "render/gl_context.h",
     "render/video.h",
     "src/analysis/evaluations.h",
-    "src/analysis/metric_table.h",
     "src/bag/sources.h",
     "src/cli/film_of_run.h",
     "src/cli/listed_names.h",
