@@ -8,50 +8,13 @@
 #include <optional>
 #include <utility>
 
-#include "trackbed/core/error.h"
-#include "trackbed/drive/drive.h"
+#include "src/drive/car_stages.h"
 #include "trackbed/scenario/input_files.h"
-#include "trackbed/sim/payload.h"
-#include "trackbed/sim/trailer_scene.h"
 
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
-
-CarModel LoadBareCar(const SceneOptions& options, const fs::path& file) {
-  CarModel car(ComposeScene(file, options), file.string());
-  if (!options.tyre_numbers.empty() && car.params().kind != VehicleKind::kSteered) {
-    throw InputError(
-        Problem{.key = "vehicle.tyre_file",
-                .message = fmt::format("{} has no steered front wheels, and so no tyre law; remove "
-                                       "vehicle.tyre_file",
-                                       file.string())});
-  }
-  return car;
-}
-
-/// Returns the car's scene with the scenario's trailer; none if the scenario has no trailer.
-std::optional<Scene> TowingScene(const Scenario& scenario, const CarModel& car) {
-  const std::optional<TrailerOptions>& trailer = scenario.vehicle.trailer;
-  return trailer ? std::optional(WithTrailer(car, MakeTrailer(*trailer, car.params())))
-                 : std::nullopt;
-}
-
-/// Returns the car's scene with the scenario's payload on the car; none if the scenario has no
-/// payload.
-std::optional<Scene> LadenScene(const Scenario& scenario, const CarModel& car) {
-  const std::optional<Payload>& payload = scenario.disturb.payload;
-  return payload ? std::optional(WithPayload(car, *payload)) : std::nullopt;
-}
-
-/// Returns the car's scene with the ground and obstacles of the scenario's world; none if the
-/// ground is flat and has no obstacles.
-std::optional<Scene> SceneInWorld(const Scenario& scenario, const CarModel& car) {
-  const World& world = scenario.world;
-  const bool empty = !HasObstacles(world) && IsFlat(world.ground);
-  return empty ? std::nullopt : std::optional(WithWorld(car.scene(), car.params(), world));
-}
 
 /// Returns the cache key of a model, a text that contains all data from which the model is
 /// compiled.
@@ -64,21 +27,6 @@ std::string KeyOf(const Scene& scene, const fs::path& file) {
 }
 
 }  // namespace
-
-CarModel LoadCar(const Scenario& scenario) {
-  const fs::path file = FindModel(scenario.vehicle.model, scenario.folder);
-  CarModel car = LoadBareCar(MakeSceneOptions(scenario), file);
-  if (std::optional<Scene> towing = TowingScene(scenario, car)) {
-    car = {std::move(*towing), file.string()};
-  }
-  if (std::optional<Scene> laden = LadenScene(scenario, car)) {
-    car = {std::move(*laden), file.string()};
-  }
-  if (std::optional<Scene> scene = SceneInWorld(scenario, car)) {
-    car = {std::move(*scene), file.string()};
-  }
-  return car;
-}
 
 CarCache::CarCache(std::size_t capacity) : capacity_(capacity) {}
 

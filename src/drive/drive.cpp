@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <utility>
 
+#include "src/drive/car_stages.h"
+#include "src/drive/mission.h"
 #include "src/drive/recorded_log.h"
 #include "src/drive/scenario_parts.h"
 #include "trackbed/control/controllers.h"
@@ -12,19 +15,35 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/course/lane_change.h"
 #include "trackbed/scenario/initial_state.h"
+#include "trackbed/scenario/input_files.h"
+#include "trackbed/sim/car_grip.h"
 
 namespace trackbed {
 
-SpeedLimits MakeSpeedLimits(const Scenario& scenario) {
-  const SpeedControlOptions& speed = scenario.control.speed;
-  return {MissionSpeed(scenario), speed.acceleration, speed.deceleration};
+CarModel LoadCar(const Scenario& scenario) {
+  const std::filesystem::path file = FindModel(scenario.vehicle.model, scenario.folder);
+  CarModel car = LoadBareCar(MakeSceneOptions(scenario), file);
+  if (std::optional<Scene> towing = TowingScene(scenario, car)) {
+    car = {std::move(*towing), file.string()};
+  }
+  if (std::optional<Scene> laden = LadenScene(scenario, car)) {
+    car = {std::move(*laden), file.string()};
+  }
+  if (std::optional<Scene> scene = SceneInWorld(scenario, car)) {
+    car = {std::move(*scene), file.string()};
+  }
+  return car;
 }
 
-ReplanningConfig MakeReplanningConfig(const Scenario& scenario) {
-  return {.avoid = scenario.plan->avoid,
-          .replan = scenario.plan->replan,
-          .limits = MakeSpeedLimits(scenario),
-          .infeasible = scenario.plan->infeasible};
+FeasiblePlan PlanScenario(const Scenario& scenario, const CarModel& car) {
+  return PlanMission(scenario, car.unladen(), [&](const std::vector<double>& roads) {
+    return ComputeGgv(car, scenario.vehicle.tyre, roads);
+  });
+}
+
+FeasiblePlan PlanScenario(const Scenario& scenario, const VehicleParams& vehicle) {
+  return PlanMission(scenario, vehicle,
+                     [&](const std::vector<double>& roads) { return FrictionGgv(vehicle, roads); });
 }
 
 LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {

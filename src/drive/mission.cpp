@@ -1,3 +1,5 @@
+#include "src/drive/mission.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,7 +10,6 @@
 #include "src/drive/replanning_monitor.h"
 #include "src/drive/scenario_parts.h"
 #include "trackbed/core/angle.h"
-#include "trackbed/drive/drive.h"
 #include "trackbed/drive/start_overlap.h"
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/collision_checker.h"
@@ -18,7 +19,6 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/initial_state.h"
-#include "trackbed/sim/car_grip.h"
 
 namespace trackbed {
 namespace {
@@ -168,18 +168,6 @@ std::vector<double> Roads(const World& world) {
   return roads;
 }
 
-/// Returns the data for planning speeds at the car's limit; none if the mission does not ask for
-/// such speeds. `diagram` returns the g-g-v diagram for given friction coefficients.
-template <typename Diagram>
-std::optional<SpeedAtLimit> LimitsFor(const Scenario& scenario, const Diagram& diagram) {
-  const auto& profile = scenario.mission.speed_profile;
-  const auto* limits = profile ? std::get_if<LimitProfileOptions>(&*profile) : nullptr;
-  if (limits == nullptr || !scenario.plan) {
-    return std::nullopt;
-  }
-  return SpeedAtLimit{diagram(Roads(scenario.world)), *limits, scenario.world.ground};
-}
-
 /// Refuses a mission with this reason.
 FeasiblePlan Refused(PlanStatus status, std::string reason, const PlanRequest& request) {
   Plan plan;
@@ -211,8 +199,22 @@ FeasiblePlan WithHint(FeasiblePlan plan, PlanRequest request, const Scenario& sc
       request);
 }
 
-FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
-                      std::optional<SpeedAtLimit> limits) {
+/// Returns the data for planning speeds at the car's limit; none if the mission does not ask for
+/// such speeds. `diagram` returns the g-g-v diagram for given friction coefficients.
+std::optional<SpeedAtLimit> LimitsFor(const Scenario& scenario, const DiagramOfRoads& diagram) {
+  const auto& profile = scenario.mission.speed_profile;
+  const auto* limits = profile ? std::get_if<LimitProfileOptions>(&*profile) : nullptr;
+  if (limits == nullptr || !scenario.plan) {
+    return std::nullopt;
+  }
+  return SpeedAtLimit{diagram(Roads(scenario.world)), *limits, scenario.world.ground};
+}
+
+}  // namespace
+
+FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle,
+                         const DiagramOfRoads& diagram) {
+  std::optional<SpeedAtLimit> limits = LimitsFor(scenario, diagram);
   const StartState start = InitialState(scenario, vehicle);
   if (std::string why = StartOverlap(scenario, vehicle); !why.empty()) {
     return Refused(PlanStatus::kStartBlocked, std::move(why),
@@ -286,21 +288,6 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
     NoteInputs(plan, scenario);
   }
   return plan;
-}
-
-}  // namespace
-
-FeasiblePlan PlanScenario(const Scenario& scenario, const CarModel& car) {
-  return PlanWith(scenario, car.unladen(),
-                  LimitsFor(scenario, [&](const std::vector<double>& roads) {
-                    return ComputeGgv(car, scenario.vehicle.tyre, roads);
-                  }));
-}
-
-FeasiblePlan PlanScenario(const Scenario& scenario, const VehicleParams& vehicle) {
-  return PlanWith(scenario, vehicle, LimitsFor(scenario, [&](const std::vector<double>& roads) {
-                    return FrictionGgv(vehicle, roads);
-                  }));
 }
 
 }  // namespace trackbed
