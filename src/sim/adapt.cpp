@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "src/sim/adapt_faults.h"
 #include "src/sim/adapt_write.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file_name.h"

@@ -1,11 +1,11 @@
+#include "src/sim/adapt_faults.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 #include <utility>
-
-#include "src/sim/adapt_find.h"
 
 namespace trackbed::adapt {
 namespace {

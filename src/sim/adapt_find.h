@@ -58,8 +58,4 @@ std::string NameOf(const mjModel& model, int type, int id);
 /// the option that answers it, if the model has no vehicle that can be driven.
 FoundVehicle FindVehicle(const FoundModel& found, const AdaptOptions& options, Findings& findings);
 
-/// Notes what a run would have been wrong with: bases that cannot move freely, tyres that touch the
-/// vehicle at rest, and equality constraints between joints of the steering.
-void NoteFaults(const FoundModel& found, const FoundVehicle& vehicle, Findings& findings);
-
 }  // namespace trackbed::adapt

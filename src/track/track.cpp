@@ -330,12 +330,6 @@ std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
   return std::nullopt;
 }
 
-double StationOfSample(const Track& track, std::size_t point, int sample) {
-  const bool is_last = point + 1 == track.points().size();
-  const double to = is_last ? track.length() : track.StationOf(point + 1);
-  return std::lerp(track.StationOf(point), to, static_cast<double>(sample) / kFoldSamples);
-}
-
 std::optional<TrackFold> FindFold(const Track& track) {
   for (std::size_t i = 0; i < track.points().size(); ++i) {
     for (int k = 0; k < kFoldSamples; ++k) {

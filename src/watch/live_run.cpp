@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -18,9 +16,6 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr double kMinPlaybackSpeed = 0.01;
-constexpr double kMaxPlaybackSpeed = 1000.0;
-
 constexpr std::array kAdded{"rows", "poses", "plans"};
 enum Added : std::size_t { kRows, kPoses, kPlans };
 
@@ -29,17 +24,6 @@ std::string SpeedText(double speed) {
 }
 
 }  // namespace
-
-std::optional<double> ParseSpeed(std::string_view text) {
-  if (text == "max") {
-    return std::numeric_limits<double>::infinity();
-  }
-  double speed = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), speed);
-  const bool whole = error == std::errc{} && end == text.data() + text.size();
-  return whole && speed >= kMinPlaybackSpeed && speed <= kMaxPlaybackSpeed ? std::optional(speed)
-                                                                           : std::nullopt;
-}
 
 LiveRun::LiveRun(const ordered_json& first, std::string id, double control_period, double speed,
                  bool paused)

@@ -15,6 +15,10 @@
 
 namespace trackbed {
 
+/// Slowest and fastest speed of the clock, as a factor on the speed of real time.
+inline constexpr double kMinPlaybackSpeed = 0.01;
+inline constexpr double kMaxPlaybackSpeed = 1000.0;
+
 /// Stores the data of a run in progress. The threads of the plants add rows, and the connections
 /// send these rows to pages. All functions of LiveRun are thread-safe.
 class LiveRun {

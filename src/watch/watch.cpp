@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <charconv>
 #include <future>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <utility>
@@ -89,6 +91,17 @@ class RunFinisher {
 };
 
 }  // namespace
+
+std::optional<double> ParseSpeed(std::string_view text) {
+  if (text == "max") {
+    return std::numeric_limits<double>::infinity();
+  }
+  double speed = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), speed);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  return whole && speed >= kMinPlaybackSpeed && speed <= kMaxPlaybackSpeed ? std::optional(speed)
+                                                                           : std::nullopt;
+}
 
 RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFolder& folder,
                    const WatchOptions& options, const WatchHooks& hooks) {

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "src/sim/adapt_find.h"
+
+namespace trackbed::adapt {
+
+/// Notes what a run would have been wrong with: bases that cannot move freely, tyres that touch the
+/// vehicle at rest, and equality constraints between joints of the steering.
+void NoteFaults(const FoundModel& found, const FoundVehicle& vehicle, Findings& findings);
+
+}  // namespace trackbed::adapt
