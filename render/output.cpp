@@ -92,7 +92,8 @@ class FrameOutput : public FilmOutput {
   static void RequireOwn(const fs::path& frame) {
     if (IsFile(frame) && !HasMark(frame)) {
       throw RunError(fmt::format(
-          "{} is in the way of the film's frames, but is none itself; choose another name (-o)",
+          "{} has the name of a frame of the film, but is not a frame that Trackbed wrote; choose "
+          "another name (-o)",
           frame.string()));
     }
   }

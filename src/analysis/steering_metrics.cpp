@@ -48,7 +48,7 @@ std::vector<double> PathCurvatures(const RunLog& log, const Plan& plan, std::siz
 void RemoveJumps(const RunLog& log, std::vector<double>& values) {
   auto next = log.changes.begin();
   double shift = 0.0;
-  double before = 0.0;  // value of the previous row, as given
+  double before = 0.0;  // value of the previous row before the shift
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double given = values[i];
     bool is_new = false;

@@ -34,8 +34,8 @@ class ParameterFinder {
  public:
   explicit ParameterFinder(std::vector<Variable>& found) : found_(found) {}
 
-  /// Adds the numbers in a section. `key` is the dotted key of the section, with list indices;
-  /// `listed` has N in place of each list index, as the list of keys has.
+  /// Adds the numbers in a section. `key` is the dotted key of the section, with list indices.
+  /// `listed` is the same key with N in place of each list index.
   void AddSection(const YAML::Node& section, const std::string& key, const std::string& listed) {
     const YAML::Node method = section["method"];
     const std::string chosen = method && method.IsScalar() ? method.Scalar() : "";

@@ -27,7 +27,8 @@ struct Bulge {
   }
 };
 
-/// Returns the point of a curve for a knot and a share from 0 to 1 of the way to the next knot.
+/// Returns a point of a curve between two knots. The arguments are the index of the first knot, and
+/// the fraction from 0 to 1 of the way to the next knot.
 using CurveBetweenKnots = std::function<Vec2(std::size_t, double)>;
 
 /// Returns the first stretch between two knots on which a curve deviates too far from the straight

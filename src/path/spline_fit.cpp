@@ -102,7 +102,7 @@ struct KnotPath {
 };
 
 /// Returns the nodes of a curve along the spline: each knot, and nodes between the knots, at most
-/// an eighth of a radian apart. The nodes at the knots have the knots' points.
+/// an eighth of a radian apart. A node at a knot lies exactly on the point of the knot.
 std::vector<CurveNode> NodesAlong(const SmoothingSpline& spline, const ChordPoints& fitted,
                                   bool closed) {
   using Quadrature = boost::math::quadrature::gauss<double, 7>;

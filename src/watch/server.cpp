@@ -54,7 +54,7 @@ class Server::Implementation {
     } catch (const boost::system::system_error& error) {
       throw RunError(fmt::format("cannot listen on {} port {}: {}{}", host, port,
                                  error.code().message(),
-                                 port > 0 ? "; without --port any free one is taken" : ""));
+                                 port > 0 ? "; without --port, any free port is used" : ""));
     }
     site_.address = endpoint_.address();
   }

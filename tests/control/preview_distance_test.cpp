@@ -18,8 +18,9 @@
 namespace trackbed {
 namespace preview_distance_test {
 
-constexpr double kPeriod = 0.02;     // [s]
-constexpr double kRounding = 1e-12;  // for a distance of meters after a few operations
+constexpr double kPeriod = 0.02;  // [s]
+/// Bound on the rounding errors of a distance of some meters after a few operations [m].
+constexpr double kRounding = 1e-12;
 
 double Distance(const VehicleParams& vehicle, const Path& path, double station, double speed,
                 double delay = 0.0) {

@@ -304,8 +304,8 @@ TEST_F(Frames, DoNotReplacePicturesOfOthers) {
   } catch (const RunError& error) {
     EXPECT_EQ(std::string(error.what()),
               FrameName(output_, 1).string() +
-                  " is in the way of the film's frames, but is none itself; choose another name "
-                  "(-o)");
+                  " has the name of a frame of the film, but is not a frame that Trackbed wrote; "
+                  "choose another name (-o)");
   }
   EXPECT_EQ(ReadFile(FrameName(output_, 1)), other);
 }

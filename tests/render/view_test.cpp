@@ -141,8 +141,9 @@ TEST_F(FilmSceneTest, PlainGroundKeepsItsColorAndHasLinesOnRequest) {
     }
     return least;
   };
-  // The texture of 10 m has a line in its middle, along its whole length. A line has 1.12 of the
-  // mean brightness, and grain at most 1.10. Red is slightly darker than the mean of all channels.
+  // The texture of 10 m has a line in its middle, along its whole length. The line is brighter
+  // than the mean by the factor 1.12, the grain of the texture by at most 1.10. Red is slightly
+  // darker than the mean of all channels.
   EXPECT_LT(least_of_row(side / 2), before);
   MakeGroundPlain(model, true);
   EXPECT_GT(least_of_row(side / 2), 1.05 * before);

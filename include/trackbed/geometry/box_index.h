@@ -22,9 +22,9 @@ struct Inflation {
   [[nodiscard]] double From(std::size_t box) const { return own.empty() ? most : own[box]; }
 };
 
-/// Returns the inflation `most` [m], reduced for each rectangle that is nearer than that to one of
-/// the points. A line that begins at such a point and does not come nearer to the rectangle is
-/// free. A point inside a rectangle is not free with any inflation.
+/// Returns the inflation of each rectangle [m]: `most`, or less if the rectangle is nearer than
+/// `most` to one of the points. A line that begins at such a point and does not come nearer to the
+/// rectangle is free. A point inside a rectangle is not free with any inflation.
 Inflation InflationAt(const std::vector<Vec2>& points, const std::vector<OrientedBox>& boxes,
                       double most);
 

@@ -461,8 +461,9 @@ TEST(PlannersWithHeadings, TurnInPlace) {
 }
 
 TEST(CurvePlanners, TurnAroundInPlaceOnTheShortestCurve) {
-  // Three circles of radius r that touch lead back to the start. Dubins: 60 degrees on the outer
-  // circles and 300 degrees on the middle one. Reeds-Shepp: 60 degrees on each.
+  // Three circles of radius r that touch lead back to the start. A Dubins curve turns by 60 degrees
+  // on the outer circles and by 300 degrees on the middle one. A Reeds-Shepp curve turns by 60
+  // degrees on each circle.
   constexpr double kRadius = 7.0;
   const PlanRequest request = Between({0.0, 0.0, 0.0}, {0.0, 0.0, kPi}, {});
   const Plan loop = MakePlan(request, DubinsOptions{.radius = kRadius});
