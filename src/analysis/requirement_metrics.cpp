@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "trackbed/core/error.h"
-#include "trackbed/requirement/formula.h"
+#include "trackbed/requirement/robustness.h"
 
 namespace trackbed {
 namespace {

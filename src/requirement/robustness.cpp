@@ -1,10 +1,11 @@
+#include "trackbed/requirement/robustness.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "src/requirement/degree.h"
 #include "trackbed/core/error.h"
-#include "trackbed/requirement/formula.h"
 
 // Computes the robustness of requirement formulas on the log of a run.
 namespace trackbed {

@@ -1,5 +1,5 @@
 #include "tests/fuzz/target.h"
-#include "trackbed/requirement/formula.h"
+#include "trackbed/requirement/robustness.h"
 
 /// Fuzzes a formula, evaluated on a short log.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

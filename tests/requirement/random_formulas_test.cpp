@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "trackbed/core/error.h"
-#include "trackbed/requirement/formula.h"
+#include "trackbed/requirement/robustness.h"
 
 namespace trackbed {
 namespace {

@@ -1,3 +1,5 @@
+#include "trackbed/requirement/robustness.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +11,6 @@
 #include "tests/support/error_text.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
-#include "trackbed/requirement/formula.h"
 
 namespace trackbed {
 namespace {
