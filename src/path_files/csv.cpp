@@ -18,6 +18,7 @@
 #include "trackbed/core/table.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/core/timestamp.h"
+#include "trackbed/path_files/globe_names.h"
 
 // Reads paths from CSV tables with a header line of column names (ReadCsvTable). The reader
 // identifies columns by their usual names (PathColumnNames) or by names that the caller specifies.

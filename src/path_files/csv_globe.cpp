@@ -7,6 +7,7 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/path_files/globe_names.h"
 
 namespace trackbed {
 

@@ -1,3 +1,5 @@
+#include "src/path_files/direction.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "src/path_files/formats.h"
+#include "src/path_files/reading.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/geometry/pose.h"
 

@@ -1,3 +1,5 @@
+#include "trackbed/path_files/globe_names.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "trackbed/core/text_table.h"
-#include "trackbed/path_files/globe.h"
 
 // Recognizes columns of latitudes and longitudes by the words of their names, and explains texts of
 // coordinates that are not decimal numbers.

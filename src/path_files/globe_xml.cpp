@@ -10,6 +10,7 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/core/timestamp.h"
+#include "trackbed/path_files/globe_names.h"
 
 // Reads GPX (1.0 and 1.1) and KML (2.2 with Google's extensions, 2.3). A track of GPX consists of
 // segments; a route is one line. In KML, lines are LineString, LinearRing and Track elements, in

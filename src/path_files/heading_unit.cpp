@@ -1,3 +1,5 @@
+#include "src/path_files/heading_unit.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "src/path_files/formats.h"
+#include "src/path_files/reading.h"
 #include "trackbed/core/angle.h"
 
 // Decides how the headings of a path are measured. For each common meaning of a heading, the reader

@@ -1,3 +1,5 @@
+#include "src/path_files/json.h"
+
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
@@ -7,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/path_files/formats.h"
+#include "src/path_files/reading.h"
 #include "trackbed/core/classic_locale.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"

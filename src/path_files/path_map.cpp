@@ -10,6 +10,7 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/error.h"
 #include "trackbed/path_files/globe.h"
+#include "trackbed/path_files/globe_names.h"
 
 namespace trackbed {
 

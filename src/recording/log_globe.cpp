@@ -14,6 +14,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/path_files/globe.h"
+#include "trackbed/path_files/globe_names.h"
 
 namespace trackbed {
 

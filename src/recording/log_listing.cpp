@@ -13,6 +13,7 @@
 #include "trackbed/core/csv_rows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/path_files/globe_file.h"
+#include "trackbed/path_files/globe_names.h"
 
 // Lists a log and proposes a map. In CSV files, columns are recognized by the names that path files
 // use, too. In bags, the type of a topic's messages decides: the position is that of an odometry, a

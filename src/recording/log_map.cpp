@@ -12,6 +12,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/path_files/globe.h"
+#include "trackbed/path_files/globe_names.h"
 
 namespace trackbed {
 namespace {

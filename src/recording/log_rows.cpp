@@ -22,6 +22,7 @@
 #include "trackbed/core/table.h"
 #include "trackbed/path_files/globe.h"
 #include "trackbed/path_files/globe_file.h"
+#include "trackbed/path_files/globe_names.h"
 
 // Reads the CSV file of a log, and the other files that the log's map names, row by row. Times are
 // relative to the first row of the log. The reader skips rows outside the imported part and rows

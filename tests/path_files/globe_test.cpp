@@ -13,6 +13,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/timestamp.h"
+#include "trackbed/path_files/globe_names.h"
 #include "trackbed/path_files/path_file.h"
 
 // Tests positions on the globe: the projection against geodesics (Karney 2013, in geodesic.h), the

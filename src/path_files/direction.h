@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "trackbed/path_files/path_file.h"
+
+namespace trackbed {
+
+/// The meaning of the numbers in a column of directions of motion. In each, words such as "D", "R",
+/// "forward" and "reverse" are allowed, too.
+enum class DirectionColumn {
+  kSigned,   ///< 1 forwards, -1 in reverse, 0 if the car stands.
+  kGear,     ///< Positive forwards, negative in reverse, 0 neutral.
+  kForward,  ///< 1 or true forwards, 0 or false in reverse.
+  kReverse,  ///< 1 or true in reverse, 0 or false forwards.
+};
+
+/// Returns the direction of motion in a cell: 1, -1 or, if the car stands, 0. Returns nullopt if
+/// the cell does not contain a direction.
+std::optional<int> DirectionIn(const std::string& cell, DirectionColumn column);
+
+/// Converts speeds that are negative in reverse to directions of motion and speeds of at least 0.
+/// Keeps given directions other than 0.
+void TakeSignedSpeeds(PathPoints& points);
+
+/// Returns the problem, with its remedy, if the headings of points without directions of motion are
+/// opposite to the direction of travel all along the path; else "". Such headings contradict a
+/// column of speeds that are not negative.
+std::string HalfTurnProblem(const PathPoints& points);
+
+}  // namespace trackbed
