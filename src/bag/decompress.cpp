@@ -1,3 +1,5 @@
+#include "src/bag/decompress.h"
+
 #include <fmt/format.h>
 #include <lz4frame.h>
 #include <zstd.h>
@@ -5,7 +7,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "src/bag/sources.h"
+#include "src/bag/topics.h"
 #include "trackbed/core/error.h"
 
 // Decompresses frames of lz4 and zstd in steps, so that the memory grows only with the data that a

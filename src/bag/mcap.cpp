@@ -9,6 +9,7 @@
 #include <system_error>
 #include <type_traits>
 
+#include "src/bag/decompress.h"
 #include "src/bag/sources.h"
 #include "trackbed/bag/mcap_format.h"
 #include "trackbed/core/error.h"

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "src/bag/topics.h"
 #include "trackbed/bag/bag.h"
 
 namespace trackbed {
@@ -20,20 +21,5 @@ void ReadMcap(const std::filesystem::path& file, BagContent& content, const Take
 /// empty.
 void ReadSqlite(const std::filesystem::path& file, BagContent& content, const std::string& wanted,
                 const TakeTopicMessage& take);
-
-/// Returns the topic of `content` that has the name of `topic`; adds `topic` if the name is new.
-/// Throws InputError if the topic has another type, or if there are too many topics.
-BagTopic& TopicOf(BagContent& content, const BagTopic& topic, const std::filesystem::path& file);
-
-/// Decompresses a frame of lz4 or zstd to at most `largest` bytes. Throws InputError if the frame
-/// is damaged or larger.
-std::string Decompress(std::string_view data, const std::string& compression, std::size_t largest,
-                       const std::filesystem::path& file);
-
-/// Largest size of a record or of a decompressed chunk [bytes].
-inline constexpr std::size_t kMaxChunkBytes = std::size_t{256} << 20U;
-inline constexpr std::size_t kMaxBagTopics = 10'000;
-
-[[noreturn]] void RefuseBag(const std::filesystem::path& file, std::string message);
 
 }  // namespace trackbed

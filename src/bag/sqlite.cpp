@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "src/bag/decompress.h"
 #include "src/bag/sources.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
