@@ -1,3 +1,5 @@
+#include "src/road_network/lane_reader.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,8 +7,6 @@
 #include <cmath>
 #include <string_view>
 #include <utility>
-
-#include "src/road_network/road_reader.h"
 
 namespace trackbed {
 namespace {

@@ -1,3 +1,5 @@
+#include "src/road_network/plan_view.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <string_view>
 #include <utility>
 
-#include "src/road_network/road_reader.h"
 #include "trackbed/core/spelling.h"
 
 namespace trackbed {

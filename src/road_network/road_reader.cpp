@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "src/road_network/lane_reader.h"
+#include "src/road_network/plan_view.h"
 #include "trackbed/core/spelling.h"
 
 namespace trackbed {

@@ -17,20 +17,11 @@ namespace trackbed {
 Road ReadRoad(const tinyxml2::XMLElement& element, const Vec2& origin, XmlProblems& problems,
               RoadNetwork& network);
 
-/// Reads the reference line of a road from its <planView>. If the plan view has an error, returns
-/// an empty reference line. Coordinates count from the place `origin` of the file [m].
-ReferenceLine ReadPlanView(const XmlFields& road, double length, const Vec2& origin);
-
 /// Reads the cubic polynomials of a piecewise function from the child elements with the name
 /// `name`. The argument `start` is the name of the attribute that contains the station at which a
 /// polynomial begins.
 PiecewiseCubic ReadCubics(const tinyxml2::XMLElement* parent, const char* name, const char* start,
                           const std::string& where, XmlProblems& problems);
-
-/// Reads the lane sections of a road from the elements <laneSection> of <lanes>. Adds to
-/// `unread_heights` the definitions of heights that Trackbed ignores.
-std::vector<LaneSection> ReadLaneSections(const XmlFields& lanes, const Road& road,
-                                          std::vector<std::string>& unread_heights);
 
 /// Reads a contact point, which is "start" or "end". Any other contact point is an error.
 RoadEnd ReadContactPoint(const XmlFields& fields);
