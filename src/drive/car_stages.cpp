@@ -5,6 +5,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/sim/payload.h"
 #include "trackbed/sim/trailer_scene.h"
+#include "trackbed/sim/world_scene.h"
 
 namespace trackbed {
 

@@ -142,9 +142,4 @@ class MujocoPlant : public Plant, private MujocoSimulation {
   double pending_lateral_force_ = 0.0;
 };
 
-/// Makes the MuJoCo plant of a car with steered front wheels, or of a vehicle with differential
-/// drive.
-std::unique_ptr<Plant> MakeCarPlant(const PlantSetup& setup);
-std::unique_ptr<Plant> MakeWheelPairPlant(const PlantSetup& setup);
-
 }  // namespace trackbed

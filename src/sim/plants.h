@@ -14,4 +14,10 @@ std::unique_ptr<Plant> MakeSingleTrackPlant(const PlantSetup& setup);
 
 std::unique_ptr<Plant> MakeMujocoPlant(const PlantSetup& setup);
 
+/// Makes the MuJoCo plant of a car with steered front wheels, or of a vehicle with differential
+/// drive.
+std::unique_ptr<Plant> MakeCarPlant(const PlantSetup& setup);
+
+std::unique_ptr<Plant> MakeWheelPairPlant(const PlantSetup& setup);
+
 }  // namespace trackbed

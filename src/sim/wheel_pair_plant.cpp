@@ -5,6 +5,7 @@
 
 #include "src/sim/car_parts.h"
 #include "src/sim/mujoco_plant.h"
+#include "src/sim/plants.h"
 #include "trackbed/core/error.h"
 #include "trackbed/vehicle/steering_actuator.h"
 

@@ -1,3 +1,5 @@
+#include "trackbed/sim/world_scene.h"
+
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
@@ -13,7 +15,6 @@
 #include "src/sim/upright.h"
 #include "trackbed/core/error.h"
 #include "trackbed/sim/car_model.h"
-#include "trackbed/sim/scene.h"
 
 /// Adds the ground and obstacles of a world to the scene of a car:
 ///   - WithGround adds the ground plane, and height fields for terrain, bumps and side slopes.

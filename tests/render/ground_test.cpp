@@ -16,6 +16,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/sim/scene.h"
+#include "trackbed/sim/world_scene.h"
 
 namespace trackbed::render {
 namespace {

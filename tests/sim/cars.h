@@ -8,6 +8,7 @@
 #include <string>
 
 #include "trackbed/sim/plant.h"
+#include "trackbed/sim/world_scene.h"
 
 namespace trackbed {
 

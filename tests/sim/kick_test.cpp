@@ -5,6 +5,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/sim/plant.h"
+#include "trackbed/sim/world_scene.h"
 
 // Tests Plant::ApplyLateralOffset and Plant::ApplyLateralForce.
 namespace trackbed {

@@ -11,6 +11,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/sim/world_scene.h"
 
 // Tests laws that every plant obeys (directions, symmetry, actuator rate, stopping distance), then
 // properties of the MuJoCo car against statics and closed forms.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/tolerance.h"
+#include "trackbed/sim/world_scene.h"
 
 namespace trackbed {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "tests/sim/cars.h"
 #include "trackbed/sim/compile_scene.h"
+#include "trackbed/sim/world_scene.h"
 
 namespace trackbed {
 namespace {

@@ -9,6 +9,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/file.h"
 #include "trackbed/sim/payload.h"
+#include "trackbed/sim/world_scene.h"
 
 /// Tests a differential-drive vehicle.
 namespace trackbed {

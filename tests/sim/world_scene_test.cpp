@@ -1,3 +1,5 @@
+#include "trackbed/sim/world_scene.h"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
