@@ -6,7 +6,7 @@
 #include "trackbed/control/lqr.h"
 #include "trackbed/control/mpc.h"
 #include "trackbed/control/mppi.h"
-#include "trackbed/control/optimal_steering.h"
+#include "trackbed/control/optimal_steering_controller.h"
 #include "trackbed/control/playback.h"
 #include "trackbed/control/preview.h"
 #include "trackbed/control/preview_integral.h"

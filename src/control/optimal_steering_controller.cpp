@@ -1,10 +1,11 @@
+#include "trackbed/control/optimal_steering_controller.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
 #include "src/control/turn_round.h"
-#include "trackbed/control/optimal_steering.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
@@ -105,10 +106,6 @@ class OptimalSteeringController final : public SteeringController {
   TurnRound turn_round_;
 };
 
-}  // namespace
-
-namespace {
-
 std::vector<OptionProblem> CheckWeights(const OptimalSteeringOptions& options,
                                         const CouldReadKey& could_read) {
   if (!could_read("weights.position") || !could_read("weights.heading") ||
@@ -130,35 +127,6 @@ ControllerEntry OptimalSteering() {
       .needs_plan = true,
       .make = MakeBy<OptimalSteeringOptions, OptimalSteeringController>,
       .check = OnOptions<OptimalSteeringOptions, CheckWeights>};
-}
-
-void Visit(KeyVisitor& keys, OptimalSteeringOptions& options) {
-  static const EnumNames<Matching> matchings{{Matching::kArcLength, "arc_length"},
-                                             {Matching::kTime, "time"}};
-  keys.Field({"matching", "",
-              "reference pose: at the car's station, or where the car should be at this time"},
-             options.matching, Need::kOptional, matchings);
-  keys.Field({"horizon", "m", "minimum prediction distance; default: from car, speed and path"},
-             options.horizon, Range{.min = 0.1, .max = 1000.0});
-  keys.Field(kAheadTime, options.time, Need::kOptional, kNonNegative);
-  keys.Section(
-      {"search", "",
-       "search for the angle at each update; evaluations 0: 60, or 600 for isres, esch and crs2"},
-      options.search);
-  keys.Section({"weights", "", "weights of the deviation"}, options.weights);
-  keys.Field({"deviation_limit", "",
-              "weighted deviation (root of the sum of squares) up to which the plan's curvature is "
-              "steered without a search"},
-             options.deviation_limit, Need::kOptional, kNonNegative);
-  keys.Field({"max_steering", "rad", "maximum steering angle; default: the car's limit"},
-             options.max_steering, Range{.max = 1.5, .above = 0.0});
-}
-
-void Visit(KeyVisitor& keys, DeviationWeights& weights) {
-  keys.Field({"position", "1/m^2", "weight of the squared position error"}, weights.position,
-             Need::kOptional, kNonNegative);
-  keys.Field({"heading", "1/rad^2", "weight of the squared heading error"}, weights.heading,
-             Need::kOptional, kNonNegative);
 }
 
 }  // namespace trackbed

@@ -20,13 +20,11 @@ const fs::path kRoot = TRACKBED_SOURCE_DIR;
 
 /// Headers that declare functions of several sources of their folder, such as the verbs, the plants
 /// and the path formats. Other headers must not be added: split the header instead.
-constexpr std::array<std::string_view, 34> kOfSeveralSources{
+constexpr std::array<std::string_view, 32> kOfSeveralSources{
     "include/trackbed/analysis/output_folder.h",
     "include/trackbed/analysis/run.h",
     "include/trackbed/analysis/sweep.h",
     "include/trackbed/analysis/verdict.h",
-    "include/trackbed/control/optimal_steering.h",
-    "include/trackbed/control/speed_control_options.h",
     "include/trackbed/core/csv_rows.h",
     "include/trackbed/core/version.h",
     "include/trackbed/identify/identify.h",

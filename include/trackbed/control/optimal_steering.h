@@ -156,7 +156,4 @@ struct CircleExperiment {
 SteeringMatch MatchSteering(const VehicleParams& vehicle, const CircleExperiment& experiment,
                             const SearchOptions& search, std::uint64_t seed);
 
-/// Returns the registry entry of the controller `optimal_steering`.
-ControllerEntry OptimalSteering();
-
 }  // namespace trackbed
