@@ -15,6 +15,7 @@
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/identify/identify_files.h"
 #include "trackbed/report/report.h"
 
 namespace trackbed::cli {

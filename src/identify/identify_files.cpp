@@ -1,3 +1,5 @@
+#include "trackbed/identify/identify_files.h"
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -6,7 +8,6 @@
 #include "trackbed/analysis/written_names.h"
 #include "trackbed/core/file_name.h"
 #include "trackbed/core/table.h"
-#include "trackbed/identify/identify.h"
 #include "trackbed/recording/banked_track.h"
 
 namespace trackbed {

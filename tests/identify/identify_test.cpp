@@ -18,6 +18,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/file_name.h"
 #include "trackbed/core/hash.h"
+#include "trackbed/identify/identify_files.h"
 #include "trackbed/scenario/record_scenario.h"
 #include "trackbed/sim/car_parameters.h"
 #include "trackbed/sim/plant.h"
