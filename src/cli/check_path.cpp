@@ -24,6 +24,7 @@
 #include "trackbed/path_files/path_map.h"
 #include "trackbed/planning/path_file/path_check.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
+#include "trackbed/planning/path_file/steerable_fit.h"
 #include "trackbed/report/path_check.h"
 #include "trackbed/report/report.h"
 

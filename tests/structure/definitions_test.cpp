@@ -20,18 +20,15 @@ const fs::path kRoot = TRACKBED_SOURCE_DIR;
 
 /// Headers that declare functions of several sources of their folder, such as the verbs, the plants
 /// and the path formats. Other headers must not be added: split the header instead.
-constexpr std::array<std::string_view, 31> kOfSeveralSources{
+constexpr std::array<std::string_view, 28> kOfSeveralSources{
     "include/trackbed/analysis/output_folder.h",
     "include/trackbed/analysis/run.h",
     "include/trackbed/analysis/sweep.h",
     "include/trackbed/analysis/verdict.h",
     "include/trackbed/core/csv_rows.h",
     "include/trackbed/core/version.h",
-    "include/trackbed/planning/common/corners.h",
     "include/trackbed/planning/fillet/fillet.h",
     "include/trackbed/planning/grid/hybrid_astar.h",
-    "include/trackbed/planning/replan/along_route.h",
-    "include/trackbed/planning/sampling/rrt_planner.h",
     "include/trackbed/render/film.h",
     "include/trackbed/report/live.h",
     "include/trackbed/scenario/map_file.h",

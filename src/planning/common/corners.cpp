@@ -332,4 +332,14 @@ std::vector<Vec2> Shortcut(const std::vector<Vec2>& polyline, const std::vector<
   });
 }
 
+void Visit(DiagnosticsVisitor& out, const RoundCorner& corner) {
+  out.Point("at_m", corner.at);
+  out.Number("heading_change_rad", corner.heading_change);
+  out.Number("speed_mps", corner.speed);
+  out.Number("curvature_radpm", corner.curvature);
+  out.Number("tangent_length_m", corner.tangent_length);
+  out.Number("from_s_m", corner.from);
+  out.Number("to_s_m", corner.to);
+}
+
 }  // namespace trackbed

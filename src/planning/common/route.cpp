@@ -10,6 +10,7 @@
 #include "trackbed/planning/common/course_schedule.h"
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/turn_behind.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed {

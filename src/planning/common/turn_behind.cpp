@@ -1,10 +1,11 @@
+#include "trackbed/planning/common/turn_behind.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "trackbed/core/angle.h"
-#include "trackbed/planning/common/corners.h"
 #include "trackbed/planning/common/fewer_corners.h"
 #include "trackbed/planning/common/waypoint_miss.h"
 

@@ -14,6 +14,7 @@
 #include "trackbed/planning/common/course_schedule.h"
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/path_file/steerable_fit.h"
 
 namespace trackbed {
 namespace {

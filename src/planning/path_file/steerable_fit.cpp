@@ -1,3 +1,5 @@
+#include "trackbed/planning/path_file/steerable_fit.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "trackbed/core/error.h"
 #include "trackbed/path/bounded_fit.h"
-#include "trackbed/planning/path_file/path_file_planner.h"
 
 namespace trackbed {
 namespace {

@@ -11,6 +11,10 @@
 /// Symbols: as in trackbed/planning/replan/along_route.h.
 namespace trackbed {
 
+/// Finds the nearest obstacle in the car's way up to the station `to`; nullopt if the way is clear.
+std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
+                               const AlongSettings& settings, double to);
+
 /// Returns the distance from the car's rear axle to its front [m].
 double FrontOverAxle(const VehicleParams& vehicle);
 

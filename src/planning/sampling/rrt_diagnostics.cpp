@@ -1,4 +1,4 @@
-#include "trackbed/planning/sampling/rrt_planner.h"
+#include "trackbed/planning/sampling/rrt_diagnostics.h"
 
 namespace trackbed {
 

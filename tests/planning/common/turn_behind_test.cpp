@@ -1,5 +1,7 @@
 // Tests that rounded polylines pass their waypoints as closely as the limits require.
 
+#include "trackbed/planning/common/turn_behind.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+#include "trackbed/planning/path_file/steerable_fit.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

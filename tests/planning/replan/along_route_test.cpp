@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "src/planning/replan/passing.h"
 #include "tests/planning/drivable.h"
 #include "tests/planning/frenet_scenes.h"
 #include "tests/tolerance.h"

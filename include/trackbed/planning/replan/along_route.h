@@ -104,10 +104,6 @@ struct Leader {
   double front = 0.0;
 };
 
-/// Finds the nearest obstacle in the car's way up to the station `to`; nullopt if the way is clear.
-std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
-                               const AlongSettings& settings, double to);
-
 /// Plans the next motion along the route. The function tries motions in this order: stop at the end
 /// of the route, if the end is near; continue at the speed V, past obstacles in the way; pull out
 /// beside a moving leader that is slower than V, at a lower speed, down to the leader's; follow a
