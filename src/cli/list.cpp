@@ -1,10 +1,11 @@
+#include "src/cli/list.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 #include <memory>
 
-#include "src/cli/listed_names.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "src/cli/listed_names.h"
+#include "src/cli/list.h"
 #include "src/cli/shell_quote.h"
 #include "trackbed/core/version.h"
 

@@ -80,9 +80,13 @@ SafeText Joined(const std::vector<SafeText>& parts, std::string_view separator) 
   return all;
 }
 
-SafeText detail::Safe(Lines text) {
+namespace detail {
+
+SafeText Safe(Lines text) {
   return {WithoutControls(text.text)};
 }
+
+}  // namespace detail
 
 std::size_t TerminalWidth(std::FILE* stream) {
   winsize size{};

@@ -20,7 +20,7 @@ const fs::path kRoot = TRACKBED_SOURCE_DIR;
 
 /// Headers that declare functions of several sources of their folder, such as the verbs, the plants
 /// and the path formats. Other headers must not be added: split the header instead.
-constexpr std::array<std::string_view, 28> kOfSeveralSources{
+constexpr std::array<std::string_view, 25> kOfSeveralSources{
     "include/trackbed/analysis/output_folder.h",
     "include/trackbed/analysis/run.h",
     "include/trackbed/analysis/sweep.h",
@@ -38,9 +38,6 @@ constexpr std::array<std::string_view, 28> kOfSeveralSources{
     "render/video.h",
     "src/analysis/evaluations.h",
     "src/bag/sources.h",
-    "src/cli/film_of_run.h",
-    "src/cli/listed_names.h",
-    "src/cli/terminal.h",
     "src/cli/verbs.h",
     "src/optimize/ipopt/ipopt.h",
     "src/path_files/formats.h",
