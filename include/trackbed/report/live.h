@@ -12,14 +12,6 @@
 /// Makes the web page of a run in progress, and the messages that add new data to the page.
 namespace trackbed {
 
-/// Returns the report page of a run in progress; the page grows during the run. `data` is the
-/// ReportData of a run folder in which the log of each plant has only one row. The page has neither
-/// metrics nor a verdict. The page connects to the WebSocket `live` of its server. The page has the
-/// same Content-Security-Policy as every report, but also allows the connection to the WebSocket.
-/// The `id` identifies the run: if the server announces a different id, the browser reloads the
-/// page.
-std::string LivePage(const nlohmann::ordered_json& data, const std::string& id);
-
 /// Formats the rows of one plant as JSON arrays of numbers, in the same order and with the same
 /// rounding as the channels in the page's data. A live page that has received all rows of a run
 /// therefore equals the report of the run.

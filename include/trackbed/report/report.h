@@ -66,4 +66,12 @@ std::string ReportPageOf(const std::vector<std::filesystem::path>& paths,
 void WriteReport(const std::vector<std::filesystem::path>& paths, const std::filesystem::path& file,
                  FilmPlace film = FilmPlace::kEmbedded);
 
+/// Returns the report page of a run in progress; the page grows during the run. `data` is the
+/// ReportData of a run folder in which the log of each plant has only one row. The page has neither
+/// metrics nor a verdict. The page connects to the WebSocket `live` of its server. The page has the
+/// same Content-Security-Policy as every report, but also allows the connection to the WebSocket.
+/// The `id` identifies the run: if the server announces a different id, the browser reloads the
+/// page.
+std::string LivePage(const nlohmann::ordered_json& data, const std::string& id);
+
 }  // namespace trackbed
