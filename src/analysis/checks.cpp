@@ -1,3 +1,5 @@
+#include "trackbed/analysis/checks.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 
 #include "trackbed/analysis/metric_registry.h"
 #include "trackbed/analysis/requirement_metrics.h"
-#include "trackbed/analysis/verdict.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
@@ -307,35 +308,18 @@ std::vector<std::string> Exceeded(const DifferenceBounds& bounds,
   return messages;
 }
 
-void AddCheck(Check check, Verdict& verdict) {
-  if (!check.met) {
-    if (std::string message = FailureMessage(check); !message.empty()) {
-      verdict.failures.push_back(std::move(message));
-    }
-  }
-  verdict.checks.push_back(std::move(check));
-}
-
-ordered_json ToJson(const Verdict& verdict) {
-  ordered_json json{
-      {"passed", verdict.judged ? ordered_json(verdict.passed) : ordered_json(nullptr)},
-      {"failures", verdict.failures},
-      {"notes", verdict.notes},
-      {"checks", ordered_json::array()}};
-  for (const Check& check : verdict.checks) {
-    const bool placed = check.at.span == MetricSpan::kMoment || check.at.span == MetricSpan::kEnd;
-    json["checks"].push_back(
-        {{"plant", PlantsOf(check)},
-         {"metric", check.metric},
-         {"relation", ToString(check.relation)},
-         {"bound", ParsedBound(check.bound)},
-         {"value", ToJson(check.value)},
-         {"station", placed ? ordered_json(check.at.s) : ordered_json(nullptr)},
-         {"time", placed ? ordered_json(check.at.t) : ordered_json(nullptr)},
-         {"met", check.met}});
-    if (!check.formula.empty()) {
-      json["checks"].back()["formula"] = check.formula;
-    }
+ordered_json ToJson(const Check& check) {
+  const bool placed = check.at.span == MetricSpan::kMoment || check.at.span == MetricSpan::kEnd;
+  ordered_json json{{"plant", PlantsOf(check)},
+                    {"metric", check.metric},
+                    {"relation", ToString(check.relation)},
+                    {"bound", ParsedBound(check.bound)},
+                    {"value", ToJson(check.value)},
+                    {"station", placed ? ordered_json(check.at.s) : ordered_json(nullptr)},
+                    {"time", placed ? ordered_json(check.at.t) : ordered_json(nullptr)},
+                    {"met", check.met}};
+  if (!check.formula.empty()) {
+    json["formula"] = check.formula;
   }
   return json;
 }

@@ -10,6 +10,19 @@ namespace trackbed {
 
 struct Manifest;
 
+/// Returns the file status of a path; for a link, returns the status of the link and not of its
+/// target.
+std::filesystem::file_status StatusOf(const std::filesystem::path& path);
+
+/// Returns the kind of a file for messages: "a link", "a folder", "a file".
+const char* KindOf(const std::filesystem::file_status& status);
+
+/// Returns the sorted names of the files in a folder; nothing if the folder cannot be read.
+std::vector<std::string> NamesIn(const std::filesystem::path& folder);
+
+/// Removes a file or an empty folder. Throws RunError if this fails.
+void Remove(const std::filesystem::path& file);
+
 /// Returns true if the folder contains no file with this name, or if the file with this name is a
 /// regular file that Trackbed has written. A file counts as written by Trackbed if the manifest
 /// (null: none) lists the file, if the file carries a mark (HasMark), or if the file contains the

@@ -1,3 +1,5 @@
+#include "trackbed/analysis/sweep_check.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -6,7 +8,6 @@
 #include <set>
 #include <tuple>
 
-#include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/hash.h"
 #include "trackbed/core/spelling.h"

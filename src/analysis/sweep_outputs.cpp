@@ -1,10 +1,11 @@
+#include "trackbed/analysis/sweep_outputs.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "src/analysis/metric_table.h"
 #include "trackbed/analysis/path_properties.h"
 #include "trackbed/analysis/robustness.h"
-#include "trackbed/analysis/sweep.h"
 
 namespace trackbed {
 namespace {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 // Computes the verdict on a run. Each plant must arrive without a collision, or collide if the
 // scenario expects a collision. Each plant must not exceed the steering rate limit of the actuator,
@@ -335,6 +336,28 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
   verdict.judged = verdict.judged || !verdict.failures.empty();
   verdict.passed = verdict.judged && verdict.failures.empty();
   return verdict;
+}
+
+void AddCheck(Check check, Verdict& verdict) {
+  if (!check.met) {
+    if (std::string message = FailureMessage(check); !message.empty()) {
+      verdict.failures.push_back(std::move(message));
+    }
+  }
+  verdict.checks.push_back(std::move(check));
+}
+
+nlohmann::ordered_json ToJson(const Verdict& verdict) {
+  using nlohmann::ordered_json;
+  ordered_json json{
+      {"passed", verdict.judged ? ordered_json(verdict.passed) : ordered_json(nullptr)},
+      {"failures", verdict.failures},
+      {"notes", verdict.notes},
+      {"checks", ordered_json::array()}};
+  for (const Check& check : verdict.checks) {
+    json["checks"].push_back(ToJson(check));
+  }
+  return json;
 }
 
 }  // namespace trackbed

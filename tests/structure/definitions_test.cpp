@@ -20,11 +20,8 @@ const fs::path kRoot = TRACKBED_SOURCE_DIR;
 
 /// Headers that declare functions of several sources of their folder, such as the verbs, the plants
 /// and the path formats. Other headers must not be added: split the header instead.
-constexpr std::array<std::string_view, 24> kOfSeveralSources{
-    "include/trackbed/analysis/output_folder.h",
+constexpr std::array<std::string_view, 21> kOfSeveralSources{
     "include/trackbed/analysis/run.h",
-    "include/trackbed/analysis/sweep.h",
-    "include/trackbed/analysis/verdict.h",
     "include/trackbed/core/csv_rows.h",
     "include/trackbed/core/version.h",
     "include/trackbed/planning/fillet/fillet.h",

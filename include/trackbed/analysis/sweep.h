@@ -11,61 +11,13 @@
 
 #include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run.h"
+#include "trackbed/analysis/sweep_check.h"
 #include "trackbed/analysis/sweep_records.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/scenario/study_points.h"
 
 /// Runs a study and writes its results to one table.
 namespace trackbed {
-
-/// The results of a run for a study's table, keyed by dotted path. The paths are
-/// `metrics.<plant>.…`, `between.<plant>.<plant>.…`, `verdict.passed`, `verdict.failures`,
-/// `verdict.robustness` (RobustnessOf), `plan.status`, `plan.length_m` and the other
-/// PathProperties(), `timing.planning_s` (which differs between runs). The names in the paths are
-/// the same as in metrics.json. An element of a list is written as its index in brackets, such as
-/// `turns[0]`. If a run has a single plant, its results are also listed as `metrics.*.…`, so that a
-/// study that varies the plant needs only one column for each result.
-using Outputs = std::map<std::string, std::string>;
-
-Outputs CollectOutputs(const RunResult& result);
-
-/// Returns the paths of all outputs that runs of the scenario may have, sorted by name.
-std::vector<std::string> PossibleOutputs(const Scenario& scenario);
-
-/// The result of one run.
-struct RunOutcome {
-  /// Status of the run: "passed", "failed", "driven" (no expectations), or "no_plan".
-  std::string status;
-  bool passed = false;
-  std::string reason{};  ///< Reason why the run failed or has no plan.
-  Outputs outputs;
-  /// Complete result of the run, if DriveOnce ran the scenario.
-  std::optional<RunResult> result{};
-};
-
-/// Type of a function that runs a scenario, on any thread, and returns nullopt if the run was
-/// interrupted.
-using RunScenarioOnce = std::function<std::optional<RunOutcome>(const Scenario& scenario)>;
-
-/// A study that has been validated as far as is possible without running its scenarios. A
-/// CheckedStudy is immutable, so several threads may share a CheckedStudy.
-struct CheckedStudy {
-  StudyPoints points;
-  std::unique_ptr<CarCache> cars;  ///< Cache of the compiled cars, never null.
-  /// SHA-256 hashes of the study's input files, by file name.
-  std::map<std::string, std::string> inputs;
-};
-
-/// Validates a study: reads its points (CheckPoints), compiles the cars, makes the plants and
-/// checks the outputs. Throws InputError, listing all problems, if points or their cars are
-/// invalid. Throws InputError if outputs are unknown, listing each of these outputs with the most
-/// similar known path. If `all` is true, every point of the study must be valid; otherwise, one
-/// valid point is enough.
-CheckedStudy CheckStudy(Study study, bool all = true);
-
-/// Plans, simulates, measures and judges a scenario of the study.
-std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario& scenario,
-                                    const std::function<bool()>& interrupted = {});
 
 /// The part of a study's rows that one process runs: every `count`-th row, starting at the row with
 /// the number `index`, where 1 is the first row.
