@@ -1,5 +1,6 @@
+#include "src/scenario/check_expectations.h"
+
 #include "src/scenario/cross_check.h"
-#include "src/scenario/diagnostics.h"
 
 namespace trackbed {
 namespace {

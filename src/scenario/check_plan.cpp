@@ -1,9 +1,10 @@
+#include "src/scenario/check_plan.h"
+
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "src/scenario/diagnostics.h"
 #include "src/scenario/route_world.h"
 #include "src/scenario/start_state.h"
 #include "trackbed/control/controllers.h"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "src/scenario/check_expectations.h"
+#include "src/scenario/check_plan.h"
 #include "src/scenario/diagnostics.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/playback.h"

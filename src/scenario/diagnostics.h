@@ -66,9 +66,4 @@ struct Diagnostics {
   }
 };
 
-/// Checks the mission and the plan, and adds the problems found to `c`.
-void CheckMissionAndPlan(Diagnostics& c);
-/// Checks the expectations, and adds the problems found to `c`.
-void CheckExpectations(Diagnostics& c);
-
 }  // namespace trackbed

@@ -5,6 +5,7 @@
 
 #include "src/scenario/input_files.h"
 #include "src/scenario/local_origin.h"
+#include "src/scenario/scenario_yaml.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -184,6 +185,10 @@ std::vector<std::string> TyreFileNotes(const Scenario& scenario) {
     }
   }
   return notes;
+}
+
+std::string PortableYaml(const Scenario& scenario) {
+  return YamlOf(WithResolvedFiles(scenario));
 }
 
 }  // namespace trackbed

@@ -294,10 +294,6 @@ void Move(Scenario& scenario, const Vec2& origin) {
 
 }  // namespace
 
-Vec2 OriginOf(const Scenario& scenario) {
-  return scenario.origin.value_or(Vec2::Zero());
-}
-
 Track Moved(const Track& track, const Vec2& by) {
   std::vector<TrackPoint> points = track.points();
   for (TrackPoint& point : points) {

@@ -11,6 +11,7 @@
 #include "src/scenario/yaml_reader.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/scenario/moving_ai.h"
 
 namespace trackbed {
 namespace {

@@ -1,3 +1,5 @@
+#include "trackbed/scenario/moving_ai.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

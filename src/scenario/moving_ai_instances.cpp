@@ -1,3 +1,5 @@
+#include "trackbed/scenario/moving_ai_instances.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
 #include "trackbed/scenario/map_file.h"
-#include "trackbed/scenario/moving_ai.h"
 
 namespace trackbed {
 namespace {

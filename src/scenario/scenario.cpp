@@ -17,6 +17,8 @@
 #include "src/scenario/overrides.h"
 #include "src/scenario/read_section.h"
 #include "src/scenario/route_world.h"
+#include "src/scenario/scenario_yaml.h"
+#include "src/scenario/start_state.h"
 #include "src/scenario/visit.h"
 #include "src/scenario/yaml_file.h"
 #include "src/scenario/yaml_reader.h"
@@ -248,6 +250,14 @@ std::optional<double> RunDuration(const Scenario& scenario) {
   return controller.duration != nullptr ? controller.duration(steering) : std::nullopt;
 }
 
+Vec2 OriginOf(const Scenario& scenario) {
+  return scenario.origin.value_or(Vec2::Zero());
+}
+
+StartState InitialState(const Scenario& scenario) {
+  return StartOfMission(scenario);
+}
+
 PlannerOptions DefaultPlanner() {
   return Planners().front().defaults;
 }
@@ -291,25 +301,6 @@ std::string OptionDefaults(const ControllerOptions& options) {
 
 std::string OptionDefaults(const ManeuverOptions& options) {
   return OneLine(options);
-}
-
-namespace {
-
-/// Writes a scenario whose files have the names of their copies.
-std::string YamlOf(const Scenario& resolved) {
-  Scenario written = InFileCoordinates(resolved, /*with_files=*/false);
-  YAML::Emitter out;
-  out << YAML::BeginMap;
-  YamlWriter writer(out);
-  Visit(writer, written);
-  out << YAML::EndMap;
-  return std::string(out.c_str()) + "\n";
-}
-
-}  // namespace
-
-std::string PortableYaml(const Scenario& scenario) {
-  return YamlOf(WithResolvedFiles(scenario));
 }
 
 std::string ResolvedYaml(const Scenario& scenario) {

@@ -6,6 +6,10 @@
 
 namespace trackbed {
 
+/// Returns the road wheel angle at the start of the run, which is also the angle of the steering
+/// actuator [rad], if the mission or a recording determines this angle.
+std::optional<double> GivenSteering(const Scenario& scenario);
+
 /// Returns the steering angle with which the plan's bicycle model drives straight ahead [rad]; 0
 /// without a plan.
 double NeutralSteering(const Scenario& scenario);
@@ -14,5 +18,8 @@ double NeutralSteering(const Scenario& scenario);
 /// The sources are, in the order of their priority: mission.start.speed, a recording with speeds, a
 /// recorded drive, the speeds of a followed path, up to mission.speed, and control.speed.over_time.
 std::optional<double> StartSpeedBesideMission(const Scenario& scenario);
+
+/// Returns the initial state of the car, as InitialState does, before the route is known.
+StartState StartOfMission(const Scenario& scenario);
 
 }  // namespace trackbed

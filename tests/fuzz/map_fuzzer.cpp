@@ -1,6 +1,7 @@
 #include "tests/fuzz/target.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/moving_ai.h"
+#include "trackbed/scenario/moving_ai_instances.h"
 
 /// Fuzzes a grid map: the image of a ROS map, its YAML file, a Moving AI map and its instances.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -21,6 +21,7 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/moving_ai.h"
+#include "trackbed/scenario/moving_ai_instances.h"
 
 /// A* on the maps of the Moving AI benchmarks: compares path lengths with the listed ones and
 /// counts the paths that a car can drive (scripts/movingai).

@@ -12,6 +12,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/scenario/moving_ai.h"
+#include "trackbed/scenario/moving_ai_instances.h"
 #include "trackbed/scenario/scenario.h"
 
 namespace trackbed {

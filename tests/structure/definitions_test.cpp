@@ -20,16 +20,13 @@ const fs::path kRoot = TRACKBED_SOURCE_DIR;
 
 /// Headers that declare functions of several sources of their folder, such as the verbs, the plants
 /// and the path formats. Other headers must not be added: split the header instead.
-constexpr std::array<std::string_view, 21> kOfSeveralSources{
+constexpr std::array<std::string_view, 16> kOfSeveralSources{
     "include/trackbed/analysis/run.h",
     "include/trackbed/core/csv_rows.h",
     "include/trackbed/core/version.h",
     "include/trackbed/planning/fillet/fillet.h",
     "include/trackbed/planning/grid/hybrid_astar.h",
     "include/trackbed/render/film.h",
-    "include/trackbed/scenario/map_file.h",
-    "include/trackbed/scenario/moving_ai.h",
-    "include/trackbed/scenario/scenario.h",
     "render/gl_context.h",
     "render/video.h",
     "src/analysis/evaluations.h",
@@ -39,8 +36,6 @@ constexpr std::array<std::string_view, 21> kOfSeveralSources{
     "src/path_files/formats.h",
     "src/planning/fillet/fillet_layout.h",
     "src/planning/grid/pose_search.h",
-    "src/scenario/diagnostics.h",
-    "src/scenario/start_state.h",
     "src/sim/plants.h"};
 
 /// Returns the text of a file without comments, preprocessor lines, and the contents of literals.

@@ -44,15 +44,6 @@ using AccessCheck = std::function<std::string(const std::filesystem::path& file)
 /// image may be read.
 GridMap ReadRosMap(const std::filesystem::path& file, const AccessCheck& access_error = {});
 
-/// Reads a Moving AI file of type `octile`. The characters `.` and `G` are free cells; `@`, `O`,
-/// `T`, `S` and `W` are occupied cells. The first row of the file is the top row of the map. `cell`
-/// [m] is the side of a cell, and `X_WM` is the pose of the map's lower left corner. Throws
-/// InputError with line and column if the file is invalid.
-GridMap ReadMovingAiMap(const std::filesystem::path& file, double cell, const Pose2& X_WM = {});
-
-/// Whether the file name has the extension `.map` of Moving AI maps.
-bool IsMovingAiMap(const std::filesystem::path& file);
-
 /// Returns true if the file has the keys `image` and `resolution`, which ROS maps have but
 /// scenarios do not. Returns false if the file cannot be read.
 bool IsRosMap(const std::filesystem::path& file);
