@@ -199,6 +199,14 @@ FeasiblePlan WithHint(FeasiblePlan plan, PlanRequest request, const Scenario& sc
       request);
 }
 
+/// Returns the plan of a mission without a path: a car that drives at the mission's speed.
+FeasiblePlan WithoutPath(const Scenario& scenario, const VehicleParams& vehicle) {
+  Plan plan;
+  plan.reference.speed = SpeedProfile({{0.0, MissionSpeed(scenario)}});
+  plan.schedule_speed = plan.reference.speed;
+  return MakeFeasible(std::move(plan), RequestOn({}, vehicle, MakeSpeedLimits(scenario)));
+}
+
 /// Returns the data for planning speeds at the car's limit; none if the mission does not ask for
 /// such speeds. `diagram` returns the g-g-v diagram for given friction coefficients.
 std::optional<SpeedAtLimit> LimitsFor(const Scenario& scenario, const DiagramOfRoads& diagram) {
@@ -221,10 +229,7 @@ FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle,
                    RequestOn({}, vehicle, MakeSpeedLimits(scenario)));
   }
   if (!scenario.plan) {
-    Plan plan;
-    plan.reference.speed = SpeedProfile({{0.0, MissionSpeed(scenario)}});
-    plan.schedule_speed = plan.reference.speed;
-    return MakeFeasible(std::move(plan), RequestOn({}, vehicle, MakeSpeedLimits(scenario)));
+    return WithoutPath(scenario, vehicle);
   }
   std::vector<OrientedBox> known = KnownAtStart(scenario, vehicle, start.pose);
   const auto begin = std::chrono::steady_clock::now();
