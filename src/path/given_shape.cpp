@@ -66,7 +66,8 @@ class GivenShape {
 
   /// Returns whether the curvature jumps from one constant to another between two points.
   [[nodiscard]] bool Jumps(const Leg& leg, std::size_t i) const {
-    constexpr double kFlat = 0.01;  // Share of the jump by which the curvature varies elsewhere.
+    // Largest change of the curvature beside the jump, as a fraction of the jump.
+    constexpr double kFlat = 0.01;
     const std::vector<double>& curvature = given_.curvature;
     const double flat = kFlat * std::abs(curvature[i + 1] - curvature[i]);
     // The curvature of the first point may be that before the cusp.

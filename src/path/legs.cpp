@@ -56,8 +56,9 @@ double ProgressOf(const PathPoints& given, std::size_t from, std::size_t to) {
 /// Returns the direction of each step.
 std::vector<int> DirectionsOf(const PathPoints& given, const std::vector<Place>& places,
                               const std::vector<double>& progress, double noise) {
-  // Share of the shorter step by which turning back speaks for a change of direction. The
-  // share is below 1, because directions and headings are better evidence.
+  // Weight of a turn back by 180 degrees as evidence for a change of direction, as a fraction of
+  // the shorter step. The weight is below 1, because given directions and headings are better
+  // evidence than the positions.
   constexpr double kTurnShare = 0.5;
   constexpr std::array<int, 2> kDirections{1, -1};
   const auto at = [&](std::size_t place) { return given.points[places[place].first]; };

@@ -206,8 +206,9 @@ TEST(FirstOrderIndices, HaveIntervalsThatHaveTheTruth) {
   }
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_GE(held[i], 178) << i;
-    // With ten classes, the index of a linear effect is too small by 1 %. The mean of 200 indices
-    // has an error of 1/14 of half a confidence interval, and half an interval is below 0.1.
+    // With ten classes, the index of a linear effect is too small by 1 %. Half the width of a
+    // confidence interval is below 0.1. The error of the mean of 200 indices is this width divided
+    // by sqrt(200) = 14.
     EXPECT_NEAR(sum[i], 0.99 * truth[i], 0.01) << i;
   }
 }
