@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "tests/analysis/small_car.h"
 #include "tests/road_network/documents.h"
 #include "tests/tolerance.h"
 #include "trackbed/analysis/run.h"
@@ -28,15 +29,6 @@ RunLog LogThrough(const std::vector<Pose2>& poses) {
     log.rows.push_back(row);
   }
   return log;
-}
-
-VehicleParams SmallCar() {
-  VehicleParams car;
-  car.wheelbase = 2.7;
-  car.length = 4.0;
-  car.width = 1.8;
-  car.rear_overhang = 1.0;
-  return car;
 }
 
 std::optional<MetricReading> MarginOf(const RoadNetwork& roads, const std::vector<Pose2>& poses) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <random>
 
+#include "tests/analysis/small_car.h"
 #include "tests/tolerance.h"
 #include "tests/track/rings.h"
 #include "trackbed/core/angle.h"
@@ -44,15 +45,6 @@ RunLog Circle(double radius, double from, double speed, double duration) {
     log.rows.push_back(row);
   }
   return log;
-}
-
-VehicleParams Car() {
-  VehicleParams car;
-  car.wheelbase = 2.7;
-  car.length = 4.0;
-  car.width = 1.8;
-  car.rear_overhang = 1.0;
-  return car;
 }
 
 TEST(Laps, TakeTheirTimeBetweenCrossingsOfTheLine) {
@@ -95,8 +87,8 @@ TEST(Laps, AreNoMoreThanPlannedAndNoneWithoutATrack) {
   const RunLog log = Circle(kRadius, -0.2, kSpeed, 100.0);
   EXPECT_EQ(MeasureLaps(log, RingPlan(1)).size(), 1U);
   EXPECT_TRUE(MeasureLaps(log, Plan{}).empty());
-  EXPECT_FALSE(SmallestTrackMargin({log, Plan{}, Car()}).has_value());
-  EXPECT_FALSE(TimeOffTrack({log, Plan{}, Car()}).has_value());
+  EXPECT_FALSE(SmallestTrackMargin({log, Plan{}, SmallCar()}).has_value());
+  EXPECT_FALSE(TimeOffTrack({log, Plan{}, SmallCar()}).has_value());
 }
 
 /// Smallest distance of sampled points of the footprint's outline from the track edges, negative
@@ -152,7 +144,7 @@ TEST(TrackLimits, TellHowFarHowLongAndWhere) {
   // The car drives 3.5 m outside of the center line. Half of the car's width is 0.9 m. The car's
   // front corners, 3 m ahead of the rear axle, are even farther outside.
   const Plan plan = RingPlan(1);
-  const VehicleParams car = Car();
+  const VehicleParams car = SmallCar();
   RunLog log = Circle(kRadius + 3.5, 0.1, kSpeed, 4.0);
   const double corner = std::hypot(kRadius + 3.5 + 0.9, 3.0) - (kRadius + 4.0);
   const auto margin = SmallestTrackMargin({log, plan, car});

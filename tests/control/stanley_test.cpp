@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/control/loop.h"
+#include "tests/control/steer_once.h"
 #include "tests/tolerance.h"
 #include "trackbed/control/controllers.h"
 
@@ -13,17 +14,7 @@ namespace trackbed {
 namespace stanley_test {
 
 double Steer(const StanleyOptions& options, const Path& path, const Pose2& pose, double speed) {
-  const VehicleParams car = ReferenceCar();
-  const Reference reference{path, {}};
-  VehicleState state;
-  state.pose = pose;
-  state.speed = speed;
-  return MakeSteeringController(options)->Steer({.vehicle = car,
-                                                 .reference = reference,
-                                                 .schedule = {},
-                                                 .state = state,
-                                                 .station = 0.0,
-                                                 .period = 0.02});
+  return SteerOnce(options, path, pose, speed);
 }
 
 TEST(Stanley, AddsHeadingAndOffsetOfTheFrontAxle) {
