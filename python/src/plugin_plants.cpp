@@ -109,8 +109,8 @@ class PluginPlant final : public Plant {
  private:
   PluginPlant(const PluginPlant&) = default;
 
-  /// Reads x, y, yaw and the columns of a state. None keeps a value; a missing yaw rate becomes
-  /// NaN, which Step replaces.
+  /// Reads x, y, yaw and the columns of a state. A value None in Python leaves the column
+  /// unchanged. A missing yaw rate becomes NaN, which Step replaces by the rate of the heading.
   void Read(const py::object& given) {
     const auto numbers = given.cast<py::tuple>();
     state_.pose = {numbers[0].cast<double>(), numbers[1].cast<double>(), numbers[2].cast<double>()};

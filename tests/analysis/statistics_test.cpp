@@ -92,7 +92,7 @@ TEST(Quantiles, HaveTheirShareOfTheSampleBelow) {
   for (int percent = 0; percent <= 100; ++percent) {
     // With 101 values every percentile is one of them.
     const double quantile = Quantiles(values, {percent / 100.0}).front();
-    // A rank such as 0.29 x 100 is rounded, by 1e-14 of a step between two values.
+    // The rank of a percentile, such as 0.29 x 100, has a rounding error of 1e-14 ranks.
     const double slack = 1e-10 * quantile;
     EXPECT_EQ(std::count_if(values.begin(), values.end(),
                             [&](double value) { return value < quantile - slack; }),

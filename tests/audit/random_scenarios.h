@@ -14,10 +14,10 @@ std::vector<trackbed::PlannerEntry> AuditedPlanners();
 /// Number of scenarios after which the combinations of planner, controller and plant repeat.
 std::size_t Combinations();
 
-/// The scenario of an index, always the same one. Successive indices combine every audited planner
-/// with every path-following controller and every plant of a steered car. All other settings are
-/// random. If the program rejects a scenario as invalid, a larger `attempt` gives the index another
-/// random scenario.
+/// Returns the scenario with a given index. The same index always gives the same scenario.
+/// Successive indices combine every audited planner with every path-following controller and every
+/// plant of a steered car. All other settings are random. If the program rejects a scenario as
+/// invalid, a larger `attempt` gives the index another random scenario.
 trackbed::Scenario RandomScenario(std::size_t index, int attempt);
 
 }  // namespace audit
