@@ -53,11 +53,12 @@ set(public_headers
     falsify/verify.h
     fmu/export.h
     identify/identify.h
+    identify/identify_files.h
     path_files/path_file.h
     recording/import_log.h
     render/film.h
     report/report.h
-    requirement/formula.h
+    requirement/robustness.h
     road_network/lane_route.h
     road_network/open_drive.h
     track/track_file.h
