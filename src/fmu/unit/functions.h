@@ -12,7 +12,7 @@
 
 namespace trackbed::fmu {
 
-/// What FMI 2 and FMI 3 know about an instance. `Own`, the type derived from this one, defines
+/// Base of the instances of FMI 2 and FMI 3. `Own`, the type derived from this one, defines
 /// `Status`, the constants kOk and kError of this type, kStateName, the name of the argument with a
 /// state, and Fail(message), which passes a message to the host.
 struct InstanceBase {
