@@ -91,8 +91,10 @@ void PrintSummary(const RunResult& result, const std::filesystem::path& folder) 
       Print("{} at {:.2f} s, followed until {:.2f} s, {:.2f} m", InWords(plant.status),
             plant.contact_t, plant.time, plant.distance);
     } else {
-      Print("{} {} {:.2f} s, {:.2f} m", InWords(plant.status),
-            plant.status == DriveStatus::kRolledOver ? "at" : "after", plant.time, plant.distance);
+      const bool mishap =
+          plant.status == DriveStatus::kRolledOver || plant.status == DriveStatus::kJackknifed;
+      Print("{} {} {:.2f} s, {:.2f} m", InWords(plant.status), mishap ? "at" : "after", plant.time,
+            plant.distance);
     }
     if (plant.tracking) {
       const TrackingMetrics& tracking = *plant.tracking;
