@@ -318,22 +318,27 @@ PlanRequest LimitLaps(int laps) {
   return request;
 }
 
+/// Returns why a plan is refused.
+template <typename Options>
+std::string RefusalOf(const PlanRequest& request, const Options& options) {
+  const Plan plan = MakePlan(request, options);
+  EXPECT_EQ(plan.status, PlanStatus::kNoPath);
+  return plan.reason;
+}
+
 TEST(MinimumTime, NamesTheMarginOfATrackThatIsTooNarrow) {
   PlanRequest request = LimitLaps(1);
   // The track is 8 m wide, the car 1.8 m: a margin of 3.1 m is the largest.
   request.vehicle.width = 1.8;
   for (const double margin : {3.2, 10.0}) {
-    for (const Plan& plan : {MakePlan(request, MinimumTimeOptions{.margin = margin}),
-                             MakePlan(request, MinimumCurvatureOptions{.margin = margin})}) {
-      EXPECT_EQ(plan.status, PlanStatus::kNoPath);
-      EXPECT_THAT(plan.reason, HasSubstr("; plan.margin must be at most 3.09 m"));
-    }
+    const auto names = HasSubstr("; plan.margin must be at most 3.09 m");
+    EXPECT_THAT(RefusalOf(request, MinimumTimeOptions{.margin = margin}), names);
+    EXPECT_THAT(RefusalOf(request, MinimumCurvatureOptions{.margin = margin}), names);
   }
   const Plan widest = MakePlan(request, MinimumCurvatureOptions{.margin = 3.09});
   EXPECT_TRUE(widest.ok()) << widest.reason;
   request.vehicle.width = 8.5;
-  EXPECT_THAT(MakePlan(request, MinimumTimeOptions{}).reason,
-              HasSubstr("; the car alone is 8.5 m wide"));
+  EXPECT_THAT(RefusalOf(request, MinimumTimeOptions{}), HasSubstr("; the car alone is 8.5 m wide"));
 }
 
 TEST(MinimumTime, NamesTheRemedyOfATrackThatIsTooTight) {
@@ -341,10 +346,10 @@ TEST(MinimumTime, NamesTheRemedyOfATrackThatIsTooTight) {
   PlanRequest request = LimitLaps(1);
   request.vehicle.width = 1.8;
   request.vehicle.steering_limit = SteeringForCurvature(request.vehicle, 1.0 / 20.2);
-  EXPECT_THAT(MakePlan(request, MinimumTimeOptions{.margin = 2.0}).reason,
+  EXPECT_THAT(RefusalOf(request, MinimumTimeOptions{.margin = 2.0}),
               HasSubstr("; plan.margin: 0 leaves room for a wide enough line, 2 does not"));
   request.vehicle.steering_limit = SteeringForCurvature(request.vehicle, 1.0 / 25.0);
-  EXPECT_THAT(MakePlan(request, MinimumTimeOptions{.margin = 2.0}).reason,
+  EXPECT_THAT(RefusalOf(request, MinimumTimeOptions{.margin = 2.0}),
               HasSubstr("; the track needs a car whose wheels turn by "));
 }
 
