@@ -11,9 +11,9 @@ namespace {
 
 TEST(BrakingAtTheLimit, FollowsAPlanThatBrakesWithTheDrag) {
   // From 55 m/s, the plan brakes at 0.95 of the 8.26 m/s^2 of the tyres, and with the drag: 0.79
-  // m/s^2 at 55 m/s. The car brakes as hard as the plan, so it stays as far above the plan as it
-  // was when the jerk of 40 m/s^3 had built up the deceleration. A command limited to 8.26 m/s^2
-  // would be less than the plan above 38 m/s, and the car 0.5 m/s too fast.
+  // m/s^2 at 55 m/s. The car brakes as hard as the plan. The tyres' forces follow the slip within a
+  // relaxation length of 0.3 m, 6 ms at 50 m/s, in which the plan's speed falls by 0.05 m/s. With
+  // commands of at most 8.26 m/s^2, less than the plan above 38 m/s, the car was 0.18 m/s too fast.
   const Scenario scenario = ParseScenario(
       "schema: 1\nname: brake\nvehicle: {model: prius, tyre: magic_formula}\n"
       "mission: {speed: 55, start: {speed: 55},\n"
@@ -24,17 +24,13 @@ TEST(BrakingAtTheLimit, FollowsAPlanThatBrakesWithTheDrag) {
   const FeasiblePlan plan = PlanScenario(scenario, car.unladen());
   const RunLog log = SimulateScenario(scenario, car, plan, "mujoco");
   ASSERT_EQ(log.status, DriveStatus::kArrived);
-  double first = 0.0;
   double most = 0.0;
   for (const LogRow& row : log.rows) {
-    if (!row.planned_speed) {
-      continue;
+    if (row.planned_speed) {
+      most = std::max(most, row.state.speed - *row.planned_speed);
     }
-    const double over = row.state.speed - *row.planned_speed;
-    (row.state.speed > 50.0 ? first : most) = std::max(row.state.speed > 50.0 ? first : most, over);
   }
-  EXPECT_LT(first, 0.3);
-  EXPECT_LT(most, first + 0.02);
+  EXPECT_LT(most, 0.06);
 }
 
 }  // namespace
