@@ -67,14 +67,15 @@ double TotalSpeed(const LogRow& row) {
   return std::hypot(row.state.speed, row.state.lateral_speed);
 }
 
-/// Returns the length of the path of the center of gravity up to each row [m]. The speed is
-/// interpolated linearly between rows.
-std::vector<double> DrivenOf(const RunLog& log) {
+/// Returns the length of the path of the center of gravity up to each row [m]. The path is straight
+/// between rows.
+std::vector<double> DrivenOf(const RunLog& log, const VehicleParams& vehicle) {
+  const auto center = [&](const LogRow& row) {
+    return ToWorld(row.state.pose, {vehicle.cg_to_rear, 0.0});
+  };
   std::vector<double> driven(log.rows.size());
   for (std::size_t i = 1; i < driven.size(); ++i) {
-    const double time = log.rows[i].state.time - log.rows[i - 1].state.time;
-    const double mean = 0.5 * (TotalSpeed(log.rows[i - 1]) + TotalSpeed(log.rows[i]));
-    driven[i] = driven[i - 1] + mean * time;
+    driven[i] = driven[i - 1] + (center(log.rows[i]) - center(log.rows[i - 1])).norm();
   }
   return driven;
 }
@@ -112,7 +113,7 @@ void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
   metrics.values.emplace_back("initial_speed", initial_speed);
   // The forward speed of a spinning car is zero while the car slides sideways.
   const auto slowness = [](const LogRow& row) { return -TotalSpeed(row); };
-  const std::vector<double> driven = DrivenOf(input.log);
+  const std::vector<double> driven = DrivenOf(input.log, input.vehicle);
   const auto driven_at = [&](const LogRow& row) {
     return driven[static_cast<std::size_t>(&row - rows.data())];
   };
