@@ -146,7 +146,11 @@ void ReadBank(Identification& study, const std::vector<fs::path>& assets, const 
     add_error("bank.track", fmt::format("{} {}", *study.bank->track, why));
     return;
   }
-  study.bank->points = ReadTrackFile(folder / *study.bank->track).track.points();
+  try {
+    study.bank->points = ReadTrackFile(folder / *study.bank->track).track.points();
+  } catch (const RunError& error) {
+    add_error("bank.track", error.what());
+  }
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(WrittenNames, OfAVerbFollowFromItsResults) {
                                                      "sweep.records", "report.html"));
   const auto names = FileNamesOfVerb("identify", {{"vehicle", {"a/b"}}, {"record", {"x", "y"}}});
   EXPECT_THAT(names, ElementsAre("identify.json", "a_b.xml", "x.residuals.csv", "y.residuals.csv",
-                                 "timing.json", "report.html"));
+                                 "bank.csv", "timing.json", "report.html"));
   EXPECT_THAT(FileNamesOfVerb("run"),
               IsSupersetOf({"kinematic.state.csv", "mujoco-contact.csv", "video.mp4"}));
   EXPECT_THAT(NamesOfVerb("sweep"), IsSupersetOf({"rows/<row>/", "sweep.records"}));
