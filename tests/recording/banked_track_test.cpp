@@ -95,6 +95,17 @@ TEST(BankedTrack, IsContinuousBetweenItsParts) {
   }
 }
 
+TEST(BankedTrack, IsNoLargerThanFourKilometers) {
+  const BankedTrack track{RingPoints(2100.0, 60, 5.0, 4.0), Same(0.1, 60), Same(0.0, 60)};
+  try {
+    static_cast<void>(MakeTerrain(track));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the track spreads over 4200 m; a track with bank may "
+                                        "spread over at most 4000 m along x and y"));
+  }
+}
+
 TEST(BankedTrack, IsReadAsItWasWritten) {
   const TempFolder folder;
   BankedTrack track{RingPoints(40.0, 60, 5.0, 4.0), {}, {}};
