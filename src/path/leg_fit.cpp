@@ -116,7 +116,15 @@ std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period)
 }
 
 ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& options) {
-  return options.resample ? Resampled(distinct, *options.resample) : distinct.chords;
+  if (options.resample) {
+    return Resampled(distinct, *options.resample);
+  }
+  // The linear equations of a spline lose a digit for each factor of about 1.6 between the
+  // distances of neighboring knots, so points that are much closer than others would make the
+  // spline swing. The fit still keeps max_deviation of the points between the knots.
+  constexpr double kSpacing = 0.1;
+  return options.fit == PathFit::kSpline ? Spaced(distinct, kSpacing * options.max_deviation)
+                                         : distinct.chords;
 }
 
 FittedPath FitLeg(PathPoints given, const PathFitOptions& options, const EndHeadings& headings,

@@ -7,8 +7,8 @@
 
 #include "trackbed/core/error.h"
 
-// Prepares the points of a file for a fit: drops repeated points, merges points of noise, and
-// resamples points along straight lines.
+// Prepares the points of a file for a fit: drops repeated points, merges points of noise, leaves
+// out points that are too close, and resamples points along straight lines.
 //
 // Noise is found by its steps: a recorder of a car that stands or creeps logs steps that turn back
 // although the car does not. Groups of consecutive points are kept on a stack. A group at which the
@@ -182,6 +182,23 @@ void CheckLength(const DistinctPoints& distinct, const PathPoints& given) {
           is_cause ? "correct the point or the unit of the positions, or divide the path"
                    : "divide the path, or correct the unit of the positions"),
       is_cause ? LineOf(given, after) : 0);
+}
+
+ChordPoints Spaced(const DistinctPoints& distinct, double spacing) {
+  const ChordPoints& all = distinct.chords;
+  const double end = distinct.period > 0.0 ? distinct.period : all.u.back();
+  ChordPoints spaced;
+  for (std::size_t i = 0; i < all.u.size(); ++i) {
+    const bool is_far =
+        i == 0 || (all.u[i] - spaced.u.back() >= spacing && end - all.u[i] >= spacing);
+    const bool is_end = distinct.period == 0.0 && i + 1 == all.u.size();
+    if (is_far || is_end) {
+      spaced.u.push_back(all.u[i]);
+      spaced.points.push_back(all.points[i]);
+    }
+  }
+  constexpr std::size_t kFewest = 4;
+  return spaced.u.size() < kFewest ? all : spaced;
 }
 
 ChordPoints Resampled(const DistinctPoints& distinct, double spacing) {

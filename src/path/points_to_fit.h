@@ -46,6 +46,11 @@ std::size_t LastBefore(const std::vector<double>& rising, double u);
 /// Throws InputError if the path is longer than kMaxPathLength.
 void CheckLength(const DistinctPoints& distinct, const PathPoints& given);
 
+/// Leaves out points whose chord length is less than `spacing` [m] from the previous point that is
+/// kept, or from the end. The first point, and the last point of an open path, are always kept.
+/// Returns all points if fewer than four would remain.
+ChordPoints Spaced(const DistinctPoints& distinct, double spacing);
+
 /// Returns points that are `spacing` [m] apart on the straight lines between the distinct points.
 ChordPoints Resampled(const DistinctPoints& distinct, double spacing);
 
