@@ -3,6 +3,7 @@
 
 #include "python/src/plugin_slots.h"
 #include "trackbed/analysis/metric_registry.h"
+#include "trackbed/analysis/plan_table.h"
 
 namespace trackbed::python {
 namespace {
@@ -27,7 +28,7 @@ std::optional<MetricReading> Measure(const Plugin& plugin, const MetricInput& in
   const auto log = std::make_shared<Columns>(ToTable(input.log));
   const Path& path = input.plan.reference.path;
   const auto planned =
-      path.length() > 0.0 ? std::make_shared<Columns>(PlanTable(input.plan.reference)) : nullptr;
+      path.length() > 0.0 ? std::make_shared<Columns>(PlanTable(input.plan)) : nullptr;
   return Ask(plugin, [&] {
     return ReadReading(plugin.adapter.object().attr("measure")(log, input.log.plant, planned));
   });

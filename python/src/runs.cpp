@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "python/src/bindings.h"
+#include "trackbed/analysis/plan_table.h"
 #include "trackbed/drive/car_cache.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/scenario/scenario_files.h"
@@ -139,7 +140,7 @@ void BindRuns(py::module_& module) {
       .def("path",
            [](const RunResult& run) -> std::shared_ptr<Columns> {
              const bool has_path = run.plan.ok() && run.plan->reference.path.length() > 0.0;
-             return has_path ? std::make_shared<Columns>(PlanTable(run.plan->reference)) : nullptr;
+             return has_path ? std::make_shared<Columns>(PlanTable(*run.plan)) : nullptr;
            })
       .def("log", &LogOf)
       .def("write", [](const RunResult& run, const fs::path& folder, bool mcap) {

@@ -13,6 +13,7 @@
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/mcap.h"
 #include "trackbed/analysis/path_properties.h"
+#include "trackbed/analysis/plan_table.h"
 #include "trackbed/analysis/record_metrics.h"
 #include "trackbed/analysis/requirement_metrics.h"
 #include "trackbed/analysis/run_folder.h"
@@ -39,9 +40,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Largest distance between two consecutive points in plan.csv [m].
-constexpr double kPlanSpacing = 0.1;
-
 /// Returns a table with the knots of the open-loop steering schedule delta(D), which is the
 /// steering angle as a function of the distance driven.
 Table ScheduleTable(const SteeringSchedule& schedule) {
@@ -66,11 +64,11 @@ Table TreeTable(const std::vector<TreeNode>& tree) {
 /// of plan.csv and the time of adoption.
 Table ChangesTable(const RunLog& log) {
   std::vector<std::string> columns{"from_t_s"};
-  const Table first = PlanTable(log.changes.front().plan.reference);
+  const Table first = PlanTable(log.changes.front().plan);
   columns.insert(columns.end(), first.columns().begin(), first.columns().end());
   Table table(columns);
   for (const PlanChange& change : log.changes) {
-    const Table own = PlanTable(change.plan.reference);
+    const Table own = PlanTable(change.plan);
     for (std::size_t row = 0; row < own.rows(); ++row) {
       std::vector<double> cells{change.time};
       for (std::size_t column = 0; column < own.columns().size(); ++column) {
@@ -279,25 +277,6 @@ RunResult SimulateRun(RunResult planned, const CarModel& car, const RunHooks& ho
   return result;
 }
 
-Table PlanTable(const Reference& reference) {
-  Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
-  // Sample each leg of the path separately, so that plan.csv contains every cusp. Where two legs
-  // meet, keep the point of the earlier leg.
-  for (const Stations& leg : SplitIntoLegs(reference.path)) {
-    const Reference part = Excerpt(reference, leg);
-    for (const PathPoint& point : part.path.Sample(kPlanSpacing)) {
-      if (point.s == 0.0 && table.rows() > 0) {
-        continue;
-      }
-      const double direction = point.direction;
-      const double speed = part.speed.SpeedAt(point.s);
-      table.AddRow({leg.from + point.s, point.pose.x, point.pose.y, point.pose.yaw, point.curvature,
-                    speed == 0.0 ? 0.0 : direction * speed, direction});
-    }
-  }
-  return table;
-}
-
 ordered_json MetricsJson(const RunResult& result) {
   ordered_json metrics{{"scenario", result.scenario.name}, {"complete", !result.interrupted}};
   const Vec2 origin = OriginOf(result.scenario);
@@ -349,7 +328,7 @@ void AddPlan(const RunResult& result, ResultWriter& writer) {
   const Plan& plan = result.plan;
   const Vec2 origin = OriginOf(result.scenario);
   if (plan.ok()) {
-    writer.Add(run_folder::kPlanCsv, WithOrigin(PlanTable(plan.reference), origin).ToCsv());
+    writer.Add(run_folder::kPlanCsv, WithOrigin(PlanTable(plan), origin).ToCsv());
     writer.Add(run_folder::kScheduleCsv, ScheduleTable(plan.schedule).ToCsv());
     for (const PlannerTable& table : PlannerFor(result.scenario.plan->global).tables) {
       AddUnlessEmpty(table.make(plan.diagnostics), table.file, writer);

@@ -102,9 +102,6 @@ nlohmann::ordered_json MetricsJson(const RunResult& result);
 /// Returns the content of plan.json. The scenario must have a plan.
 nlohmann::ordered_json PlanJson(const RunResult& result);
 
-/// Returns the content of plan.csv: points of the path at most 0.1 m apart, with their speeds.
-Table PlanTable(const Reference& reference);
-
 /// Optional files of a run folder.
 struct RunFolderOptions {
   bool mcap = false;  ///< Whether to write the file run.mcap (only if a plant was simulated).

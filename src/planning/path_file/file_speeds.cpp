@@ -60,12 +60,13 @@ std::vector<Standstill> PointsWithoutSpeed(const FittedPath& fitted) {
 /// Returns the part of the time step between point i, at which the car stands, and its neighbor j
 /// for which the car stands [s]. A car that starts at constant acceleration a reaches the speed v
 /// after the distance d = v^2/(2 a) and the time 2 d/v; at constant jerk, after 3 d/v. If the time
-/// step is not longer than the latter, the car does not stand.
+/// step is not longer than the latter, up to rounding of the file, the car does not stand.
 double StandingPart(const FittedPath& fitted, std::size_t i, std::size_t j) {
   const double step = std::abs(fitted.given.time[j] - fitted.given.time[i]);
   const double distance = std::abs(fitted.stations[j] - fitted.stations[i]);
   const double speed = fitted.given.speed[j];
-  if (speed <= 0.0 || step * speed <= 3.0 * distance) {
+  constexpr double kRounding = 1e-3;
+  if (speed <= 0.0 || step * speed <= 3.0 * distance * (1.0 + kRounding)) {
     return 0.0;
   }
   return step - 2.0 * distance / speed;
