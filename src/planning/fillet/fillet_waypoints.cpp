@@ -36,11 +36,28 @@ bool HasRoom(const std::vector<Vec2>& points, const WaypointChoice& choice) {
     const Vec2 in = points[i] - points[i - 1];
     const Vec2 out = points[i + 1] - points[i];
     const CornerRoom corner = choice.room(std::abs(std::atan2(Cross(in, out), in.dot(out))));
-    if (corner.tangent > 0.5 * std::min(in.norm(), out.norm())) {
+    if (corner.tangent > 0.5 * std::min(in.norm(), out.norm()) || corner.gap > choice.max_gap) {
       return false;
     }
   }
   return true;
+}
+
+/// Whether a polyline passes all waypoints within `distance` [m].
+bool PassesNear(const std::vector<Vec2>& points, const std::vector<Vec2>& waypoints,
+                double distance) {
+  constexpr double kRounding = 1e-9;  // [m]
+  return std::all_of(waypoints.begin(), waypoints.end(), [&](const Vec2& at) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const Vec2 along = points[i] - points[i - 1];
+      const double share =
+          std::clamp((at - points[i - 1]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      if ((at - points[i - 1] - share * along).norm() <= distance + kRounding) {
+        return true;
+      }
+    }
+    return false;
+  });
 }
 
 /// Returns the numbers of the waypoints that are points of the route. An added point behind the
@@ -66,12 +83,17 @@ std::vector<int> NumbersOf(const std::vector<Vec2>& points, const std::vector<Ve
 
 Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, double speed,
                             const FilletOptions& options) {
-  WaypointChoice choice{
+  const double smallest = options.radius.value_or(vehicle.min_turning_radius());
+  // An arc that passes its waypoint too far away does not fit.
+  const auto room = [&](double turn) -> CornerRoom {
+    const double miss = smallest * (1.0 / std::cos(0.5 * turn) - 1.0);
+    return {LeastLeg(vehicle, speed, options, turn),
+            miss <= options.max_waypoint_miss ? 0.0 : std::numeric_limits<double>::infinity()};
+  };
+  const WaypointChoice choice{
       .waypoints = route.waypoints,
       .max_gap = std::min(options.max_waypoint_miss, kShareOfWidth * vehicle.width),
-      .room = [&](double turn) -> CornerRoom {
-        return {LeastLeg(vehicle, speed, options, turn), 0.0};
-      },
+      .room = room,
       .end_share = 0.5};
   if (options.constraint == RadiusConstraint::kNone || HasRoom(route.waypoints, choice)) {
     return route;
@@ -79,15 +101,17 @@ Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, do
   std::vector<Vec2> points = route.waypoints;
   const Leg& first = route.legs.front();
   const double longest = std::max(first.length, 2.0 * vehicle.min_turning_radius());
-  for (double length = first.length; length <= longest; length *= 2.0) {
+  // Not a factor of two, so that added points do not coincide with evenly spaced waypoints.
+  constexpr double kLonger = 1.9;
+  for (double length = first.length; length <= longest; length *= kLonger) {
     std::vector<Vec2> fewer = LeaveOutCloseWaypoints(points, choice);
-    if (HasRoom(fewer, choice)) {
+    if (HasRoom(fewer, choice) && PassesNear(fewer, route.waypoints, choice.max_gap)) {
       Route shorter = MakeRoute(fewer);
       shorter.numbers = NumbersOf(fewer, route.waypoints);
       return shorter;
     }
     points = route.waypoints;
-    points.insert(points.begin() + 1, points[0] + 2.0 * length * first.direction);
+    points.insert(points.begin() + 1, points[0] + kLonger * length * first.direction);
   }
   return route;
 }
