@@ -9,7 +9,9 @@
 #include <optional>
 #include <utility>
 
+#include "src/road_network/center_gaps.h"
 #include "trackbed/core/angle.h"
+#include "trackbed/geometry/pose.h"
 
 // Joins the centers of a route's lanes to a path. The center line of a lane is the reference line
 // of the road plus a lateral offset, which is measured across the road's surface and projected to
@@ -17,8 +19,9 @@
 // algorithm splits the lane centers into pieces, at the stations where one polynomial of the
 // OpenDRIVE file ends and the next polynomial begins. Each piece is sampled at points with exact
 // heading and curvature. Kinks of at most 0.2 rad are rounded over 0.5 m on either side, and
-// negligible steps of curvature become ramps. The algorithm rejects a route whose lane centers have
-// gaps or larger kinks, and a path that deviates too far from the lane centers.
+// negligible steps of curvature become ramps. The path through the pieces then returns to the lane
+// centers after each gap (center_gaps.h). The algorithm rejects a route whose lane centers have
+// larger gaps or kinks, and a path that deviates too far from the lane centers.
 
 namespace trackbed {
 namespace {
@@ -36,16 +39,9 @@ constexpr double kCurvatureStep = 1e-3;
 constexpr double kSameCurvature = 1e-9;
 // Length of the center line that rounding replaces on either side of a kink [m].
 constexpr double kRounding = 0.5;
+// Length of the longest segment that replaces the center line around kinks [m].
+constexpr double kLongestRounding = 2.0 * (kRounding + kSpacing);
 constexpr double kMaxDeviation = 0.05;  // [m]
-
-/// A point of a lane's center line, with heading and curvature in driving direction.
-struct CenterPoint {
-  Vec2 position{0.0, 0.0};
-  CurvePoint curve;  ///< distance along the center line, heading and curvature at the point
-};
-
-/// Points of a piece of a lane's center line without kinks.
-using Piece = std::vector<CenterPoint>;
 
 /// A stretch of a route, together with the road and the lane section in which the stretch lies.
 struct RoadStretch {
@@ -169,6 +165,36 @@ std::string Place(const Piece& piece) {
                      piece.front().position.y());
 }
 
+/// Counts the gaps of more than kKeptOffset, and keeps the largest one.
+class Gaps {
+ public:
+  /// Adds a gap of `size` [m]; `place` is for people.
+  void Add(double size, const std::string& place) {
+    if (size <= kKeptOffset) {
+      return;
+    }
+    ++count_;
+    if (size > largest_) {
+      largest_ = size;
+      place_ = place;
+    }
+  }
+  /// Returns a note that states number, size and place; empty if there are no gaps.
+  [[nodiscard]] std::string Note() const {
+    if (count_ == 0) {
+      return "";
+    }
+    return fmt::format("the lanes' centers have {} {:.2g} m {}; the path closes it over {:.2g} m",
+                       count_ == 1 ? "a gap of" : fmt::format("{} gaps, the largest of", count_),
+                       largest_, place_, ClosingLength(largest_));
+  }
+
+ private:
+  std::size_t count_ = 0;
+  double largest_ = 0.0;  // [m]
+  std::string place_;
+};
+
 /// Joins pieces of lane centers to one line with continuous distances and headings. Kinks between
 /// pieces are rounded.
 class Joiner {
@@ -184,7 +210,8 @@ class Joiner {
     const CurvePoint end = before.back().curve;
     const double kink = AngleDifference(piece.front().curve.yaw, end.yaw);
     const double turn = end.yaw + kink - piece.front().curve.yaw;
-    const double gap = (piece.front().position - before.back().position).norm();
+    const Vec2 gap_vector = piece.front().position - before.back().position;
+    const double gap = gap_vector.norm();
     for (CenterPoint& point : piece) {
       point.curve.s += end.s;
       point.curve.yaw += turn;
@@ -202,6 +229,7 @@ class Joiner {
           "place, or correct the file there",
           gap, kMaxDeviation, Place(piece));
     }
+    gaps_.Add(gap, Place(piece));
     const double step = std::abs(piece.front().curve.curvature - end.curvature);
     const bool is_rounded_step = step > kSameCurvature && step <= kCurvatureStep;
     if (std::abs(kink) <= kKink && !is_rounded_step) {
@@ -210,20 +238,43 @@ class Joiner {
     }
     // Remove the points around the joint that the rounding replaces, but keep the first point of
     // the line and the last point of the new piece.
-    while (before.size() > 1 && before.back().curve.s > end.s - kRounding) {
-      before.pop_back();
-    }
     auto first = piece.begin();
     while (first + 1 != piece.end() && first->curve.s < end.s + kRounding) {
       ++first;
     }
+    // The segment across the joint stays short, so that it follows also pieces that are shorter
+    // than the rounding.
+    while (before.size() > 1 && before.back().curve.s > end.s - kRounding &&
+           first->curve.s - before[before.size() - 2].curve.s <= kLongestRounding) {
+      before.pop_back();
+    }
+    // A gap or overlap along the line changes the length of the segment across the joint.
+    const double middle = end.yaw + 0.5 * kink;
+    const double along = gap_vector.dot(Vec2(std::cos(middle), std::sin(middle)));
+    const double change = std::max(along, -0.5 * (first->curve.s - before.back().curve.s));
+    std::for_each(first, piece.end(), [&](CenterPoint& point) { point.curve.s += change; });
     before.insert(before.end(), first, piece.end());
     return "";
   }
 
-  /// Builds the path. Adjacent pieces of the same straight line or arc become one segment, because
-  /// planners use the distances between steps of the curvature.
-  [[nodiscard]] Path Join() const {
+  [[nodiscard]] const Gaps& gaps() const { return gaps_; }
+
+  /// Builds the path, which follows the lane centers also beyond gaps and kinks.
+  [[nodiscard]] Path Join() {
+    // The first pass moves the path. Later passes correct the error of the segments through the
+    // moved points, which is smaller than the moves by more than a factor of ten.
+    constexpr int kPasses = 4;
+    Path path = Through();
+    for (int i = 0; i < kPasses && CloseGaps(path, runs_); ++i) {
+      path = Through();
+    }
+    return path;
+  }
+
+ private:
+  /// Builds the path through the points. Adjacent pieces of the same straight line or arc become
+  /// one segment, because planners use the distances between steps of the curvature.
+  [[nodiscard]] Path Through() const {
     std::vector<Segment> segments;
     for (const Piece& run : runs_) {
       std::vector<CurvePoint> points;
@@ -251,19 +302,23 @@ class Joiner {
     return Path({start.position.x(), start.position.y(), start.curve.yaw}, std::move(segments));
   }
 
- private:
   std::vector<Piece> runs_;
+  Gaps gaps_;
 };
 
-/// Returns the largest distance between a point of the lane centers and the path's point at the
-/// same station [m].
+/// Returns the largest distance between a point of the lane centers and the path's point beside it
+/// [m].
 double Deviation(const Path& path, const std::vector<Piece>& pieces) {
   double worst = 0.0;
   double station = 0.0;
+  double ahead = 0.0;  // By how much gaps make the path longer than the pieces so far [m].
   for (const Piece& piece : pieces) {
     for (const CenterPoint& point : piece) {
-      const Vec2 at = path.At(std::min(station + point.curve.s, path.length())).pose.position();
-      worst = std::max(worst, (at - point.position).norm());
+      const auto at = [&] {
+        return path.At(std::clamp(station + point.curve.s + ahead, 0.0, path.length())).pose;
+      };
+      ahead += ToLocal(at(), point.position).x();
+      worst = std::max(worst, (at().position() - point.position).norm());
     }
     station += piece.back().curve.s;
   }
@@ -303,6 +358,7 @@ JoinedPath JoinLaneCenters(const RoadNetwork& network, const std::vector<LaneStr
     }
   }
   joined.path = joiner.Join();
+  joined.note = joiner.gaps().Note();
   joined.deviation = Deviation(joined.path, all);
   if (joined.deviation > kMaxDeviation) {
     joined.failure = fmt::format(

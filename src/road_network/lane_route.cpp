@@ -176,6 +176,7 @@ LaneRoute FindLaneRoute(const RoadNetwork& network, const std::vector<LanePlace>
   route.failure = std::move(joined.failure);
   route.path = std::move(joined.path);
   route.deviation = joined.deviation;
+  route.note = std::move(joined.note);
   return route;
 }
 

@@ -83,6 +83,9 @@ Plan PlanWith(const LaneRouteOptions& options, const PlanRequest& request) {
   }
   Plan plan;
   plan.roads = request.lanes.network;
+  if (!found.note.empty()) {
+    plan.notes.push_back(found.note);
+  }
   plan.diagnostics.planner =
       LaneRouteDiagnostics{.stretches = std::move(found.stretches), .deviation = found.deviation};
   return route::AlongSegments(std::move(plan), request, found.path.segments(), options.min_speed);

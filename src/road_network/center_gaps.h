@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "trackbed/path/path.h"
+
+namespace trackbed {
+
+/// A point of a lane's center line, with heading and curvature in driving direction.
+struct CenterPoint {
+  Vec2 position{0.0, 0.0};
+  CurvePoint curve;  ///< distance along the center line, heading and curvature at the point
+};
+
+/// Points of a piece of a lane's center line without kinks.
+using Piece = std::vector<CenterPoint>;
+
+/// Distance from the lane centers that a path may keep [m]. Above it, a path is moved back.
+constexpr double kKeptOffset = 1e-3;
+
+/// Returns the length over which a path moves sideways by `offset` [m], such that the move adds at
+/// most 1e-3 1/m to the curvature [m].
+double ClosingLength(double offset);
+
+/// Moves the path through `runs` back to the positions of the points. A path keeps headings and
+/// curvatures, so each gap between pieces and each rounded kink moves the rest of the path aside.
+/// Where a path is more than kKeptOffset off, CloseGaps changes headings, curvatures and distances
+/// of the points over the ClosingLength, half before the place and half beyond, and makes the
+/// positions of the points those of the moved path. The start of the path stays. Returns whether
+/// anything was changed. `path` is the path through `runs`. The cost is O(n log n) for n points.
+bool CloseGaps(const Path& path, std::vector<Piece>& runs);
+
+}  // namespace trackbed
