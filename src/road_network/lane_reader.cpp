@@ -188,7 +188,11 @@ std::vector<LaneSection> ReadLaneSections(const XmlFields& lanes, const Road& ro
       fields.AddError("s", fmt::format("{} m is not beyond the section before, at {} m", section.s,
                                        sections.back().s));
     } else if (section.s >= road.length) {
-      fields.AddError("s", fmt::format("{} m is not on the road of {} m", section.s, road.length));
+      fields.problems().AddFlaw(
+          fields.line(), fields.where() + ".s",
+          fmt::format("{} m is not on the road of {} m; the lane section is left out", section.s,
+                      road.length));
+      return;
     }
     section.s = sections.empty() ? 0.0 : section.s;
     sections.push_back(std::move(section));

@@ -113,7 +113,7 @@ std::optional<Curve> ReadCurve(const XmlFields& geometry, const GeometryPlace& p
 
 }  // namespace
 
-ReferenceLine ReadPlanView(const XmlFields& road, double length, const Vec2& origin) {
+ReferenceLine ReadPlanView(const XmlFields& road, const Vec2& origin) {
   const XMLElement* plan_view = road.Child("planView");
   if (plan_view == nullptr || plan_view->FirstChildElement("geometry") == nullptr) {
     road.AddError("planView", "missing, or without <geometry>");
@@ -151,10 +151,27 @@ ReferenceLine ReadPlanView(const XmlFields& road, double length, const Vec2& ori
     road.AddError("planView", "all geometries have the length 0");
     return {};
   }
-  if (std::abs(end - length) > kMaxStationGap) {
-    road.AddError("length", fmt::format("{} m, but its last geometry ends at {} m", length, end));
-  }
   return ReferenceLine(std::move(pieces));
+}
+
+double ReadLength(const XmlFields& road, const ReferenceLine& reference) {
+  XmlProblems own(road.problems().file());
+  const double length = XmlFields(road.element(), road.where(), own).Number("length", {0.0, 1e6});
+  if (reference.pieces().empty() || !road.problems().empty()) {
+    road.problems().Append(own);
+    return length;
+  }
+  const ReferenceLine::Piece& last = reference.pieces().back();
+  const double end = last.s + last.length;
+  if (own.empty() && std::abs(end - length) <= kMaxStationGap) {
+    return length;
+  }
+  if (own.empty()) {
+    own.Add(road.line(), road.where() + ".length",
+            fmt::format("{} m, but its last geometry ends at {} m", length, end));
+  }
+  road.problems().AddFlaw(fmt::format("{}; the road is read up to {} m", own.First(), end));
+  return end;
 }
 
 }  // namespace trackbed

@@ -218,7 +218,6 @@ Road ReadRoad(const XMLElement& element, const Vec2& origin, XmlProblems& proble
   const XmlFields fields(element, fmt::format("road[{}]", road.id), problems);
   road.line = fields.line();
   road.name = fields.OptionalText("name");
-  road.length = fields.Number("length", {0.0, 1e6});
   const std::string junction = fields.OptionalText("junction");
   if (!junction.empty() && junction != "-1") {
     road.junction = junction;
@@ -230,7 +229,8 @@ Road ReadRoad(const XMLElement& element, const Vec2& origin, XmlProblems& proble
   }
   road.predecessor = ReadRoadLink(fields, "predecessor", road.id, network);
   road.successor = ReadRoadLink(fields, "successor", road.id, network);
-  road.reference = ReadPlanView(fields, road.length, origin);
+  road.reference = ReadPlanView(fields, origin);
+  road.length = ReadLength(fields, road.reference);
   ReadHeights(fields, road);
   const XMLElement* lanes = fields.Child("lanes");
   if (lanes == nullptr) {

@@ -31,8 +31,9 @@ class XmlProblems {
   }
   /// Adds a flaw of the file that harms no other part: it is only noted.
   void AddFlaw(int line, const std::string& key, const std::string& message) {
-    flaws_.push_back(fmt::format("line {}: {}: {}", line, key, message));
+    AddFlaw(fmt::format("line {}: {}: {}", line, key, message));
   }
+  void AddFlaw(std::string flaw) { flaws_.push_back(std::move(flaw)); }
   /// Adds the problems of `part`, a part of the file that is left out, as flaws.
   void AddFlaws(const XmlProblems& part);
   /// Adds the problems of `part` as problems, and its flaws as flaws.

@@ -17,6 +17,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 std::string WhyNot(const std::string& xml) {
   return ErrorText([&] { static_cast<void>(ParseOpenDrive(xml, "test.xodr")); });
@@ -133,6 +134,38 @@ TEST(OpenDrive, NamesLineAndPlaceOfEveryProblem) {
   EXPECT_THAT(why, HasSubstr("road[1].planView.geometry[0].hdg: '0x1' is not a finite number"));
 }
 
+TEST(OpenDrive, ReadsARoadOfAWrongLengthUpToItsLastGeometry) {
+  RoadText road;
+  road.geometry = Geometry("<line/>", "50");
+  for (const char* length : {"100", "20", "-5", "nan", "x", "0"}) {
+    road.length = length;
+    const RoadNetwork network = ParseNetwork(road.Xml());
+    EXPECT_EQ(network.roads.at("1").length, 50.0) << length;
+    EXPECT_THAT(network.notes, ElementsAre(AllOf(HasSubstr("line 4: road[1].length: "),
+                                                 HasSubstr("; the road is read up to 50 m"))))
+        << length;
+  }
+  road.length = "50.05";  // A difference of at most 0.1 m is no flaw.
+  const RoadNetwork network = ParseNetwork(road.Xml());
+  EXPECT_EQ(network.roads.at("1").length, 50.05);
+  EXPECT_THAT(network.notes, IsEmpty());
+}
+
+TEST(OpenDrive, LeavesOutLaneSectionsBeyondTheRoad) {
+  RoadText road;
+  road.geometry = Geometry("<line/>", "50");
+  std::string beyond = kTwoLanes;
+  beyond.replace(beyond.find("s=\"0\""), 5, "s=\"80\"");
+  road.lanes = kTwoLanes + beyond;
+  const RoadNetwork network = ParseNetwork(road.Xml());
+  EXPECT_EQ(network.roads.at("1").sections.size(), 1U);
+  EXPECT_THAT(network.notes,
+              ElementsAre(HasSubstr("length: 100 m, but its last geometry ends at 50 m; the road "
+                                    "is read up to 50 m"),
+                          HasSubstr("80 m is not on the road of 50 m; the lane section is left "
+                                    "out")));
+}
+
 TEST(OpenDrive, RefusesGeometryThatIsNone) {
   const auto why = [](const std::string& geometry) {
     RoadText road;
@@ -146,8 +179,6 @@ TEST(OpenDrive, RefusesGeometryThatIsNone) {
   EXPECT_THAT(why(Geometry("<line/>", "-1")), HasSubstr("-1 is out of range"));
   EXPECT_THAT(why(Geometry("<line/>", "0")), HasSubstr("all geometries have the length 0"));
   EXPECT_THAT(why(Geometry("<line/>", "inf")), HasSubstr("'inf' is not a finite number"));
-  EXPECT_THAT(why(Geometry("<line/>", "50")), HasSubstr("length: 100 m, but its last geometry ends "
-                                                        "at 50 m"));
   EXPECT_THAT(why(Geometry("<arc curvature='999'/>")), HasSubstr("turns by up to"));
   EXPECT_THAT(
       why(Geometry("<paramPoly3 aU='1' bU='0' cU='0' dU='0' aV='0' bV='0' cV='0' dV='0'/>")),
@@ -325,7 +356,7 @@ TEST(OpenDrive, ListsTwentyProblemsAndCountsTheOthers) {
   for (int i = 0; i < 50; ++i) {
     RoadText road;
     road.id = std::to_string(i);
-    road.length = "nothing";
+    road.geometry = "";
     roads += road.Xml();
   }
   const std::string why = WhyNot(Document(roads));
