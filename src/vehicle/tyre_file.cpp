@@ -92,7 +92,7 @@ TyreFile TyreFileReader::Read() {
   ReadVertical();
   ReadRollingResistance();
   ApplySide();
-  CheckFinite();
+  CheckResult();
   problems_.ThrowIfAny();
   NoteIgnored();
   return std::move(result_);

@@ -21,6 +21,11 @@ std::string KeyOf(const char* field) {
   return key;
 }
 
+/// Whether a field is a coefficient of the formulas, which tyre property files name alike.
+bool IsCoefficient(const MagicFormulaField& field) {
+  return field.name[1] == '_' && (field.name[0] == 'p' || field.name[0] == 'r');
+}
+
 /// Whether only MF6.1 has the coefficient.
 bool IsOfVersion6(double M::*field) {
   static const std::initializer_list<double M::*> fields{&M::p_ey5, &M::p_ky4, &M::p_ky5, &M::p_ky6,
@@ -40,11 +45,9 @@ double DigressiveFriction(double scale) {
 void TyreFileReader::ReadCoefficients() {
   std::vector<std::string> missing;
   for (const MagicFormulaField& field : MagicFormulaFields()) {
-    const bool is_coefficient =
-        field.name[1] == '_' && (field.name[0] == 'p' || field.name[0] == 'r');
     const bool is_unused =
         (!is_6() && IsOfVersion6(field.value)) || (is_6() && field.value == &M::p_hy3);
-    if (!is_coefficient || is_unused) {
+    if (!IsCoefficient(field) || is_unused) {
       continue;
     }
     const std::string key = KeyOf(field.name);
@@ -240,14 +243,38 @@ void TyreFileReader::ReadVertical() {
   }
 }
 
-void TyreFileReader::CheckFinite() {
+void TyreFileReader::CheckResult() {
+  const MagicFormula& tyre = result_.tyre;
+  const auto need = [&](const std::string& key, double value, double largest) {
+    if (!(std::abs(value) <= largest)) {
+      Fail(Find(key), key,
+           fmt::format("is {:.4g} in SI units with its scale factors and pressure; must be within "
+                       "{:g} of 0",
+                       value, largest));
+    }
+  };
   for (const MagicFormulaField& field : MagicFormulaFields()) {
-    if (!std::isfinite(result_.tyre.*field.value)) {
-      Fail(nullptr, KeyOf(field.name),
-           "is too large to be computed with its scale factors and units");
+    if (IsCoefficient(field)) {
+      // These two multiply the square of the camber, at most 0.1.
+      const bool is_of_square = field.value == &M::r_bx3 || field.value == &M::r_by4;
+      need(KeyOf(field.name), tyre.*field.value, is_of_square ? 1e6 : 1e3);
     }
   }
-  const MagicFormula& tyre = result_.tyre;
+  need("FNOMIN", tyre.f_z0, 1e6);
+  need("QSY1", tyre.rolling_resistance, 1.0);
+  need(Find("PTY1") != nullptr ? "PTY1" : "LATERAL_STIFFNESS", tyre.relaxation_length, 10.0);
+  need(Find("PTX1") != nullptr ? "PTX1" : "LONGITUDINAL_STIFFNESS", tyre.relaxation_length_x, 1e3);
+  need("VERTICAL_STIFFNESS", result_.vertical_stiffness.value_or(0.0), 1e8);
+  need("VERTICAL_DAMPING", result_.vertical_damping.value_or(0.0), 1e6);
+  for (const auto& [key, value] : {std::pair("PEX1", tyre.p_ex1), std::pair("PEY1", tyre.p_ey1)}) {
+    if (value > 1.0) {
+      Fail(Find(key), key,
+           fmt::format("is {:.4g} with its scale factor; must be at most 1", value));
+    }
+  }
+  if (!problems_.empty()) {
+    return;
+  }
   const TyreFriction friction = PeakFriction(tyre, tyre.f_z0);
   for (const auto& [value, key, what] :
        {std::tuple(SlipStiffness(tyre, tyre.f_z0), "PKX1", "slip stiffness"),

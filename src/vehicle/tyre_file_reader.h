@@ -57,7 +57,7 @@ class TyreFileReader {
   void ReadVertical();
   void ReadRollingResistance();
   void ApplySide();
-  void CheckFinite();
+  void CheckResult();
   void NoteIgnored();
 
   [[nodiscard]] bool is_6() const { return result_.tyre.version >= 6.0; }

@@ -20,6 +20,7 @@ namespace trackbed {
 namespace tyre_file_test {
 
 using ::testing::Contains;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -202,6 +203,24 @@ TEST(TyreFile, IsRefusedWithLineAndKey) {
   EXPECT_THAT(ErrorOf(std::string("PCX1 = 1\0", 9)), HasSubstr("is not a text file"));
   EXPECT_THAT(ErrorOf(""), HasSubstr("has no entries"));
   EXPECT_THAT(ErrorOf("[MODEL]\n"), HasSubstr("has no entries"));
+}
+
+TEST(TyreFile, IsRefusedWithLineAndKeyForNumbersThatNoCarMayHave) {
+  // The bounds are those of a car's file, which would otherwise be named instead of the tyre's. The
+  // file has the scale factors LHY 0.6, LEY 1.05 and LFZO 0.95.
+  EXPECT_EQ(ErrorWith("\nPHY1 =", "\nPHY1 = 2e3 $"),
+            "x.tir:90: PHY1: is 1200 in SI units with its scale factors and pressure; must be "
+            "within 1000 of 0");
+  EXPECT_THAT(ErrorWith("\nPEY1 =", "\nPEY1 = 3 $"),
+              ContainsRegex("x\\.tir:[0-9]+: PEY1: is 3\\.15 with its scale factor; must be at "
+                            "most 1$"));
+  EXPECT_THAT(
+      ErrorWith("\nVERTICAL_STIFFNESS", "\nVERTICAL_STIFFNESS = 1e9 $"),
+      ContainsRegex("x\\.tir:26: VERTICAL_STIFFNESS: is 1e\\+09 in SI units.*1e\\+08 of 0"));
+  EXPECT_THAT(ErrorWith("\nPTY1 =", "\nPTY1 = 300 $"),
+              ContainsRegex("x\\.tir:111: PTY1: is .* must be within 10 of 0"));
+  EXPECT_THAT(ErrorWith("\nFNOMIN", "\nFNOMIN = 2e6 $"),
+              HasSubstr("x.tir:25: FNOMIN: is 1.9e+06 in SI units"));
 }
 
 TEST(TyreFile, IsBounded) {
