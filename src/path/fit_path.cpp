@@ -17,6 +17,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/pose.h"
+#include "trackbed/path/tractrix.h"
 
 // Fits a path to points. The points are divided into legs of one direction of motion (legs.cpp).
 // Each leg is fitted as a forward path in its direction of travel (leg_fit.cpp). A first fit of
@@ -346,11 +347,7 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
     const Vec2 along = point - before;
     before = point;
     if (along.norm() > kEqualityTolerance) {
-      // Let phi be the angle between the car's yaw and a straight line of length d. Along the line,
-      // tan(phi/2) decreases by the factor exp(-d/ahead).
-      const double line = std::atan2(along.y(), along.x());
-      const double angle = AngleDifference(line, yaw);
-      yaw = line - 2.0 * std::atan(std::tan(0.5 * angle) * std::exp(-along.norm() / ahead));
+      yaw = YawAlongTractrix(yaw, along, ahead);
     }
     point -= ahead * Vec2(std::cos(yaw), std::sin(yaw));
   }

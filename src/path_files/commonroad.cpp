@@ -11,6 +11,7 @@
 
 #include "src/path_files/commonroad_xml.h"
 #include "src/path_files/formats.h"
+#include "trackbed/path/tractrix.h"
 #include "trackbed/path_files/commonroad_scenario.h"
 
 // Reads the path of a CommonRoad file. A solution contains one trajectory for each planning
@@ -19,10 +20,20 @@
 namespace trackbed {
 namespace {
 
-/// Returns the route of the scenario as a path.
+/// Returns the route of the scenario as a path, with the headings of a car that begins with the
+/// heading of the initial state.
 PathFile RouteOfScenario(const CommonRoadScenario& scenario) {
   PathFile found;
   found.points.points = scenario.route;
+  double yaw = scenario.start.yaw;
+  for (std::size_t i = 0; i < scenario.route.size(); ++i) {
+    if (i > 0) {
+      yaw =
+          YawAlongTractrix(yaw, scenario.route[i] - scenario.route[i - 1], kCommonRoadCenterAhead);
+    }
+    found.points.yaw.push_back(yaw);
+  }
+  found.points.direction.assign(scenario.route.size(), 1);
   found.notes = scenario.notes;
   return found;
 }

@@ -14,17 +14,13 @@
 namespace trackbed {
 namespace {
 
-/// Distance from the rear axle to the center of the car of a planning problem [m]: from the rear
-/// axle to the center of gravity of CommonRoad's vehicle 2 (BMW 320i).
-constexpr double kCenterAheadOfRearAxle = 1.42200396;
-
 /// Height of all obstacles [m]; CommonRoad has none.
 constexpr double kObstacleHeight = 1.5;
 
 /// Returns the condition that the car's center is in a region, as a formula over the position of
 /// the rear axle. The car's heading is about `yaw` in the region.
 std::string InRegion(const CommonRoadRegion& region, double yaw) {
-  const Vec2 ahead = kCenterAheadOfRearAxle * Direction(yaw);
+  const Vec2 ahead = kCommonRoadCenterAhead * Direction(yaw);
   if (region.corners.empty()) {
     const Vec2 center = region.center - ahead;
     return fmt::format(
@@ -111,7 +107,7 @@ void EmitPlan(YAML::Emitter& out, const CommonRoadScenario& scenario, const std:
   }
   out << YAML::Key << "method" << YAML::Value << "path_file" << YAML::Key << "file" << YAML::Value
       << file << YAML::Key << "format" << YAML::Value << "commonroad" << YAML::Key << "ahead"
-      << YAML::Value << kCenterAheadOfRearAxle << YAML::Key << "max_deviation" << YAML::Value
+      << YAML::Value << kCommonRoadCenterAhead << YAML::Key << "max_deviation" << YAML::Value
       << 0.1;
   if (replans) {
     out << YAML::EndMap << YAML::Key << "replan" << YAML::Value << YAML::BeginMap << YAML::Key

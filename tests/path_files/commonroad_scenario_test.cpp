@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "src/path_files/formats.h"
 #include "tests/support/error_text.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
@@ -99,6 +100,30 @@ TEST(CommonRoadScenario, LeadsFromTheStartOntoTheCenterOfTheLane) {
   // The length of the lateral motion is v sqrt(5.77 d_0/a) = 10 sqrt(5.77 x 0.8/1.5) = 17.5 m.
   EXPECT_NEAR(HeightAt(scenario, 5.0 + 18.5), 0.0, Tolerance(1e-9));
   EXPECT_NEAR(HeightAt(scenario, 150.0), 0.0, Tolerance(1e-9));
+}
+
+TEST(CommonRoadScenario, TheRearAxleBeginsBehindTheInitialState) {
+  for (const Pose2& start : {Pose2{10.0, 0.0, 0.0}, Pose2{10.0, 0.8, 0.3}, Pose2{10.0, -1.5, -0.6},
+                             Pose2{10.0, 0.5, -0.9}}) {
+    const std::string problem =
+        PlanningProblem(start, 10.0, Rectangle({150.0, 0.0}, 40.0, 4.0), 100, 200);
+    const PathPoints points = ReadCommonRoad("z.xml", Document(Roads() + problem)).points;
+    ASSERT_EQ(points.yaw.size(), points.points.size());
+    const PathPoints rear = AtRearAxle(points, kCommonRoadCenterAhead);
+    const Vec2 expected =
+        start.position() - kCommonRoadCenterAhead * Vec2(std::cos(start.yaw), std::sin(start.yaw));
+    EXPECT_LE((rear.points.front() - expected).norm(), Tolerance(1e-12)) << start.yaw;
+    // The rear axle does not slip: the chord of its path, an arc of a tractrix, has the mean
+    // heading up to the cube of the turn.
+    for (std::size_t i = 1; i < rear.points.size(); ++i) {
+      const Vec2 step = rear.points[i] - rear.points[i - 1];
+      const double turn = AngleDifference(rear.yaw[i], rear.yaw[i - 1]);
+      const double mean = rear.yaw[i - 1] + 0.5 * turn;
+      EXPECT_LE(std::abs(AngleDifference(std::atan2(step.y(), step.x()), mean)),
+                std::abs(turn) * 0.2 + Tolerance(1e-9))
+          << i;
+    }
+  }
 }
 
 TEST(CommonRoadScenario, KeepsTheSpeedIfTheCarArrivesInTime) {

@@ -67,6 +67,10 @@ struct CommonRoadScenario {
 /// [m/s^2].
 inline constexpr double kCommonRoadAcceleration = 2.5;
 
+/// Distance from the rear axle to the center of the car of a planning problem [m]: from the rear
+/// axle to the center of gravity of CommonRoad's vehicle 2 (BMW 320i).
+inline constexpr double kCommonRoadCenterAhead = 1.42200396;
+
 /// Whether the text is an XML document with the root element `commonRoad`.
 bool IsCommonRoadScenario(const std::string& text);
 

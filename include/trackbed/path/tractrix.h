@@ -1,0 +1,15 @@
+#pragma once
+
+#include "trackbed/geometry/pose.h"
+
+/// The motion of a car's rear axle while a point ahead of the axle moves along a line.
+namespace trackbed {
+
+/// Returns the yaw of a car [rad] after the point `ahead` [m] in front of its rear axle has moved
+/// straight by the vector `along` [m]. The car's yaw was `yaw` before, and its rear axle does not
+/// slip. `ahead` must not be 0; it is negative for a point behind the rear axle. Exact: let phi be
+/// the angle between yaw and line; tan(phi/2) decreases by the factor exp(-d/ahead) over the
+/// distance d.
+double YawAlongTractrix(double yaw, const Vec2& along, double ahead);
+
+}  // namespace trackbed
