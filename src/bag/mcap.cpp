@@ -147,7 +147,8 @@ class McapReader {
       Schema schema{.name = std::string(record.Text()), .definition = {}};
       const bool is_ros2msg = record.Text() == "ros2msg";
       const std::string_view definition = record.Text();
-      schema.definition = is_ros2msg ? std::string(definition) : "";
+      // The definition of a type without fields is empty; "" would mean that the bag has none.
+      schema.definition = !is_ros2msg ? "" : definition.empty() ? "\n" : std::string(definition);
       schemas_[id] = std::move(schema);
     } else if (opcode == mcap::kChannel) {
       TakeChannel(record);

@@ -21,6 +21,7 @@ namespace bag_test {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 const fs::path kBags = fs::path(TRACKBED_SOURCE_DIR) / "tests/data/bags";
 
@@ -166,6 +167,32 @@ TEST(Bag, SaysWhatAFileIs) {
                "rosbag2_bagfile_information: {relative_file_paths: [../a.mcap]}");
   EXPECT_THAT(ErrorOf(folder.path() / "b"), HasSubstr("../a.mcap"));
   EXPECT_THROW(ReadBagMessages(kBags / "mcap", "/nose", {}), InputError);
+}
+
+/// Returns a record of an MCAP file.
+std::string McapRecord(char opcode, const std::string& content) {
+  return opcode + std::string(1, static_cast<char>(content.size())) + std::string(7, '\0') +
+         content;
+}
+
+std::string McapText(const std::string& text) {
+  return std::string(1, static_cast<char>(text.size())) + std::string(3, '\0') + text;
+}
+
+TEST(Bag, HasTheEmptyDefinitionOfATypeWithoutFields) {
+  const TempFolder folder;
+  const std::string one("\1\0", 2);
+  std::string bag("\x89MCAP0\r\n", 8);
+  bag += McapRecord('\x01', McapText("ros2") + McapText(""));
+  bag +=
+      McapRecord('\x03', one + McapText("std_msgs/msg/Empty") + McapText("ros2msg") + McapText(""));
+  bag += McapRecord('\x04', one + one + McapText("/go") + McapText("cdr") + McapText(""));
+  // One message: channel, sequence, two times, and a body with the header of CDR and one byte.
+  bag += McapRecord('\x05', one + std::string(4 + 8 + 8, '\0') + std::string("\0\1\0\0\0", 5));
+  const std::vector<BagTopic> topics = ReadBagTopics(folder.Write("a.mcap", bag)).topics;
+  ASSERT_EQ(topics.size(), 1U);
+  EXPECT_EQ(topics[0].messages, 1U);
+  EXPECT_THAT(BagMessage(topics[0].type, topics[0].definition).columns(), IsEmpty());
 }
 
 TEST(Bag, DoesNotBelieveSizes) {
