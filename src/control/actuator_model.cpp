@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/control/preview_distance.h"
 #include "src/control/tracking.h"
 #include "trackbed/control/surroundings.h"
 #include "trackbed/vehicle/kinematic_car.h"
@@ -20,12 +21,21 @@
 namespace trackbed {
 namespace {
 
-/// Half-width of the dead zone around the steady turn, as a fraction of half the backlash.
+/// Largest half-width of the dead zone around the steady turn, as a fraction of half the backlash.
 constexpr double kDeadZone = 0.5;
 
-/// Reversal of the wanted angle below which the actuator stays at rest, as a fraction of half the
-/// backlash.
-constexpr double kReversal = 0.125;
+/// Offset [L] from the path that the dead zone may leave. Within the dead zone, a law that steers
+/// to a point at the distance R leaves an offset of up to R^2/(2 L) times the half-width, which
+/// grows with the square of the speed.
+constexpr double kDeadOffset = 0.04;
+
+/// Reversal of the wanted angle below which the actuator stays at rest, as a fraction of the
+/// half-width of the dead zone.
+constexpr double kReversal = 0.25;
+
+/// Distance of the wheels to the end of the play at which they have passed it, as a fraction of
+/// half the backlash.
+constexpr double kPassed = 0.125;
 
 /// Ratio of the actuator's lag to the lag of actuator and lead, and the factor by which the lead
 /// amplifies the noise of the wanted angle.
@@ -55,6 +65,14 @@ double CommandFor(const MonotoneCurve& curve, const std::vector<Vec2>& points, d
     (curve.At(middle) < angle ? low : high) = middle;
   }
   return 0.5 * (low + high);
+}
+
+/// Returns the half-width of the dead zone around the steady turn [rad].
+double DeadZone(const VehicleParams& vehicle, double speed, double period) {
+  const double preview = ShortestPreview(vehicle, speed, period);
+  const double harmless =
+      2.0 * kDeadOffset * vehicle.wheelbase * vehicle.wheelbase / (preview * preview);
+  return std::min(kDeadZone * 0.5 * vehicle.steering_response.backlash, harmless);
 }
 
 /// The response without its calibration curve: the wrapper passes angles after the curve.
@@ -101,18 +119,19 @@ class ActuatorModel {
   [[nodiscard]] double target() const { return target_; }
 
   /// Advances by a control period in which the actuator is to come to rest at `wanted` [rad], and
-  /// returns the command. `steady` is the angle of the steady turn on the path [rad].
-  double Command(double wanted, double steady) {
+  /// returns the command. `steady` is the angle of the steady turn on the path, and `zone` the
+  /// half-width of the dead zone around it [rad].
+  double Command(double wanted, double steady, double zone) {
     wanted_ = std::clamp(wanted, -limits_.angle, limits_.angle);
-    const double rest = OutsideDeadZone(wanted_, steady);
+    const double rest = wanted_ - std::clamp(wanted_ - steady, -zone, zone);
     const double turn = rest - resting_;
-    if (turn != 0.0 && (turn * play_ >= 0.0 || std::abs(turn) >= kReversal * half_)) {
+    if (turn != 0.0 && (turn * play_ >= 0.0 || std::abs(turn) >= kReversal * zone)) {
       crosses_ = crosses_ || turn * play_ < 0.0;
       play_ = std::copysign(half_, turn);
       resting_ = rest;
     }
     const double left = resting_ + play_ - lagged_;
-    crosses_ = crosses_ && std::abs(left) > kReversal * half_;
+    crosses_ = crosses_ && std::abs(left) > kPassed * half_;
     target_ = std::clamp(lagged_ + (crosses_ ? crossing_lead_ : lead_) * left, lowest_, highest_);
     lagged_ += moved_ * (target_ - lagged_);
     for (int i = 0; i < kSubsteps; ++i) {
@@ -122,15 +141,6 @@ class ActuatorModel {
   }
 
  private:
-  /// Returns `wanted`, moved toward `steady` by the half-width of the dead zone.
-  [[nodiscard]] double OutsideDeadZone(double wanted, double steady) const {
-    if (half_ == 0.0) {
-      return wanted;
-    }
-    const double zone = kDeadZone * half_;
-    return wanted - std::clamp(wanted - steady, -zone, zone);
-  }
-
   SteeringLimits limits_;
   SteeringResponse response_;
   std::optional<MonotoneCurve> curve_;
@@ -212,7 +222,8 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
     const double steady =
         SteadyTurnOn(vehicle, bend.curvature, bend.direction * std::abs(ahead.state.speed))
             .steering;
-    return model_->Command(inner_->Steer(ahead), steady);
+    return model_->Command(inner_->Steer(ahead), steady,
+                           DeadZone(input.vehicle, input.state.speed, input.period));
   }
 
   std::optional<double> Accelerate(const ControlInput& input) override {

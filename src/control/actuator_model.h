@@ -26,10 +26,12 @@ namespace trackbed {
 /// `state.time` and `period` stay unchanged.
 ///
 /// The angle that `inner` returns is converted to a command in these steps:
-///   1. A dead zone of a quarter of the backlash to both sides of the steady turn on the path.
-///      Without the dead zone, the command would cross the play for ever, because errors decay but
-///      never vanish. Reversals below a sixteenth of the backlash are not commanded, because noise
-///      would cross the play, too.
+///   1. A dead zone to both sides of the steady turn on the path. Without the dead zone, the command
+///      would cross the play for ever, because errors decay but never vanish. The half-width is a
+///      quarter of the backlash, or 0.08 (L/R)^2 if that is less, where R is ShortestPreview: a law
+///      that steers to a point at the distance R then stays within 0.04 L of its path. Reversals
+///      below a quarter of the half-width are not commanded, because noise would cross the play,
+///      too.
 ///   2. Half of the backlash is added on the side to which the actuator turns.
 ///   3. A lead that divides the lag by 3. The lead amplifies noise by the same factor. Within the
 ///      play, the amplification is up to 6.

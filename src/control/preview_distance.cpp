@@ -135,14 +135,19 @@ double ResponseTime(const VehicleParams& vehicle, double speed, double period) {
   return period + vehicle.steering_delay() + tyres;
 }
 
+double ShortestPreview(const VehicleParams& vehicle, double speed, double period, double delay) {
+  // For a differential drive, `wheelbase` is the distance between the wheels of the axle.
+  const double size = vehicle.kind == VehicleKind::kDifferential
+                          ? std::max(vehicle.wheelbase, vehicle.length)
+                          : vehicle.wheelbase;
+  const double response = std::abs(speed) * (ResponseTime(vehicle, speed, period) + delay);
+  return std::max(kWheelbases * size, kResponses * response);
+}
+
 double PreviewDistance(const ControlInput& input, double delay) {
   const double speed = std::abs(input.state.speed);
   const double response = speed * (ResponseTime(input.vehicle, speed, input.period) + delay);
-  // For a differential drive, `wheelbase` is the distance between the wheels of the axle.
-  const double size = input.vehicle.kind == VehicleKind::kDifferential
-                          ? std::max(input.vehicle.wheelbase, input.vehicle.length)
-                          : input.vehicle.wheelbase;
-  const double shortest = std::max(kWheelbases * size, kResponses * response);
+  const double shortest = ShortestPreview(input.vehicle, speed, input.period, delay);
   const double far = RampPreview(input, speed, response, shortest);
   const double slower = SlowestWithin(input, speed, far);
   return slower < speed ? RampPreview(input, slower, response, shortest) : far;

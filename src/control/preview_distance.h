@@ -49,6 +49,11 @@ inline constexpr double kReturnOffset = 0.125;
 /// v/(C_f + C_r) of the response time T is 0 for a car without tyre coefficients.
 double ResponseTime(const VehicleParams& vehicle, double speed, double period);
 
+/// Returns the default preview distance R [m] on a straight path: max(3/4 L, 3 v T). `delay` [s] is
+/// added to the response time T.
+double ShortestPreview(const VehicleParams& vehicle, double speed, double period,
+                       double delay = 0.0);
+
 /// Returns the preview distance R [m] for the car's present state, with `delay` [s] added to the
 /// response time. Samples the path's steering at stations whose spacing grows with their distance
 /// from the car. For a path with a single curvature step, the computed ramp length S is exact, not
