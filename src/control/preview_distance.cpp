@@ -164,7 +164,9 @@ double ReturnDistance(const VehicleParams& vehicle, double speed, double offset)
   const double slowest = kMinSpeed * vehicle.wheelbase * vehicle.steering_rate;
   const double curvature_rate =
       vehicle.steering_rate / (vehicle.wheelbase * std::max(std::abs(speed), slowest));
-  const double turning = kShare * std::cbrt(std::abs(offset) / curvature_rate);
+  // Tyres and actuator answer late, so the car drives further before it turns.
+  const double response = std::abs(speed) * ResponseTime(vehicle, speed, 0.0);
+  const double turning = kShare * std::cbrt(std::abs(offset) / curvature_rate) + response;
   // The arc to a point at the distance R has the curvature 2 e/R^2.
   const double gripping = std::abs(speed) * std::sqrt(2.0 * std::abs(offset) /
                                                       (kReturnGripShare * LateralGrip(vehicle)));
