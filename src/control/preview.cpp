@@ -38,7 +38,7 @@ class Preview final : public SteeringController {
     // In reverse gear, steering to the right turns the direction of motion to the left.
     const double bend =
         direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
-    const double limit = SteeringAtGrip(input.vehicle, input.state.speed);
+    const double limit = SteeringInAStep(input.vehicle, input.state.speed);
     return std::clamp(SteeringOn(input, bend, direction), -limit, limit);
   }
 

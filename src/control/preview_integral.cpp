@@ -74,7 +74,7 @@ class PreviewIntegral final : public SteeringController {
     }
     // In reverse gear, steering to the right turns the direction of motion to the left.
     const double wanted = direction * std::atan(moved / square);
-    const double limit = SteeringAtGrip(vehicle, input.state.speed);
+    const double limit = SteeringInAStep(vehicle, input.state.speed);
     return Delayed(std::clamp(wanted, -limit, limit), input);
   }
 

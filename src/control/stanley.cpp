@@ -35,7 +35,7 @@ class Stanley final : public SteeringController {
     // its limit.
     const double approach = std::atan2(gain * offset, softening + speed);
     const double steering = ahead.steering - direction * heading - approach;
-    const double limit = SteeringAtGrip(vehicle, input.state.speed);
+    const double limit = SteeringInAStep(vehicle, input.state.speed);
     return std::clamp(steering, -limit, limit);
   }
 

@@ -15,11 +15,15 @@ double LateralGrip(const VehicleParams& vehicle);
 /// steering angle makes an undamped car overshoot the steady lateral acceleration by a factor of 2.
 inline constexpr double kReturnGripShare = 0.5;
 
-/// Returns the largest steering angle [rad] that a geometric control law commands at `speed`: the
-/// steering limit, or the angle of the steady turn that uses the whole lateral grip of
-/// TurnRoundLimit. Beyond this angle, the tyres slide without more lateral force, and a tall car
-/// rolls over when it steers back.
+/// Returns the steering angle [rad] of the steady turn that uses the whole LateralGrip at `speed`,
+/// but at most the steering limit.
 double SteeringAtGrip(const VehicleParams& vehicle, double speed);
+
+/// Returns the largest steering angle [rad] that a geometric control law commands at `speed`, even
+/// in a step: the steering limit, or the angle of the steady turn with the lateral acceleration
+/// mu_y g or 0.65 g b/(2 h), whichever is less. Beyond this angle, the tyres slide without more
+/// lateral force, or a tall car rolls over.
+double SteeringInAStep(const VehicleParams& vehicle, double speed);
 
 /// Returns the largest steering angle [rad] with which a car may turn round at `speed` [m/s]: the
 /// steering limit, or the angle of the steady turn in which the car uses half of its lateral grip.
