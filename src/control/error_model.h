@@ -97,18 +97,23 @@ ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options) {
           .steering_rate = options.steering_rate.value_or(scale.time * scale.time)};
 }
 
-/// As above, for a car at `speed` u [m/s] whose steering response has a lag. The closed loop of a
-/// car without slip has the bandwidth w_0 = ((u^2/L)^2 cross_track/steering_rate)^(1/6), if the
-/// heading has no weight. The default weight of the steering rate is increased until 1/w_0 is at
-/// least twice SteeringResponse::time_constant. A faster loop would move small errors of the
-/// actuator, such as backlash, back and forth through the lag.
+/// As above, for a car at `speed` u [m/s] with a lag of its steering response, that is controlled
+/// every `period` T [s]. The closed loop of a car without slip has the bandwidth w_0 = ((u^2/L)^2
+/// cross_track/steering_rate)^(1/6), if the heading has no weight. The default weight of the
+/// steering rate is increased until 1/w_0 is at least twice SteeringResponse::time_constant, and at
+/// least kPeriods T. With a faster loop, small errors of the actuator, such as backlash, would
+/// oscillate through the lag, and the limited steering rate would oscillate from period to period.
 template <typename Options>
-ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options, double speed) {
-  constexpr double kLags = 2.0;  // lower bound of 1/w_0 in lags
+ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options, double speed,
+                        double period) {
+  constexpr double kLags = 2.0;     // lower bound of 1/w_0 in lags
+  constexpr double kPeriods = 3.0;  // lower bound of 1/w_0 in control periods
   ErrorWeights weights = WeightsFor(vehicle, options);
   if (!options.steering_rate) {
     const double turn = speed * speed / vehicle.wheelbase;
-    const double slow = std::pow(kLags * vehicle.steering_response.time_constant, 3) * turn;
+    const double shortest =
+        std::max(kLags * vehicle.steering_response.time_constant, kPeriods * period);
+    const double slow = std::pow(shortest, 3) * turn;
     weights.steering_rate = std::max(weights.steering_rate, weights.cross_track * slow * slow);
   }
   return weights;

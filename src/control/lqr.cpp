@@ -23,7 +23,7 @@ class Lqr final : public SteeringController {
     const ErrorModel model = MakeErrorModel(input, tracking, input.period, options_.tyres);
     Ahead ahead(input, tracking, model);
     ErrorModel::Vector z = ErrorState(input, tracking, options_.tyres) - ahead.steady();
-    ErrorWeights weights = WeightsFor(vehicle, options_, model.speed);
+    ErrorWeights weights = WeightsFor(vehicle, options_, model.speed, input.period);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z);
 
     double rate = -regulator.gain.dot(z);

@@ -36,7 +36,7 @@ class Mpc final : public SteeringController {
     const ErrorModel model = MakeErrorModel(input, tracking, step, options_.tyres);
     Ahead ahead(input, tracking, model);
     Prediction z{ErrorState(input, tracking, options_.tyres) - ahead.steady(), {}};
-    ErrorWeights weights = WeightsFor(vehicle, options_, model.speed);
+    ErrorWeights weights = WeightsFor(vehicle, options_, model.speed, input.period);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z.free);
     z.reach.setZero(model.a.rows(), options_.horizon);
 

@@ -111,13 +111,14 @@ class Mppi final : public SteeringController, public SeesSurroundings {
     }
     const double horizon = options_.horizon.value_or(DefaultHorizon(input));
     Shift(horizon / static_cast<double>(steps_));
-    roll_out_.Prepare(input, ProjectOntoPath(input), angle_.Now(input), surroundings,
-                      {.slips = slips_,
-                       .steps = options_.steps,
-                       .step = step_,
-                       .weights = WeightsFor(input.vehicle, options_, std::abs(input.state.speed)),
-                       .margin = options_.margin.value_or(0.25 * input.vehicle.width),
-                       .grip = options_.grip});
+    roll_out_.Prepare(
+        input, ProjectOntoPath(input), angle_.Now(input), surroundings,
+        {.slips = slips_,
+         .steps = options_.steps,
+         .step = step_,
+         .weights = WeightsFor(input.vehicle, options_, std::abs(input.state.speed), input.period),
+         .margin = options_.margin.value_or(0.25 * input.vehicle.width),
+         .grip = options_.grip});
     if (Stands(input)) {
       // The roll-outs would drive off at once, but the drive waits until the actuator rests.
       std::fill(plan_.begin(), plan_.end(), 0.0);
