@@ -37,9 +37,7 @@ struct SteeringGains {
 struct SampledLoop {
   Eigen::MatrixXd matrix;
 
-  [[nodiscard]] double SpectralRadius() const {
-    return matrix.eigenvalues().cwiseAbs().maxCoeff();
-  }
+  [[nodiscard]] double SpectralRadius() const { return matrix.eigenvalues().cwiseAbs().maxCoeff(); }
 };
 
 namespace sampled_loop {
@@ -170,8 +168,8 @@ inline SampledLoop CompensatedLoop(const LoopCase& loop) {
   return {matrix};
 }
 
-/// The loop of a controller that ignores the actuator, in the state (e, psi, v, r, s, c_1, ..., c_n,
-/// c_(n+1)): the last commands, the newest one first. The dead time has n control periods.
+/// The loop of a controller that ignores the actuator, in the state (e, psi, v, r, s, c_1, ...,
+/// c_n, c_(n+1)): the last commands, the newest one first. The dead time has n control periods.
 inline SampledLoop IgnorantLoop(const LoopCase& loop) {
   const SteeringGains gains = Gains(loop);
   const auto n = std::lround(loop.vehicle.steering_response.dead_time / loop.period);

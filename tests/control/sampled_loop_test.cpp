@@ -157,8 +157,8 @@ TEST_P(SmoothFollower, DrivesAsTheLinearLoop) {
   }
 }
 
-/// Returns the lowest whole speed [m/s] from 1 to 35 m/s at which an eigenvalue of the loop is on or
-/// outside of the unit circle, or 0 if there is none.
+/// Returns the lowest whole speed [m/s] from 1 to 35 m/s at which an eigenvalue of the loop is on
+/// or outside of the unit circle, or 0 if there is none.
 int LowestUnstableSpeed(const ControllerEntry& controller, const VehicleParams& car,
                         ActuatorKnowledge knowledge) {
   for (int speed = 1; speed <= 35; ++speed) {
@@ -192,6 +192,51 @@ TEST_P(SmoothFollower, NeedsTheModelOfAnActuatorWithDeadTime) {
   } else {
     EXPECT_EQ(unstable, 1);
   }
+}
+
+/// Returns the largest offset [m] in the last 5 s of a drive of 25 s that starts beside the path.
+double RemainingOffset(const char* controller, const VehicleParams& car, double speed,
+                       double offset) {
+  const auto entry = std::find_if(
+      Controllers().begin(), Controllers().end(),
+      [&](const ControllerEntry& each) { return each.name == std::string(controller); });
+  const LoopCase loop{*entry, car, speed};
+  constexpr int kPeriods = 1250;
+  const std::vector<Eigen::Vector4d> states = Simulated(loop, {offset, 0.0, 0.0, 0.0}, kPeriods);
+  double largest = 0.0;
+  for (std::size_t i = kPeriods - 250; i < states.size(); ++i) {
+    largest = std::max(largest, std::abs(states[i][0]));
+  }
+  return largest;
+}
+
+// Limits of what linear loops do not have: the rate of the steering, and backlash. A car has
+// settled if it stays within 5 % of its width.
+
+TEST(LargeDeviations, DecayDespiteTheLimitedSteeringRate) {
+  // preview weaved by 0.2 m with this car for ever, because it did not expect that tyres and a
+  // steering of limited rate both answer late.
+  const VehicleParams bmw = Cars()[1];
+  for (const double offset : {0.3, 1.0, 3.0}) {
+    EXPECT_LT(RemainingOffset("preview", bmw, 15.0, offset), 0.05 * bmw.width) << offset;
+  }
+}
+
+TEST(LargeDeviations, DecayDespiteTheBacklash) {
+  // A dead zone of a quarter of the backlash would leave R^2/(2 L) times 5.7 mrad, which is 46 mm
+  // at 5 m/s.
+  VehicleParams dart = Cars()[2];
+  dart.steering_response.backlash = 0.0228;
+  for (const char* controller : {"preview", "lqr"}) {
+    EXPECT_LT(RemainingOffset(controller, dart, 5.0, 0.1), 0.05 * dart.width) << controller;
+  }
+}
+
+TEST(LargeDeviations, DecayDespiteTheControlPeriod) {
+  // Without a limit of its bandwidth, lqr turned the wheels of this car by 0.07 rad from period to
+  // period: at 25 m/s, the car drives two wheelbases in a control period.
+  const VehicleParams f1tenth = Cars()[3];
+  EXPECT_LT(RemainingOffset("lqr", f1tenth, 25.0, 1.0), 0.05 * f1tenth.width);
 }
 
 }  // namespace sampled_loop_test
