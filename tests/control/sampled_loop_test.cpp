@@ -157,8 +157,8 @@ TEST_P(SmoothFollower, DrivesAsTheLinearLoop) {
   }
 }
 
-/// Returns the lowest whole speed [m/s] from 1 to 35 m/s at which an eigenvalue of the loop is on
-/// or outside of the unit circle, or 0 if there is none.
+/// Returns the lowest whole speed [m/s] from 1 to 35 m/s with an unstable loop, whose largest
+/// eigenvalue has an absolute value of at least 1. Returns 0 if all loops are stable.
 int LowestUnstableSpeed(const ControllerEntry& controller, const VehicleParams& car,
                         ActuatorKnowledge knowledge) {
   for (int speed = 1; speed <= 35; ++speed) {
