@@ -26,7 +26,8 @@ namespace trackbed {
 /// `state.time` and `period` stay unchanged.
 ///
 /// The angle that `inner` returns is converted to a command in these steps:
-///   1. A dead zone to both sides of the steady turn on the path. Without the dead zone, the command
+///   1. A dead zone to both sides of the steady turn on the path. Without the dead zone, the
+///   command
 ///      would cross the play for ever, because errors decay but never vanish. The half-width is a
 ///      quarter of the backlash, or 0.08 (L/R)^2 if that is less, where R is ShortestPreview: a law
 ///      that steers to a point at the distance R then stays within 0.04 L of its path. Reversals
