@@ -346,6 +346,44 @@ TEST(MagicFormulaTyres, TheRoadIsThatUnderEachWheel) {
   }
 }
 
+constexpr double kLean = 1e-3;  // [rad], to the left
+
+/// Camber stiffness dF_y/dgamma of an upright tyre without slip, at the load `load` [N/rad].
+double CamberStiffness(const MagicFormula& tyre, double load) {
+  return (EvaluateTyreForce(tyre, load, 1.0, {.camber = kLean}).lateral -
+          EvaluateTyreForce(tyre, load, 1.0, {.camber = -kLean}).lateral) /
+         (2.0 * kLean);
+}
+
+TEST(MagicFormulaTyres, CamberPushesTheWheelsOfThePriusToTheSideToWhichTheyLean) {
+  // The set of the Prius is of PAC2002, whose gamma is positive if the wheel leans to the right:
+  //   S_hy = p_hy3 gamma, S_vy = p_vy3 gamma F_z, and near zero slip F_y = K_y S_hy + S_vy.
+  // A lean to the left is -gamma, so dF_y/dlean = -(K_y p_hy3 + p_vy3 F_z) with K_y < 0.
+  // The central difference neglects (B S_hy)^2 < (20 * 5e-5)^2 = 1e-6.
+  const CarModel car = CarWith("prius", {});
+  for (const MagicFormula& tyre : car.parts().tyres->axle) {
+    for (const double load : {1500.0, 3500.0, 6000.0}) {
+      const double expected = CorneringStiffness(tyre, load) * 0.044112 + 0.092912 * load;
+      EXPECT_NEAR(CamberStiffness(tyre, load) / expected, 1.0, Tolerance(1e-5)) << load;
+      // Camber stiffnesses of car tyres are about as large as the load (Pacejka 2012, section 4.2).
+      EXPECT_GT(CamberStiffness(tyre, load), 0.3 * load);
+      EXPECT_LT(CamberStiffness(tyre, load), 2.0 * load);
+    }
+  }
+}
+
+TEST(MagicFormulaTyres, CamberOfTheBmwCountsAsInCommonRoad) {
+  // CommonRoad's roll angle is negative in a left turn, so its wheels lean to the left by gamma >
+  // 0. Its formula adds S_hy = p_hy3 gamma and S_vy = p_vy3 gamma F_z for this gamma. Ours smooths
+  // the sign of gamma over 5e-4 rad.
+  const double sign = kLean / std::hypot(kLean, 5e-4);
+  const CarModel car = CarWith("bmw320i", {});
+  for (const MagicFormula& tyre : car.parts().tyres->axle) {
+    const double expected = sign * (-21.92 * 0.031415 - 0.32931) * 3000.0;
+    EXPECT_NEAR(CamberStiffness(tyre, 3000.0) / expected, 1.0, Tolerance(1e-5));
+  }
+}
+
 TEST(MagicFormulaTyres, PrescribedWheelsStandWhereTheyAreAsked) {
   const CarModel car = CarWith("prius", {});
   const World world;
