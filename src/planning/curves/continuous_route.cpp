@@ -9,6 +9,9 @@
 // higher speed are blocked. The objective `time` compares several speeds for each leg by an
 // estimate of the driving time, then compares the best combination with the one at the mission's
 // speed by the speed profile of the whole path.
+//
+// A car that rolls at the start drives its first turns at its present speed, or straightens its
+// wheels first and slows down on a straight.
 #include "src/planning/curves/continuous_route.h"
 
 #include <fmt/format.h>
@@ -18,6 +21,8 @@
 #include <optional>
 
 #include "trackbed/planning/common/collision_checker.h"
+#include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/lead_in.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/curves/drivable_curve.h"
 
@@ -30,17 +35,30 @@ constexpr double kCuspPenalty = 5.0;
 /// Share of the tyres' grip on turns; the rest is left for braking and for corrections.
 constexpr double kGripShare = 0.5;
 
-/// Lowest speed of a leg as a fraction of the mission's speed, and the ratio of neighboring
-/// choices.
-constexpr double kSlowest = 0.2;
+/// Ratio of neighboring choices of speeds: fine above the given fraction of the mission's speed,
+/// where most turns are fastest, and coarse down to the lowest speed.
 constexpr double kSpeedRatio = 0.8;
+constexpr double kFineChoices = 0.2;
+constexpr double kCoarseSpeedRatio = 0.6;
+
+/// Driving time of a path of continuous curvature that is accepted instead of a path with steps, as
+/// a multiple of the time of the latter.
+constexpr double kMostTime = 1.2;
 
 /// A leg between two stops.
 struct Leg {
   std::vector<Segment> segments;
   CurveFindings findings;
-  double speed = 0.0;  // on its turns [m/s]
+  double speed = 0.0;    // on its turns [m/s]
+  std::size_t lead = 0;  // number of segments before its turns, on which a rolling car slows down
   double cost = kNoCurve;
+};
+
+/// The place where the turns of a leg begin.
+struct LegStart {
+  CurveState state;
+  double speed = 0.0;  // on the turns [m/s]
+  LeadIn lead{};       // on which a rolling car slows down to this speed
 };
 
 /// The legs of a route with their total cost.
@@ -59,6 +77,15 @@ double SharpestRadius(const std::vector<Segment>& segments, double radius) {
   return sharpest > 0.0 ? 1.0 / sharpest : radius;
 }
 
+/// Returns the time that the wheels need to turn from the end of a segment to the start of the next
+/// one [s].
+double SteeringTime(const VehicleParams& vehicle, const Segment& before, const Segment& after) {
+  const double steering =
+      std::abs(SteeringForCurvature(vehicle, after.curvature) -
+               SteeringForCurvature(vehicle, before.CurvatureAt(before.length)));
+  return steering / vehicle.steering_rate;
+}
+
 bool IsStraight(const Segment& segment) {
   return segment.curvature == 0.0 && segment.sharpness == 0.0 && segment.sharpness_rate == 0.0;
 }
@@ -75,18 +102,17 @@ class RoutePlanner {
   [[nodiscard]] Plan Make() {
     Legs best;
     if (route_.objective == CurveObjective::kTime) {
-      best = BestLegs(SlowerSpeeds());
+      best = BestLegs(Speeds());
       Legs constant = BestLegs({speed_});
       if (!constant.legs.empty() && (best.legs.empty() || Time(constant) <= Time(best))) {
         best = std::move(constant);
       }
-    } else {
-      for (const double speed : SlowerSpeeds()) {
-        best = BestLegs({speed});
-        if (!best.legs.empty()) {
-          break;
-        }
+    }
+    for (const double speed : Speeds()) {
+      if (!best.legs.empty()) {
+        break;
       }
+      best = BestLegs({speed});
     }
     return best.legs.empty() ? Blocked() : PlanOf(best);
   }
@@ -96,12 +122,13 @@ class RoutePlanner {
     return leg == 0 && request_.start_speed > 0.0;
   }
 
-  /// The choices of speeds for a leg, fastest first.
-  [[nodiscard]] std::vector<double> SlowerSpeeds() const {
+  /// The choices of speeds for a leg, from the mission's speed down to the lowest speed.
+  [[nodiscard]] std::vector<double> Speeds() const {
     std::vector<double> speeds{speed_};
-    const double slowest = std::max(route_.min_speed, kSlowest * speed_);
-    while (speeds.back() * kSpeedRatio >= slowest) {
-      speeds.push_back(speeds.back() * kSpeedRatio);
+    while (speeds.back() > route_.min_speed) {
+      const bool fine = speeds.back() * kSpeedRatio >= kFineChoices * speed_;
+      speeds.push_back(
+          std::max(speeds.back() * (fine ? kSpeedRatio : kCoarseSpeedRatio), route_.min_speed));
     }
     return speeds;
   }
@@ -131,18 +158,22 @@ class RoutePlanner {
     if (stop + 1 == stops_.size()) {
       return {0.0};
     }
-    const double most = MaxCurvature(speed_);
-    return {0.0, 0.5 * most, -0.5 * most, most, -most};
+    const double most = MaxCurvature(route_.min_speed);
+    std::vector<double> choices{0.0, 0.5 * most, -0.5 * most, most, -most};
+    // Half of the car's largest curvature may be too much at the mission's speed.
+    if (const double fast = MaxCurvature(speed_); fast < 0.5 * most) {
+      choices.insert(choices.end(), {fast, -fast});
+    }
+    return choices;
   }
 
   [[nodiscard]] std::vector<ShortestCurve> Words(const CurveLimits& limits, std::size_t leg,
-                                                 double from, double to) const {
+                                                 const CurveState& start, double to) const {
     const ContinuousCurves curves(limits);
-    const CurveState start{stops_[leg], from};
     const CurveState goal{stops_[leg + 1], to};
     // The words with cusps from and to curved states are many; a route of four legs would take
     // seconds.
-    const bool is_curved = to != 0.0 || (leg > 0 && from != 0.0);
+    const bool is_curved = to != 0.0 || (leg > 0 && start.curvature != 0.0);
     switch (is_curved ? CurveMotion::kForwards : route_.motion) {
       case CurveMotion::kForwards:
         return curves.DubinsWords(start, goal);
@@ -170,11 +201,8 @@ class RoutePlanner {
   /// Time that the car loses by stopping and by turning its wheels at rest [s].
   [[nodiscard]] double CuspTime(const Segment& before, const Segment& after, double speed) const {
     const SpeedLimits& limits = request_.speed;
-    const VehicleParams& car = request_.vehicle;
-    const double steering = std::abs(SteeringForCurvature(car, after.curvature) -
-                                     SteeringForCurvature(car, before.CurvatureAt(before.length)));
     return 0.5 * speed * (1.0 / limits.acceleration + 1.0 / limits.deceleration) +
-           steering / car.steering_rate;
+           SteeringTime(request_.vehicle, before, after);
   }
 
   [[nodiscard]] double CostOf(const std::vector<Segment>& segments, double speed,
@@ -200,35 +228,71 @@ class RoutePlanner {
     return cost;
   }
 
+  /// Returns where the turns of a leg may begin if the mission drives them at `speed`.
+  [[nodiscard]] std::vector<LegStart> StartsAt(double speed, std::size_t leg, double from) const {
+    const CurveState here{stops_[leg], from};
+    if (!IsRolling(leg)) {
+      return {{here, speed}};
+    }
+    const double present = std::max(speed, request_.start_speed);
+    // A car that starts in a sharp bend drives turns as sharp as this bend only if it must.
+    const bool is_sharp = std::abs(from) > MaxCurvature(present);
+    std::vector<LegStart> starts;
+    if (speed < request_.start_speed || is_sharp) {
+      LeadIn lead = ComputeLeadIn(request_, std::min(speed, request_.start_speed), 0.0);
+      if (route::IsFree(clear_, request_.start, lead.segments)) {
+        starts.push_back({{lead.end, 0.0}, speed, std::move(lead)});
+      }
+    }
+    if (starts.empty() || !is_sharp) {
+      starts.push_back({here, present});
+    }
+    return starts;
+  }
+
+  /// Returns the cost of the lead-in, on which the speed falls evenly.
+  [[nodiscard]] double LeadCost(const LegStart& start) const {
+    const double sum = start.speed + request_.start_speed;
+    return route_.objective == CurveObjective::kTime ? 2.0 * start.lead.length / sum
+                                                     : start.lead.length;
+  }
+
   /// Returns the cheapest free leg at `speed`; its cost is infinite if all words are blocked.
   [[nodiscard]] Leg LegAt(double speed, std::size_t leg, double from, double to) {
-    const double driven = IsRolling(leg) ? std::max(speed, request_.start_speed) : speed;
-    const CurveLimits limits = LimitsAt(driven, leg == 0 ? from : 0.0);
-    const double most = (1.0 + 1e-9) / limits.radius;
-    if (std::abs(from) > most || std::abs(to) > most) {
-      return {};
-    }
     std::vector<Leg> found;
-    for (const ShortestCurve& word : Words(limits, leg, from, to)) {
-      std::vector<Segment> own = ToSegments(word);
-      if (IsRolling(leg) && !own.empty() && own.front().direction < 0) {
+    for (const LegStart& start : StartsAt(speed, leg, from)) {
+      const double curvature = start.state.curvature;
+      const CurveLimits limits = LimitsAt(start.speed, leg == 0 ? curvature : 0.0);
+      const double most = (1.0 + 1e-9) / limits.radius;
+      if (std::abs(curvature) > most || std::abs(to) > most) {
         continue;
       }
-      const double cost = CostOf(own, driven, leg);
-      found.push_back(
-          {.segments = std::move(own),
-           .findings = {.word = CurveWord(word), .length = word.length, .radius = limits.radius},
-           .speed = driven,
-           .cost = cost});
+      for (const ShortestCurve& word : Words(limits, leg, start.state, to)) {
+        const std::vector<Segment> own = ToSegments(word);
+        if (IsRolling(leg) && !own.empty() && own.front().direction < 0) {
+          continue;
+        }
+        Leg candidate;
+        candidate.segments = start.lead.segments;
+        candidate.segments.insert(candidate.segments.end(), own.begin(), own.end());
+        candidate.findings.word = CurveWord(word);
+        candidate.findings.length = start.lead.length + word.length;
+        candidate.findings.radius = limits.radius;
+        candidate.speed = start.speed;
+        candidate.lead = start.lead.segments.size();
+        candidate.cost = LeadCost(start) + CostOf(own, start.speed, leg);
+        found.push_back(std::move(candidate));
+      }
     }
     tried_ = std::max(tried_, found.size());
     std::stable_sort(found.begin(), found.end(),
                      [](const Leg& a, const Leg& b) { return a.cost < b.cost; });
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (route::IsFree(clear_, stops_[leg], found[i].segments)) {
-        found[i].findings.shorter_ones_blocked = static_cast<std::ptrdiff_t>(i);
-        found[i].findings.radius = SharpestRadius(found[i].segments, limits.radius);
-        return std::move(found[i]);
+        Leg& best = found[i];
+        best.findings.shorter_ones_blocked = static_cast<std::ptrdiff_t>(i);
+        best.findings.radius = SharpestRadius(best.segments, best.findings.radius);
+        return std::move(best);
       }
     }
     blocked_ = std::max(blocked_, leg + 1);
@@ -268,8 +332,9 @@ class RoutePlanner {
     double station = 0.0;
     for (const Leg& leg : found.legs) {
       diagnostics.curves.push_back(leg.findings);
-      for (const Segment& segment : leg.segments) {
-        if (leg.speed < speed_ && !IsStraight(segment)) {
+      for (std::size_t i = 0; i < leg.segments.size(); ++i) {
+        const Segment& segment = leg.segments[i];
+        if (leg.speed < speed_ && i >= leg.lead && !IsStraight(segment)) {
           plan.caps.push_back({station, station + segment.length, leg.speed});
         }
         station += segment.length;
@@ -282,17 +347,8 @@ class RoutePlanner {
     return plan;
   }
 
-  /// Returns the driving time of the legs, with the time in which the wheels turn at rest [s].
   [[nodiscard]] double Time(const Legs& found) const {
-    const Plan plan = PlanOf(found);
-    const std::vector<Segment>& segments = plan.reference.path.segments();
-    double time = plan.reference.speed.TimeAt(plan.reference.path.length());
-    for (std::size_t i = 1; i < segments.size(); ++i) {
-      if (segments[i].direction != segments[i - 1].direction) {
-        time += CuspTime(segments[i - 1], segments[i], 0.0);
-      }
-    }
-    return time;
+    return DrivingTime(PlanOf(found), request_.vehicle);
   }
 
   [[nodiscard]] Plan Blocked() const {
@@ -322,7 +378,8 @@ double LateralAccelerationOnClothoids(const VehicleParams& vehicle, double frict
 }
 
 const EnumNames<CurveCurvature>& CurvaturesWithCusps() {
-  static const EnumNames<CurveCurvature> names{{CurveCurvature::kSteps, "steps"},
+  static const EnumNames<CurveCurvature> names{{CurveCurvature::kAuto, "auto"},
+                                               {CurveCurvature::kSteps, "steps"},
                                                {CurveCurvature::kContinuous, "continuous"},
                                                {CurveCurvature::kCuspSteps, "cusp_steps"}};
   return names;
@@ -339,6 +396,51 @@ void VisitClothoids(KeyVisitor& keys, double& max_lateral_acceleration,
 
 Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request) {
   return RoutePlanner(route, request).Make();
+}
+
+double DrivingTime(const Plan& plan, const VehicleParams& vehicle) {
+  const Path& path = plan.reference.path;
+  const std::vector<Segment>& segments = path.segments();
+  const auto stops = [&](double station) {
+    constexpr double kSameStation = 1e-6;  // [m]
+    return std::any_of(plan.stops.begin(), plan.stops.end(),
+                       [&](double stop) { return std::abs(stop - station) < kSameStation; });
+  };
+  double time = plan.Duration();
+  double station = 0.0;
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    const Segment& before = segments[i - 1];
+    station += before.length;
+    if (before.direction != segments[i].direction || stops(station)) {
+      time += SteeringTime(vehicle, before, segments[i]);
+    }
+  }
+  return time;
+}
+
+Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request) {
+  // A plan that keeps the limits only if the request allows to exceed them does not fit.
+  PlanRequest strict = request;
+  strict.infeasible = InfeasiblePolicy::kSlowDown;
+  const FeasiblePlan smooth = MakeFeasible(continuous, strict);
+  const FeasiblePlan stepping = MakeFeasible(steps, strict);
+  if (smooth.ok() && !stepping.ok()) {
+    return continuous;
+  }
+  std::string why = smooth->reason;
+  if (smooth.ok()) {
+    const double time = DrivingTime(smooth, request.vehicle);
+    const double with_steps = DrivingTime(stepping, request.vehicle);
+    if (time <= kMostTime * with_steps) {
+      return continuous;
+    }
+    why = fmt::format("it takes {:.3g} s instead of {:.3g} s", time, with_steps);
+  }
+  if (steps.ok()) {
+    steps.notes.push_back(
+        fmt::format("the curvature steps, because no path of continuous curvature fits: {}", why));
+  }
+  return steps;
 }
 
 }  // namespace trackbed

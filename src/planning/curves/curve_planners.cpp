@@ -191,31 +191,44 @@ Plan PlanContinuous(const Options& options, const PlanRequest& request, CurveMot
   return PlanContinuousRoute(route, request);
 }
 
-Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
-  if (options.curvature != CurveCurvature::kSteps) {
-    return PlanContinuous(options, request, CurveMotion::kForwards);
+/// Plans a path of curves among `words`, or of continuous curvature, as the options demand.
+template <typename Options, typename Words>
+Plan PlanWithCurvature(const Options& options, const PlanRequest& request, CurveMotion continuous,
+                       const Words& words) {
+  switch (options.curvature) {
+    case CurveCurvature::kSteps:
+      return PlanCurves(options, request, words);
+    case CurveCurvature::kContinuous:
+    case CurveCurvature::kCuspSteps:
+      return PlanContinuous(options, request, continuous);
+    case CurveCurvature::kAuto:
+      break;
   }
-  return PlanCurves(options, request, DubinsWords);
+  return ContinuousOrSteps(PlanContinuous(options, request, continuous),
+                           PlanCurves(options, request, words), request);
+}
+
+Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
+  return PlanWithCurvature(options, request, CurveMotion::kForwards, DubinsWords);
 }
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
-  if (options.curvature != CurveCurvature::kSteps) {
-    return PlanContinuous(options, request,
-                          options.curvature == CurveCurvature::kContinuous
-                              ? CurveMotion::kContinuous
-                              : CurveMotion::kHybrid);
-  }
   // All Reeds-Shepp words to a pose may begin in reverse, which a rolling car cannot drive.
   // Therefore the Dubins words, which begin forwards, are candidates too.
-  return PlanCurves(options, request, [](const Pose2& from, const Pose2& to, double radius) {
-    std::vector<ShortestCurve> words = ReedsSheppWords(from, to, radius);
+  const auto words = [](const Pose2& from, const Pose2& to, double radius) {
+    std::vector<ShortestCurve> all = ReedsSheppWords(from, to, radius);
     const std::vector<ShortestCurve> forwards = DubinsWords(from, to, radius);
-    words.insert(words.end(), forwards.begin(), forwards.end());
-    std::stable_sort(
-        words.begin(), words.end(),
-        [](const ShortestCurve& a, const ShortestCurve& b) { return a.length < b.length; });
-    return words;
-  });
+    all.insert(all.end(), forwards.begin(), forwards.end());
+    std::stable_sort(all.begin(), all.end(), [](const ShortestCurve& a, const ShortestCurve& b) {
+      return a.length < b.length;
+    });
+    return all;
+  };
+  return PlanWithCurvature(options, request,
+                           options.curvature == CurveCurvature::kContinuous
+                               ? CurveMotion::kContinuous
+                               : CurveMotion::kHybrid,
+                           words);
 }
 
 }  // namespace
@@ -250,7 +263,8 @@ void VisitKeys(KeyVisitor& keys, Options& options, const EnumNames<CurveCurvatur
 }  // namespace
 
 void Visit(KeyVisitor& keys, DubinsOptions& options) {
-  static const EnumNames<CurveCurvature> names{{CurveCurvature::kSteps, "steps"},
+  static const EnumNames<CurveCurvature> names{{CurveCurvature::kAuto, "auto"},
+                                               {CurveCurvature::kSteps, "steps"},
                                                {CurveCurvature::kContinuous, "continuous"}};
   VisitKeys(keys, options, names);
 }

@@ -233,7 +233,8 @@ Resolution Resolution::WithBins(double cell, int headings, double radius) {
 std::unique_ptr<PoseSearch> MakePoseSearch(const SearchSpace& space, const Resolution& resolution,
                                            SearchSide side,
                                            std::shared_ptr<const GridDistance> left) {
-  return space.options.curvature == CurveCurvature::kSteps
+  const CurveCurvature curvature = space.options.curvature;
+  return curvature == CurveCurvature::kAuto || curvature == CurveCurvature::kSteps
              ? MakeArcSearch(space, resolution, side, std::move(left))
              : MakeClothoidSearch(space, resolution, side, std::move(left));
 }

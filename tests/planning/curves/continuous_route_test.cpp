@@ -9,6 +9,8 @@
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/collision_checker.h"
+#include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/lead_in.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/curves/curve_planners.h"
@@ -182,7 +184,8 @@ TEST(ContinuousRoute, BeginsWithTheSteeringOfARollingCar) {
   for (int i = 0; i < 12; ++i) {
     PlanRequest request = RandomRoute(random);
     request.start_speed = 3.0;
-    request.start_steering = random.Uniform(-1.0, 1.0) * request.vehicle.steering_limit;
+    // The curvature is at most that of the planner's arcs, 1/(1.1 r).
+    request.start_steering = random.Uniform(-0.9, 0.9) * request.vehicle.steering_limit;
     for (const Planned& planner : Planners()) {
       const Plan plan = planner.entry.plan(request, planner.options);
       ExpectFollowable(planner, request, plan);
@@ -191,6 +194,36 @@ TEST(ContinuousRoute, BeginsWithTheSteeringOfARollingCar) {
       EXPECT_NEAR(first.curvature, CurvatureForSteering(request.vehicle, request.start_steering),
                   Tolerance(1e-12));
     }
+  }
+}
+
+TEST(ContinuousRoute, StraightensTheWheelsOfACarThatIsTooFastForItsTurn) {
+  // At 8 m/s, the turns of a mission at 8 m/s are wider than the distance to the goal; the bend of
+  // the wheels' steering has a lateral acceleration of 8^2 tan(0.3)/2.7 = 7.3 m/s^2.
+  PlanRequest request = ContinuousRequest({{0.0, 0.0}, {45.0, 12.0}}, {0.0, 1.2});
+  request.speed.speed = 8.0;
+  request.start_speed = 8.0;
+  request.start_steering = 0.3;
+  for (const Planned& planner : Planners(CurveObjective::kTime)) {
+    const Plan plan = planner.entry.plan(request, planner.options);
+    ASSERT_TRUE(plan.ok()) << planner.name << ": " << plan.reason;
+    const LeadIn lead = ComputeLeadIn(request, 0.0, 0.0);
+    const std::vector<Segment>& segments = plan.reference.path.segments();
+    // All but the last segment of the lead-in straighten the wheels.
+    ASSERT_GT(segments.size(), lead.segments.size());
+    double station = 0.0;
+    for (std::size_t i = 0; i + 1 < lead.segments.size(); ++i) {
+      EXPECT_EQ(segments[i].curvature, lead.segments[i].curvature) << planner.name;
+      EXPECT_EQ(segments[i].sharpness, lead.segments[i].sharpness) << planner.name;
+      station += segments[i].length;
+    }
+    for (double s = station + 0.1; s < plan.reference.path.length(); s += 0.1) {
+      const double speed = plan.reference.speed.SpeedAt(s);
+      EXPECT_LE(speed * speed * std::abs(plan.reference.path.At(s).curvature),
+                3.0 * (1.0 + Tolerance(1e-9)))
+          << planner.name << " at " << s;
+    }
+    EXPECT_TRUE(FindExcesses(plan, request).empty()) << planner.name;
   }
 }
 

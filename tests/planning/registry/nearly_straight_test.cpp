@@ -35,14 +35,12 @@ struct NamedPlanner {
 std::vector<NamedPlanner> CurvePlanners() {
   HybridAStarOptions forwards;
   forwards.reverse = false;
-  DubinsOptions continuous;
-  continuous.curvature = CurveCurvature::kContinuous;
-  ReedsSheppOptions cusp_steps;
-  cusp_steps.curvature = CurveCurvature::kCuspSteps;
+  const CurveCurvature steps = CurveCurvature::kSteps;
   return {{"dubins", DubinsOptions{}},
           {"reeds_shepp", ReedsSheppOptions{}},
-          {"dubins_continuous", continuous},
-          {"reeds_shepp_cusp_steps", cusp_steps},
+          {"dubins_steps", DubinsOptions{.curvature = steps}},
+          {"reeds_shepp_steps", ReedsSheppOptions{.curvature = steps}},
+          {"hybrid_astar_steps", HybridAStarOptions{.curvature = steps}},
           {"hybrid_astar", HybridAStarOptions{}},
           {"hybrid_astar_forwards", forwards}};
 }

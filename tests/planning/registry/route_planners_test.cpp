@@ -335,7 +335,10 @@ TEST_P(EveryRoutePlanner, StopsWhereItChangesDirection) {
   if (!GetParam().goes_backwards) {
     GTEST_SKIP() << "it does not";
   }
-  const Plan plan = Make(Between({0.0, 0.0, 0.0}, {0.0, 6.0, 3.0}, {}));
+  // A car that rolls forward stops before it drives back to the goal.
+  PlanRequest request = Between({0.0, 0.0, 0.0}, {-12.0, 2.0, 0.2}, {});
+  request.start_speed = 1.0;
+  const Plan plan = Make(request);
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const std::vector<Stations> legs = SplitIntoLegs(plan.reference.path);
   ASSERT_GT(legs.size(), 1U);
@@ -418,11 +421,11 @@ TEST_P(EveryRoutePlanner, RefusesAStartOrAGoalInsideAnObstacle) {
 
 TEST(CurvePlanners, TakeAnotherWordWhereTheShortestIsBlocked) {
   PlanRequest request = Between({0.0, 0.0, 0.0}, {0.0, 24.0, kPi}, {});
-  const Plan open = MakePlan(request, DubinsOptions{});
+  const Plan open = MakePlan(request, DubinsOptions{.curvature = CurveCurvature::kSteps});
   ASSERT_TRUE(open.ok());
   const PathPoint middle = open.reference.path.At(0.5 * open.reference.path.length());
   request.obstacles = {{middle.pose, 1.0, 1.0}};
-  const Plan other = MakePlan(request, DubinsOptions{});
+  const Plan other = MakePlan(request, DubinsOptions{.curvature = CurveCurvature::kSteps});
   ASSERT_TRUE(other.ok()) << other.reason;
   EXPECT_GT(DiagnosticsJson(other)["curves"][0]["shorter_ones_blocked"], 0);
   EXPECT_GT(other.reference.path.length(), open.reference.path.length());
@@ -466,10 +469,12 @@ TEST(CurvePlanners, TurnAroundInPlaceOnTheShortestCurve) {
   // degrees on each circle.
   constexpr double kRadius = 7.0;
   const PlanRequest request = Between({0.0, 0.0, 0.0}, {0.0, 0.0, kPi}, {});
-  const Plan loop = MakePlan(request, DubinsOptions{.radius = kRadius});
+  const Plan loop =
+      MakePlan(request, DubinsOptions{.radius = kRadius, .curvature = CurveCurvature::kSteps});
   ASSERT_TRUE(loop.ok()) << loop.reason;
   EXPECT_NEAR(loop.reference.path.length(), kRadius * 7.0 / 3.0 * kPi, Tolerance(1e-9));
-  const Plan star = MakePlan(request, ReedsSheppOptions{.radius = kRadius});
+  const Plan star =
+      MakePlan(request, ReedsSheppOptions{.radius = kRadius, .curvature = CurveCurvature::kSteps});
   ASSERT_TRUE(star.ok()) << star.reason;
   EXPECT_NEAR(star.reference.path.length(), kRadius * kPi, Tolerance(1e-9));
 }

@@ -12,6 +12,9 @@ namespace trackbed {
 
 /// How the curvature of a path of curves may change.
 enum class CurveCurvature {
+  /// It is continuous, except at cusps, if the car can drive such a path; otherwise it steps. A
+  /// note of the plan says why it steps.
+  kAuto,
   kSteps,       ///< It steps between straights and arcs, at a speed that the steering can follow.
   kContinuous,  ///< It is continuous (continuous_curvature.h).
   kCuspSteps,   ///< It is continuous except at cusps, where the car turns its wheels at rest.
@@ -31,7 +34,7 @@ struct DubinsOptions {
   double safe_distance = 0.3;
   /// Lowest speed of the car at a step of curvature, or on turns of continuous curvature [m/s].
   double min_speed = 0.3;
-  CurveCurvature curvature = CurveCurvature::kSteps;  ///< kSteps or kContinuous.
+  CurveCurvature curvature = CurveCurvature::kAuto;  ///< kAuto, kSteps or kContinuous.
   /// Largest lateral acceleration on curves of continuous curvature [m/s^2], > 0; at most half of
   /// the tyres' grip applies anyway.
   double max_lateral_acceleration = 3.0;
@@ -47,7 +50,7 @@ struct ReedsSheppOptions {
   std::optional<double> radius;
   double safe_distance = 0.3;
   double min_speed = 0.3;
-  CurveCurvature curvature = CurveCurvature::kSteps;
+  CurveCurvature curvature = CurveCurvature::kAuto;
   double max_lateral_acceleration = 3.0;
   double max_steering_rate_fraction = 0.9;
   CurveObjective objective = CurveObjective::kTime;

@@ -60,7 +60,9 @@ struct HybridAStarOptions {
   double margin = 10.0;    ///< Margin of the search area around start, goal and obstacles [m].
   double min_speed = 0.3;  ///< Lowest speed of the car at a step of curvature [m/s].
   int budget = 200000;     ///< Maximum number of poses that all searches may expand, >= 0.
-  CurveCurvature curvature = CurveCurvature::kSteps;  ///< How the curvature may change.
+  /// How the curvature may change. With kAuto, the planner searches with kCuspSteps, and with
+  /// kSteps if the car cannot drive such a path; SearchHybridAStar searches with kSteps.
+  CurveCurvature curvature = CurveCurvature::kAuto;
   /// Largest lateral acceleration on paths of continuous curvature [m/s^2], > 0; at most half of
   /// the tyres' grip applies anyway.
   double max_lateral_acceleration = 3.0;
