@@ -20,7 +20,7 @@ Scenario TurnRound(const std::string& plant, const std::string& rest = "") {
       fmt::format("schema: 1\nname: cusps\n"
                   "mission: {{speed: 3, waypoints: [[0, 0], [0, 6]], headings: [0, 3.1416],\n"
                   "          start: {{speed: 0}}}}\n"
-                  "plan: {{method: reeds_shepp}}\ncontrol: {{method: preview}}\n"
+                  "plan: {{method: reeds_shepp, curvature: steps}}\ncontrol: {{method: preview}}\n"
                   "drive: {{plants: [{}]}}\n{}",
                   plant, rest),
       "test.yaml", ".");
