@@ -64,10 +64,10 @@ double PreviewDistance(const ControlInput& input, double delay = 0.0);
 /// `offset` [m] to its path without oscillation and without sliding. At the maximum steering rate,
 /// the curvature of the car's track changes by c = omega/(L v) per meter. Returning from an offset
 /// e takes a distance proportional to cbrt(e/c), and the distance v T in which the car does not yet
-/// answer, with the response time T without the control period. If `speed` is below 5/4 L omega, the
-/// function uses 5/4 L omega instead for c. The result is at least v sqrt(2 e/a): a car that steers on an arc toward a
-/// point at the distance R has the lateral acceleration 2 e v^2/R^2, which must not exceed a, the
-/// fraction kReturnGripShare of LateralGrip (turn_round.h).
+/// answer, with the response time T without the control period. If `speed` is below 5/4 L omega,
+/// the function uses 5/4 L omega instead for c. The result is at least v sqrt(2 e/a): a car that
+/// steers on an arc toward a point at the distance R has the lateral acceleration 2 e v^2/R^2,
+/// which must not exceed a, the fraction kReturnGripShare of LateralGrip (turn_round.h).
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset);
 
 /// Computes ReturnDistance (see above) for the car's present speed and its present offset from the
