@@ -15,6 +15,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/identify/identify.h"
+#include "trackbed/identify/identify_files.h"
 #include "trackbed/recording/banked_track.h"
 #include "trackbed/scenario/record_scenario.h"
 #include "trackbed/sim/plant.h"

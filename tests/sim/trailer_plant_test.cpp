@@ -15,6 +15,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/sim/car_parameters.h"
 #include "trackbed/sim/trailer_scene.h"
+#include "trackbed/sim/world_scene.h"
 
 // Tests trailers in the plants: statics, rolling at low speed against the kinematic trailer, and
 // snaking against the eigenvalues of the linear car-trailer model.
