@@ -13,6 +13,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/recording/windows.h"
 #include "trackbed/sim/car_parameters.h"
+#include "trackbed/sim/world_scene.h"
 
 namespace trackbed {
 namespace {
