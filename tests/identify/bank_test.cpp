@@ -19,6 +19,7 @@
 #include "trackbed/recording/banked_track.h"
 #include "trackbed/scenario/record_scenario.h"
 #include "trackbed/sim/plant.h"
+#include "trackbed/sim/world_scene.h"
 
 // Identifies the bank of an oval from drives that were simulated on the true ground.
 namespace trackbed {
