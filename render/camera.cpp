@@ -54,7 +54,7 @@ CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   pose.target_x = car.x + ahead * std::cos(heading);
   pose.target_y = car.y + ahead * std::sin(heading);
   pose.target_z = 1.0 * size;
-  pose.distance = 14.5 * size;
+  pose.distance = 14.5 * size + subject.box().towed;
   pose.paint_scale = size;
   // The camera looks slightly from the side, so that the car's flank and the trail beside the
   // caption are visible.
@@ -69,10 +69,11 @@ CameraPose Side(const CameraSubject& subject, double time, double aspect) {
   const Point car = subject.Position(time);
   const double heading = subject.SmoothHeading(time);
   const double size = subject.box().scale();
-  // Distance from the rear axle of a typical car to the middle of the car [m].
-  const double ahead = 1.4 * size;
-  // Width of the area that the camera sees at the car's distance [m]: two car lengths.
-  const double width = 9.0 * size;
+  // Distance from the rear axle of a typical car to the middle of car and trailer [m].
+  const double ahead = 1.4 * size - 0.5 * subject.box().towed;
+  // Width of the area that the camera sees at the car's distance [m]: two car lengths, and the
+  // trailer.
+  const double width = 9.0 * size + subject.box().towed;
   constexpr double kViewAngle = 28.0 * kPi / 180.0;
   CameraPose pose;
   pose.target_x = car.x + ahead * std::cos(heading);
@@ -117,12 +118,12 @@ CameraPose Driver(const CameraSubject& subject, double time, double aspect) {
 CameraPose Orbit(const CameraSubject& subject, double time, double /*aspect*/) {
   const Point car = subject.Position(time);
   const double heading = subject.SmoothHeading(time);
-  const double middle = subject.box().middle;
+  const double middle = subject.box().middle - 0.5 * subject.box().towed;
   CameraPose pose;
   pose.target_x = car.x + middle * std::cos(heading);
   pose.target_y = car.y + middle * std::sin(heading);
   pose.target_z = 0.7 * subject.box().scale();
-  pose.distance = 11.0 * subject.box().scale();
+  pose.distance = 11.0 * subject.box().scale() + subject.box().towed;
   pose.paint_scale = subject.box().scale();
   constexpr double kRound = 24.0;  // [s]
   pose.azimuth = subject.Heading(subject.begin()) + 2.0 * kPi * (time - subject.begin()) / kRound;

@@ -186,18 +186,6 @@ std::string VehicleNote(const VehicleSpec& vehicle) {
 
 }  // namespace
 
-CarBox FindCarBox(const mjModel& model) {
-  const int site = mj_name2id(&model, mjOBJ_SITE, "footprint");
-  if (site < 0 || model.site_type[site] != mjGEOM_BOX) {
-    return {};
-  }
-  const mjtNum* size = model.site_size + 3 * site;
-  return {.middle = model.site_pos[3 * site],
-          .half_length = size[0],
-          .half_width = size[1],
-          .height = 2.0 * size[2]};
-}
-
 PlantRecording::PlantRecording(const fs::path& folder, const std::string& plant,
                                const mjModel& model, std::size_t index)
     : plant_(plant),

@@ -2,12 +2,12 @@
 
 #include <mujoco/mujoco.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "render/car_box.h"
 #include "render/palette.h"
 #include "render/recorded_plans.h"
 #include "render/scales.h"
@@ -29,22 +29,6 @@ struct RelativePosition {
   /// stations.
   std::optional<double> station{};
 };
-
-/// Bounding box of a car that stands upright on the ground, in the vehicle frame [m].
-struct CarBox {
-  double middle = 1.3;  ///< x coordinate of the center of the box, measured from the rear axle
-  double half_length = 2.2;
-  double half_width = 0.9;
-  double height = 1.5;
-
-  /// Returns the size of the car relative to a full-size car; this factor scales cameras, marks and
-  /// shadows. The relative size is 1 for cars that are 4 m long or longer.
-  [[nodiscard]] double scale() const { return std::min(1.0, half_length / 2.0); }
-};
-
-/// Returns the box of the model's site `footprint`, or the default box if the model has no such
-/// site.
-CarBox FindCarBox(const mjModel& model);
 
 /// Values that the caption shows in one frame, in SI units and radians.
 struct Readings {

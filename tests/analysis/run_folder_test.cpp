@@ -37,6 +37,7 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "manifest.json",
                                                              "recording.csv",
                                                              "path.csv",
+                                                             "bank.csv",
                                                              "road_network.xodr",
                                                              "metrics.json",
                                                              "video.mp4",
@@ -50,8 +51,8 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "kinematic.plan.json",
                                                              "kinematic.tree.csv",
                                                              "mujoco-magic_formula.state.csv"}));
-  // Five files per plant and twenty-four others.
-  EXPECT_EQ(run_folder::AllNames().size(), 5 * DrivenPlantNames().size() + 24);
+  // Five files per plant and twenty-five others.
+  EXPECT_EQ(run_folder::AllNames().size(), 5 * DrivenPlantNames().size() + 25);
   EXPECT_STREQ(run_folder::kSweepCsv, "sweep.csv");
   EXPECT_STREQ(run_folder::kSweepJson, "sweep.json");
 }

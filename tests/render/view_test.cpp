@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/car_box.h"
 #include "render/isolines.h"
 #include "render/lateral.h"
 #include "render/mujoco_compat.h"
@@ -10,6 +11,9 @@
 #include "tests/render/pictures.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
+#include "trackbed/sim/car_model.h"
+#include "trackbed/sim/scene.h"
+#include "trackbed/sim/trailer_scene.h"
 
 /// Tests contour lines, gates, plain ground, the flat view of the inset, and cameras.
 namespace trackbed::render {
@@ -295,6 +299,17 @@ TEST_F(CameraTest, StandsNearerToSmallCars) {
     EXPECT_LT(Pose(camera, 1.0).paint_scale, 0.2) << camera;
   }
   EXPECT_NEAR(Pose("chase", 1.0).distance, 0.1 * full_size, Tolerance(1e-9));
+}
+
+TEST(CarBox, EndsAtTheRearOfTheTrailer) {
+  const CarModel bare(ComposeScene(FindModel("prius", ""), {}), "prius");
+  EXPECT_EQ(FindCarBox(*bare.get()).towed, 0.0);
+  const TrailerParams trailer =
+      MakeTrailer({.tongue = 3.3, .length = 2.0, .body_ahead = 0.2}, bare.params());
+  const CarModel towing(WithTrailer(bare, trailer), "prius");
+  // The body reaches from the hitch back by tongue - body_ahead + length/2 = 4.1 m.
+  EXPECT_NEAR(FindCarBox(*towing.get()).towed, trailer.hitch - bare.params().rear_overhang + 4.1,
+              Tolerance(1e-9));
 }
 
 TEST_F(CameraTest, OrbitGoesRoundTheCarIn24Seconds) {

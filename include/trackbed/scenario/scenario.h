@@ -42,8 +42,7 @@ struct VehicleSpec {
   /// Tyre property file (*.tir) of the tyres of both axles, relative to the scenario file; replaces
   /// the tyre coefficients in the car model.
   std::optional<std::string> tyre_file{};
-  /// Tyre property file of the rear tyres; default: tyre_file.
-  std::optional<std::string> tyre_file_rear{};
+  std::optional<std::string> tyre_file_rear{};  ///< That of the rear tyres; default: tyre_file.
   /// Maximum steering rate of the road wheels [rad/s]; overrides the limit in the car model.
   std::optional<double> steering_rate;
   std::optional<AidOptions> aids{};         ///< Driver aids of the plant `mujoco`; nullopt: none.
@@ -52,10 +51,8 @@ struct VehicleSpec {
 
 /// The initial state of the car. Values that are not set are derived from the mission.
 struct StartSpec {
-  /// Initial coordinate x of the car [m]; default: x of the first waypoint, or 0.
-  std::optional<double> x;
-  /// Initial coordinate y of the car [m]; default: y of the first waypoint, or 0.
-  std::optional<double> y;
+  std::optional<double> x;  ///< Initial x of the car [m]; default: x of the first waypoint, or 0.
+  std::optional<double> y;  ///< Initial y of the car [m]; default: y of the first waypoint, or 0.
   /// Initial yaw of the car [rad]; default: the mission's first heading, else the direction from
   /// the first to the second waypoint, else 0.
   std::optional<double> yaw;
@@ -66,13 +63,11 @@ struct StartSpec {
   /// The default steering angle is the initial angle of the recorded drive, or of a recording with
   /// prescribed steering; otherwise the planner's neutral angle.
   std::optional<double> steering;
-  /// Initial hitch angle of the trailer: its yaw minus the car's yaw [rad]; default: 0.
-  std::optional<double> hitch_angle{};
+  std::optional<double> hitch_angle{};  ///< Yaw of the trailer minus the car's [rad]; default: 0.
 };
 
 struct MissionSpec {
-  /// Speed of the mission [m/s]; 0 if a mission without a plan sets no speed.
-  double speed = 0.0;
+  double speed = 0.0;  ///< Speed of the mission [m/s]; 0 if a mission without a plan sets none.
   std::vector<Vec2> waypoints;  ///< Points through which the route leads [m].
   /// Heading of the car at each waypoint [rad]; if empty, the headings follow from the directions
   /// between the waypoints.
@@ -80,8 +75,7 @@ struct MissionSpec {
   /// Places on the road network that the route visits, instead of waypoints.
   std::vector<LanePlace> route;
   std::optional<double> duration;  ///< Duration of the run [s], for missions without a goal.
-  /// Options of the plan's speed profile; default: ConstantAccelerationOptions.
-  std::optional<SpeedProfileOptions> speed_profile;
+  std::optional<SpeedProfileOptions> speed_profile;  ///< Default: ConstantAccelerationOptions.
   std::optional<TrackSpec> track;  ///< Track and number of laps to drive, instead of waypoints.
   StartSpec start;
 };
