@@ -282,7 +282,7 @@ TEST(WriteRunFolder, WritesTheColumnsOfTheContract) {
   const Table plan = ReadCsv(folder.path() / "plan.csv");
   EXPECT_EQ(plan.columns(),
             (std::vector<std::string>{"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm",
-                                      "speed_mps", "direction"}));
+                                      "speed_mps", "direction", "t_s"}));
   const auto s = plan.Column("s_m");
   for (std::size_t i = 1; i < s.size(); ++i) {
     EXPECT_LE(s[i] - s[i - 1], 0.1 + 1e-9);
