@@ -9,8 +9,8 @@
 #include "src/sim/magic_formula_tyres.h"
 #include "src/sim/mujoco_compat.h"
 #include "src/sim/mujoco_plant.h"
-#include "src/sim/trailer_parts.h"
 #include "src/sim/plants.h"
+#include "src/sim/trailer_parts.h"
 #include "src/sim/wheel_contacts.h"
 #include "trackbed/core/error.h"
 

@@ -329,8 +329,8 @@ CarModel Planar(const TrailerOptions& options) {
   return CarModel(WithTrailer(bare, MakeTrailer(flat, bare.params())), "prius");
 }
 
-// The finite amplitude of 0.5 degrees, the small roll, and the timing of the extremes to one step of
-// 2 ms change the frequency by 0.2 % and the damping ratio by 0.003.
+// The finite amplitude of 0.5 degrees, the small roll, and the timing of the extremes to one step
+// of 2 ms change the frequency by 0.2 % and the damping ratio by 0.003.
 TEST(Snaking, AgreesWithTheEigenvaluesOfTheLinearModel) {
   const CarModel car = Planar({.mass = 900.0, .cg_ahead = 0.0});
   double before = -1e9;
