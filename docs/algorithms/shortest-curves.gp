@@ -2,17 +2,17 @@
 load "docs/style.gp"
 set key autotitle columnhead
 unset key
-set terminal pngcairo size 1000,640 font "sans,12" background "white"
+set terminal pngcairo size 1000,800 font "sans,12" background "white"
 set output images . "/shortest_curves.png"
 eval map_of("heading\\_goal: the shortest curves through three poses")
 set xrange [-4:46]
-set yrange [-9:17]
-set label 1 "dubins" at 41.3,8 left tc rgb blue
-set label 2 "reeds\\_shepp, forwards" at 1.5,4.6 left tc rgb orange
-set label 3 "reeds\\_shepp, backwards" at 26.8,-0.5 left tc rgb red
-set label 4 "obstacle" at 13,11.6 center tc rgb gray
+set yrange [-9:27]
+set label 1 "dubins" at 8,14 center tc rgb blue
+set label 2 "reeds\\_shepp, forwards" at 20,-0.4 center tc rgb orange
+set label 3 "reeds\\_shepp, backwards" at 29,-2 left tc rgb red
+set label 4 "obstacle" at 16.5,11.6 center tc rgb gray
 set label 5 "start" at 0,-1.3 left tc rgb black
-set label 6 "stop" at 28.6,11.8 center tc rgb black
+set label 6 "stop" at 32.8,12.4 center tc rgb black
 set label 7 "goal" at 21.3,-6.3 left tc rgb black
 $stops << end
 x,y,yaw
