@@ -141,8 +141,10 @@ function makeReplay(canvas, context) {
     const camera = new THREE.PerspectiveCamera(kind === 'driver' ? 66 : 46, aspect, 0.1, 1500);
     camera.up.set(0, 0, 1);
     const z = height(pose.x, pose.y);
-    const { length, rear_overhang: overhang } = runs[car.track.run].car;
+    const { length, rear_overhang: overhang, trailer } = runs[car.track.run].car;
     const middle = length / 2 - overhang;
+    // length of hitch and trailer behind the car
+    const towed = trailer ? trailer.hitch - overhang + trailer.tongue - trailer.body_ahead + trailer.length / 2 : 0;
     const ahead = (along, across, up) => new THREE.Vector3(
       pose.x + along * Math.cos(heading) - across * Math.sin(heading),
       pose.y + along * Math.sin(heading) + across * Math.cos(heading), z + up);
@@ -157,8 +159,8 @@ function makeReplay(canvas, context) {
       camera.lookAt(ahead(middle, 0, 0.6));
     } else {
       const side = backwards ? -1 : 1;
-      const far = 1.9 * length;
-      camera.position.copy(ahead(middle - side * far, -0.35 * length, 0.72 * length));
+      const far = 1.9 * length + towed;
+      camera.position.copy(ahead(middle - side * far, -0.35 * length, 0.72 * length + 0.3 * towed));
       camera.position.z = Math.max(camera.position.z, height(camera.position.x, camera.position.y) + 1);
       camera.lookAt(ahead(middle + side * 0.8 * length, 0, 0.15 * length));
     }
