@@ -390,7 +390,7 @@ class CarReader final : private PartsReader {
 
 }  // namespace
 
-const CarParts& SteeredParts(const CarModel& car, const std::string& needed_by) {
+const CarParts& SteeredParts(const CarModel& car, std::string_view needed_by) {
   if (car.params().kind != VehicleKind::kSteered) {
     throw InputError(
         Problem{.file = car.file(),
@@ -400,7 +400,7 @@ const CarParts& SteeredParts(const CarModel& car, const std::string& needed_by) 
   return car.parts();
 }
 
-const CarTyres& RequireTyres(const CarModel& car, const std::string& needed_by) {
+const CarTyres& RequireTyres(const CarModel& car, std::string_view needed_by) {
   const auto& tyres = SteeredParts(car, needed_by).tyres;
   if (!tyres) {
     throw InputError(Problem{

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "trackbed/sim/car_model.h"
@@ -25,11 +26,11 @@ inline constexpr const char* kLadenKeyframe = "laden";
 
 /// Returns the parts (wheels, joints, actuators) of a car. Throws InputError, naming the car's file
 /// and the feature `needed_by`, if the car has no steered wheels.
-const CarParts& SteeredParts(const CarModel& car, const std::string& needed_by);
+const CarParts& SteeredParts(const CarModel& car, std::string_view needed_by);
 
 /// Returns the tyre parameters of a car. Throws InputError, naming the car's file and the missing
 /// coefficients, if the file has no tyre coefficients.
-const CarTyres& RequireTyres(const CarModel& car, const std::string& needed_by);
+const CarTyres& RequireTyres(const CarModel& car, std::string_view needed_by);
 
 /// Finds and checks the parts of a vehicle in its compiled model. Throws InputError, naming `file`
 /// and every missing part, if parts are missing. Throws InputError, listing every part that

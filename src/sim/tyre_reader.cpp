@@ -130,7 +130,7 @@ std::optional<CarTyres> ReadTyres(const Numerics& numerics) {
     return std::nullopt;
   }
   for (const std::string& name : missing) {
-    numerics.AddError(name, std::string("missing; a tyre needs ") + kNeededCoefficients);
+    numerics.AddError(name, fmt::format("missing; a tyre needs {}", kNeededCoefficients));
   }
   if (missing.empty()) {
     CheckTyre(numerics, tyres.axle[0], "front");
