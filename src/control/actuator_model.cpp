@@ -33,8 +33,8 @@ constexpr double kDeadOffset = 0.04;
 /// half-width of the dead zone.
 constexpr double kReversal = 0.25;
 
-/// Distance of the wheels to the end of the play at which they have passed it, as a fraction of
-/// half the backlash.
+/// Remaining way of the wheels through the play below which the play counts as crossed, as a
+/// fraction of half the backlash.
 constexpr double kPassed = 0.125;
 
 /// Ratio of the actuator's lag to the lag of actuator and lead, and the factor by which the lead

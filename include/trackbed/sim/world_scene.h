@@ -11,8 +11,8 @@ namespace trackbed {
 /// on the plane. The distance between the samples of a height field is at most 5 cm or 1/256 of the
 /// height field's side. A terrain has one height field for each refined block, and one coarse
 /// height field for each group of 64 x 64 blocks. Within refined blocks, the coarse height field is
-/// lowered by 4 m. If the scene has height fields, every wheel also gets a plane (`ground_fl`, …),
-/// which has no contacts of its own and is moved by RoadContact. Planes and height fields have the
+/// lowered by 4 m. If the scene has height fields, every wheel also gets a plane (`ground_fl`, …)
+/// without contacts, which RoadContact moves. Planes and height fields have the
 /// friction and other properties of the geom `ground` in the car's file. If the ground is flat, the
 /// scene is unchanged.
 Scene WithGround(const Scene& car_scene, const Ground& ground);
