@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -367,6 +368,27 @@ TEST(Pages, ShowTheirExamplesAsTheyAreBuilt) {
       EXPECT_NE(page.find("```cpp\n" + example + "```\n"), std::string::npos)
           << shown.page << " does not show " << file;
     }
+  }
+}
+
+TEST(Tree, TopLevelTracksOnlyWhatBelongsThere) {
+  const std::string command = "git -C '" + kRoot.string() + "' ls-tree --name-only HEAD 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  std::string names;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) {
+    names += static_cast<char>(c);
+  }
+  if (pclose(pipe) != 0) {
+    GTEST_SKIP() << "not a git repository: " << names;
+  }
+  const std::regex allowed(
+      R"(\..*|[A-Z]+(\.md)?|CMakeLists\.txt|CMakePresets\.json|pyproject\.toml|)"
+      "bench|cmake|docs|include|models|packaging|python|render|scenarios|scripts|src|tests");
+  std::istringstream lines(names);
+  for (std::string name; std::getline(lines, name);) {
+    EXPECT_TRUE(std::regex_match(name, allowed))
+        << name << " is tracked at the top level: remove it, or name it here";
   }
 }
 
