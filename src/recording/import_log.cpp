@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "src/recording/clocks.h"
+#include "src/recording/drive_extent.h"
 #include "src/recording/fitted_series.h"
 #include "src/recording/local_polynomial.h"
 #include "src/recording/log_check.h"
@@ -151,6 +152,12 @@ void Importer::RequireRows() const {
                     "columns",
                     map_.position.latitude.value_or(map_.position.x),
                     map_.position.longitude.value_or(map_.position.y)));
+  }
+  const std::string extent = ExtentProblem(rows_.position, [&](std::size_t row) {
+    return fmt::format("{:.10g} s after the first row", rows_.time[row]);
+  });
+  if (!extent.empty()) {
+    Refuse(extent);
   }
   for (std::size_t signal = 0; signal < kLogSignals; ++signal) {
     if (rows_.has[signal] && rows_.signals[signal].time.size() < 2) {

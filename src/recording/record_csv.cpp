@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "src/recording/drive_extent.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/table.h"
 
@@ -110,6 +111,15 @@ RecordedDrive ReadRecordCsv(const std::filesystem::path& file) {
       problems.Add({file.string(), excerpt.lines[row], 0, "t_s",
                     fmt::format("{} is not on a uniform grid from 0 on", drive.samples[row].time)});
     }
+  }
+  std::vector<Vec2> positions;
+  for (const RecordedSample& sample : drive.samples) {
+    positions.push_back(sample.pose.position());
+  }
+  const std::string extent = ExtentProblem(
+      positions, [&](std::size_t row) { return fmt::format("line {}", excerpt.lines[row]); });
+  if (!extent.empty()) {
+    problems.Add({.file = file.string(), .message = extent});
   }
   problems.ThrowIfAny();
   drive.notes.push_back(fmt::format("{}: {} samples, {:.6g} s apart", file.filename().string(),

@@ -395,6 +395,11 @@ TEST(ImportLog, SaysWhatIsWrongInAFile) {
   EXPECT_EQ(
       Problems("t,x,y,yaw\n0,3,0,0\n5,3,0,1\n9,3,0,2\n", map),
       "log.csv: the position never changes (x, y): the car stands, or these are other columns");
+  EXPECT_EQ(
+      Problems("t,x,y,yaw\n0,0,0,0\n1,5,0,0\n2,10,-3e8,0\n3,15,0,0\n", map),
+      "log.csv: the positions extend over 300000000 m; must extend over at most 200000 m: the "
+      "farthest jump, of 300000000 m, is from (5, 0) at 1 s after the first row to (10, "
+      "-3e+08) at 2 s after the first row; is a coordinate wrong?");
   EXPECT_THAT(Problems("t,x,y,yaw\n", map), HasSubstr("0 rows with a pose of 0 in the log"));
   EXPECT_THAT(Problems("t,x,y,yaw\n0,0,0,0\n1e6,1,0,0\n", map),
               HasSubstr("log.csv: 1e+08 samples at 100 per second; must be at most 1e+06"));

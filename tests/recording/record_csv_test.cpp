@@ -60,6 +60,19 @@ std::string Problems(const std::string& csv) {
   return "no problem";
 }
 
+TEST(RecordCsv, HasItsPlacesNearEachOther) {
+  RecordedDrive drive = Drive();
+  drive.samples[1].pose.x = 200000.0;
+  drive.samples[0].pose.x = 0.0;
+  drive.samples[2].pose.x = 0.0;
+  EXPECT_EQ(Problems(RecordCsv(drive)), "no problem");
+  drive.samples[2].pose.x = -1.0;
+  EXPECT_THAT(Problems(RecordCsv(drive)),
+              testing::AllOf(testing::HasSubstr("the positions extend over 200001 m"),
+                             testing::HasSubstr(" at line 3 to (-1, "),
+                             testing::HasSubstr(" at line 4; is a coordinate wrong?")));
+}
+
 TEST(RecordCsv, MustBeUniform) {
   RecordedDrive drive = Drive();
   drive.samples[1].time = 0.11;
