@@ -42,6 +42,11 @@ constexpr double kRounding = 0.5;
 // Length of the longest segment that replaces the center line around kinks [m].
 constexpr double kLongestRounding = 2.0 * (kRounding + kSpacing);
 constexpr double kMaxDeviation = 0.05;  // [m]
+// Largest curvature of a lane center [1/m], and largest turn between consecutive points [rad]. The
+// heading along the segment between two points (SegmentsThrough) changes by at most eleven times
+// the largest turn, 5500 rad, which a Path can integrate.
+constexpr double kMaxBend = 500.0;
+constexpr double kMaxLength = 2e5;  // Largest length of a route's lane centers [m].
 
 /// A stretch of a route, together with the road and the lane section in which the stretch lies.
 struct RoadStretch {
@@ -122,9 +127,30 @@ SurfaceLine StateAt(const RoadStretch& own, double s, double piece_of) {
   return SurfaceLineAt(own.road, own.Offset(s, piece_of), s, piece_of);
 }
 
-/// Returns the smooth pieces of a stretch's lane center, in driving direction. Returns no pieces if
-/// the lane center is folded (SurfaceLine::folded).
-std::vector<Piece> SmoothPieces(const RoadStretch& own) {
+/// Returns what is wrong with a lane center that lies beyond the road's center of curvature
+/// (SurfaceLine::folded) or turns too much between two points that are `step` apart; "" if nothing.
+std::string ShapeProblem(const SurfaceLine& before, const SurfaceLine& state, double step) {
+  if (state.folded) {
+    return "lies beyond the road's center of curvature";
+  }
+  const double curvature = std::max(std::abs(before.curvature), std::abs(state.curvature));
+  const double turn = std::max(curvature * step, std::abs(state.heading - before.heading));
+  if (curvature <= kMaxBend && turn <= kMaxBend) {
+    return "";
+  }
+  return fmt::format(
+      "turns by {:.4g} rad over {:.3g} m (curvature {:.4g} 1/m) at x = {:.4g} m, y = {:.4g} m; "
+      "correct the widths, offset or superelevation of the lane there",
+      turn, step, curvature, state.position.x(), state.position.y());
+}
+
+/// The smooth pieces of a stretch's lane center in driving direction, or why there are none.
+struct SmoothCenter {
+  std::vector<Piece> pieces;
+  std::string failure;
+};
+
+SmoothCenter SmoothPieces(const RoadStretch& own) {
   std::vector<Piece> pieces;
   const std::vector<double> joints = Joints(own);
   for (std::size_t i = 1; i < joints.size(); ++i) {
@@ -134,16 +160,20 @@ std::vector<Piece> SmoothPieces(const RoadStretch& own) {
     const double step = length / static_cast<double>(count);
     Piece piece;
     double distance = 0.0;
+    SurfaceLine before = StateAt(own, joints[i - 1], middle);
     for (std::size_t j = 0; j <= count; ++j) {
       const double s = j == count ? joints[i] : joints[i - 1] + step * static_cast<double>(j);
+      double ahead = 0.0;
       if (j > 0) {
-        distance += boost::math::quadrature::gauss<double, 7>::integrate(
+        ahead = boost::math::quadrature::gauss<double, 7>::integrate(
             [&](double at) { return StateAt(own, at, middle).speed; }, s - step, s);
       }
       const SurfaceLine state = StateAt(own, s, middle);
-      if (state.folded) {
-        return {};
+      if (std::string problem = ShapeProblem(before, state, ahead); !problem.empty()) {
+        return {{}, std::move(problem)};
       }
+      before = state;
+      distance += ahead;
       piece.push_back({state.position, {distance, state.heading, state.curvature}});
     }
     if (own.direction() < 0) {
@@ -157,7 +187,7 @@ std::vector<Piece> SmoothPieces(const RoadStretch& own) {
   if (own.direction() < 0) {
     std::reverse(pieces.begin(), pieces.end());
   }
-  return pieces;
+  return {std::move(pieces), ""};
 }
 
 std::string Place(const Piece& piece) {
@@ -332,18 +362,24 @@ JoinedPath JoinLaneCenters(const RoadNetwork& network, const std::vector<LaneStr
   Joiner joiner;
   std::vector<Piece> all;
   std::size_t points = 0;
+  double length = 0.0;
   for (const LaneStretch& stretch : stretches) {
     const Road& road = network.roads.find(stretch.road)->second;
     const RoadStretch own{road, road.SectionAt(0.5 * (stretch.from + stretch.to)), stretch};
-    const std::vector<Piece> pieces = SmoothPieces(own);
-    if (pieces.empty()) {
-      joined.failure = fmt::format(
-          "road {}: the center of lane {} lies beyond the road's center "
-          "of curvature",
-          stretch.road, stretch.lane);
+    SmoothCenter center = SmoothPieces(own);
+    if (!center.failure.empty()) {
+      joined.failure = fmt::format("road {}: the center of lane {} {}", stretch.road, stretch.lane,
+                                   center.failure);
       return joined;
     }
-    for (const Piece& piece : pieces) {
+    for (const Piece& piece : center.pieces) {
+      length += piece.back().curve.s;
+      if (!(length <= kMaxLength)) {
+        joined.failure = fmt::format(
+            "the lanes' centers are longer than {} km: up to lane {} of road {}, {:.4g} m",
+            1e-3 * kMaxLength, stretch.lane, stretch.road, length);
+        return joined;
+      }
       if (const std::string why = joiner.Add(piece); !why.empty()) {
         joined.failure = fmt::format("road {}, lane {}: {}", stretch.road, stretch.lane, why);
         return joined;

@@ -267,6 +267,29 @@ TEST(LaneRoute, RefusesALaneBeyondTheCenterOfCurvature) {
   EXPECT_TRUE(FindLaneRoute(network, {{"1", -1, 10.0}, {"1", -1, 60.0}}).ok());
 }
 
+// One wrong coefficient makes the lanes zigzag, or takes them far aside.
+TEST(LaneRoute, RefusesLanesThatTurnTooMuch) {
+  const std::vector<LanePlace> route{{"1", -1, 10.0}, {"1", -1, 60.0}};
+  RoadText road = ThreeLanes();
+  for (const std::string bank : {"c='2' d='0'", "c='-7' d='0'", "c='0' d='0.5'"}) {
+    road.heights =
+        "<lateralProfile><superelevation s='0' a='0' b='0' " + bank + "/></lateralProfile>";
+    const LaneRoute found = FindLaneRoute(ParseNetwork(road.Xml()), route);
+    EXPECT_THAT(found.failure, AllOf(HasSubstr("road 1: the center of lane -1 turns by "),
+                                     HasSubstr("correct the widths, offset or superelevation")))
+        << bank;
+  }
+}
+
+TEST(LaneRoute, RefusesLanesThatAreTooLong) {
+  const std::vector<LanePlace> route{{"1", -1, 10.0}, {"1", -1, 60.0}};
+  RoadText road = ThreeLanes();
+  road.lanes = "<laneOffset s='0' a='0' b='5000' c='0' d='0'/>" + road.lanes;
+  // The lanes between 10 and 60 m are 50 * sqrt(1 + 5000^2) m = 250 km long.
+  EXPECT_THAT(FindLaneRoute(ParseNetwork(road.Xml()), route).failure,
+              HasSubstr("longer than 200 km: up to lane -1 of road 1, 2.5e+05 m"));
+}
+
 /// A road that curves, climbs and banks, with widening lanes.
 std::string BankedRoad() {
   RoadText road;
