@@ -9,8 +9,8 @@ while the verb writes another one, and then must hold:
 
   * what is there is the earlier result or the new one, whole, never files of both; a result that is
     not there entirely says so (manifest.json, .trackbed.complete);
-  * after a failed call the exit code is 2 with one line on stderr, or 0 with the new result, and
-    there are no temporaries;
+  * after a failed call the exit code is 2 with one line on stderr, besides those that the verb
+    prints without a fault, or 0 with the new result, and there are no temporaries;
   * the same verb without a fault then succeeds, with the new result and nothing else.
 
 Prints a table of faults, how many there were and how many were losses; ends with 1 if any was.
@@ -161,6 +161,9 @@ def one_study(folder, now, old, new):
 def cases(program):
     film = ["--size", "128x72", "-q"]
     make_run = ["run", "-q", "-o", "r", "a.yaml", *SHORT]
+    small_car = f"{SOURCE}/tests/data/models/small_car.xml"
+    one_shard = ["sweep", "-q", "-o", "shards", "study.yaml", "--shard"]
+    check_path = ["check-path", "-q", "path.csv", *SHORT, "drive.plants=[kinematic]", "--speed"]
     has_video = b"video off" not in subprocess.run([program, "--version"], capture_output=True).stdout
     all_cases = [
         Case("run", ["run", "-q", "-o", "r", "a.yaml", *SHORT], "r",
@@ -176,6 +179,10 @@ def cases(program):
         Case("sweep with kept rows", ["sweep", "-q", "--restart", "-o", "s", "kept.yaml"], "s",
              ["sweep", "-q", "-o", "s", "kept.yaml", "--set", "drive.time_limit=0.05"],
              check=one_study),
+        Case("sweep merge", ["sweep", "merge", "shards", "-o", "s"], "s", check=one_result,
+             before=[[*one_shard, "1/2"], [*one_shard, "2/2"]]),
+        Case("sweep submit", ["sweep", "submit", "study.yaml", "--tasks", "3", "-o", "s"], "s",
+             ["sweep", "submit", "study.yaml", "--tasks", "2", "-o", "s"], check=one_result),
         Case("falsify", ["falsify", "-q", "--restart", "-o", "s", "search.yaml"], "s",
              ["falsify", "-q", "-o", "s", "search.yaml", "--set", "drive.time_limit=0.05"],
              check=whole_or_refused(program)),
@@ -192,6 +199,13 @@ def cases(program):
         Case("compare (runs)", ["compare", "-q", "-o", "c", "r", "r2"], "c",
              ["compare", "-q", "-o", "c", "r2", "r"], check=one_result,
              before=[make_run, ["run", "-q", "-o", "r2", "b.yaml", *SHORT]]),
+        Case("import", ["import", "-q", f"{SOURCE}/tests/data/recordings/autoware.csv", "--map",
+                        f"{SOURCE}/scenarios/real/maps/autoware.yaml", "--vehicle", small_car, "-o",
+                        "r"], "r", ["run", "-q", "-o", "r", "a.yaml", *SHORT], check=one_result),
+        Case("check-path --drive", [*check_path, "3", "--drive", "-o", "r"], "r",
+             [*check_path, "2", "--drive", "-o", "r"], check=one_result),
+        Case("check-path --report", [*check_path, "3", "--report", "h/p.html"], "h",
+             [*check_path, "2", "--report", "h/p.html"]),
         Case("report", ["report", "-q", "r"], "r", ["report", "-q", "r2", "-o", "r/report.html"],
              check=one_result, before=[make_run, ["run", "-q", "-o", "r2", "b.yaml", *SHORT]]),
         Case("render --at", ["render", "r", "--at", "0.1", *film], "r",
@@ -203,6 +217,10 @@ def cases(program):
              ["test", "-q", "--junit", "t/j.xml", "b.yaml", *SHORT]),
         Case("model --save", ["model", "bmw320i", "--save", "m/car.xml"], "m",
              ["model", "prius", "--save", "m/car.xml"], before=[["plan", "-q", "-o", "m", "a.yaml"]]),
+        Case("model --adapt", ["model", small_car, "--adapt", "-o", "m/car.xml"], "m",
+             ["model", "dart", "--adapt", "-o", "m/car.xml"]),
+        Case("model --ggv", ["model", small_car, "--ggv", "-o", "m/ggv.csv"], "m",
+             ["model", "dart", "--ggv", "-o", "m/ggv.csv"]),
         Case("fmu", ["fmu", "-q", "a.yaml", "--plant", "kinematic", "-o", "u/car.fmu"], "u",
              ["fmu", "-q", "b.yaml", "--plant", "kinematic", "-o", "u/car.fmu"]),
         Case("experiment", ["experiment", "optimal_steering", "-q", "--evaluations", "20", "--speeds",
@@ -212,7 +230,8 @@ def cases(program):
         Case("docs", ["docs", "d/cli.md"], "d"),
     ]
     if has_video:
-        all_cases.insert(13, Case("render film", ["render", "r", "--fps", "100", *film], "r",
+        at = [case.name for case in all_cases].index("render frames")
+        all_cases.insert(at, Case("render film", ["render", "r", "--fps", "100", *film], "r",
                                  ["render", "r", "--fps", "50", *film], check=one_result,
                                  before=[make_run]))
     return all_cases
@@ -225,12 +244,25 @@ class Campaign:
         self.rows = []
         self.losses = []
         self.root = tempfile.mkdtemp(prefix="trackbed_faults_")
-        self.states = {}
+        # Takes the place of Slurm's command.
+        self.commands = os.path.join(self.root, "commands")
+        os.mkdir(self.commands)
+        with open(f"{self.commands}/sbatch", "w") as file:
+            file.write("#!/bin/sh\necho 1\n")
+        os.chmod(f"{self.commands}/sbatch", 0o755)
 
     # Running the program.
 
+    def environment(self):
+        return dict(os.environ, TRACKBED_DATA=SOURCE,
+                    PATH=f"{self.commands}:{os.environ['PATH']}")
+
+    def new_lines(self, error):
+        """The lines on stderr that the verb does not print without a fault."""
+        return [line for line in error.splitlines() if line not in self.said]
+
     def start(self, args, env=None, **keys):
-        environment = dict(os.environ, TRACKBED_DATA=SOURCE)
+        environment = self.environment()
         environment.update(env or {})
         environment = {key: value for key, value in environment.items() if value is not None}
         keys.setdefault("stdout", subprocess.DEVNULL)
@@ -251,6 +283,8 @@ class Campaign:
         for scenario, speed in (("a", "3"), ("b", "4")):
             with open(f"{self.work}/{scenario}.yaml", "w") as file:
                 file.write(re.sub(r"speed: [0-9.]+", f"speed: {speed}", text, count=1))
+        with open(f"{self.work}/path.csv", "w") as file:
+            file.write("x_m,y_m\n0,0\n10,0\n20,1\n30,3\n")
         with open(f"{self.work}/study.yaml", "w") as file:
             file.write("schema: 1\nname: study\nscenario: a.yaml\n"
                        "set: {drive.time_limit: 0.1, drive.plants: [kinematic], expect: {}}\n"
@@ -295,6 +329,7 @@ class Campaign:
         self.restore(case)
         begin = time.monotonic()
         code, error = self.run(case.args)
+        self.said = error.splitlines()
         self.duration = time.monotonic() - begin
         self.new = contents(f"{self.work}/{case.out}")
         assert self.old != self.new or case.name == "test --junit", case.name
@@ -374,7 +409,7 @@ class Campaign:
             if code in case.codes:
                 if {k: v for k, v in now.items() if not is_temporary(k)} != self.new:
                     wrong.append(f"ends with {code}, but has not the new result")
-            elif code != 2 or len(error.splitlines()) != 1:
+            elif code != 2 or len(self.new_lines(error)) != 1:
                 wrong.append(f"ends with {code}: {error.strip()!r}")
             wrong += self.check_next(case)
             lost += self.judge(case, f"{name} from call {at}, {' '.join(self.calls[at - 1])}", wrong)
@@ -530,7 +565,7 @@ class Campaign:
             error = process.communicate(timeout=120)[1].decode()
             code = process.returncode
             wrong = []
-            if code not in (*case.codes, 2) or (code == 2 and len(error.splitlines()) != 1):
+            if code not in (*case.codes, 2) or (code == 2 and len(self.new_lines(error)) != 1):
                 wrong.append(f"ends with {code}: {error!r}")
             if os.path.exists(f"{self.work}/{case.out}"):
                 wrong += case.check(f"{self.work}/{case.out}", contents(f"{self.work}/{case.out}"),
@@ -545,13 +580,13 @@ class Campaign:
         script = f"mount --bind '{out}' '{out}' && mount -o remount,bind,ro '{out}' || exit 99; exec \"$@\""
         process = subprocess.run(["unshare", "-Urm", "sh", "-c", script, "sh", self.options.program,
                                   *case.args], cwd=self.work, capture_output=True,
-                                 env=dict(os.environ, TRACKBED_DATA=SOURCE))
+                                 env=self.environment())
         if process.returncode == 99 or b"unshare" in process.stderr:
             self.skipped.add("read-only folder: no namespace here that may mount")
             return
         error = process.stderr.decode()
         wrong = []
-        if process.returncode != 2 or len(error.splitlines()) != 1 or "Read-only" not in error:
+        if process.returncode != 2 or len(self.new_lines(error)) != 1 or "Read-only" not in error:
             wrong.append(f"ends with {process.returncode}: {error!r}")
         if contents(out) != self.old:
             wrong.append("changed files")
@@ -576,8 +611,7 @@ class Campaign:
                       f"cp -a '{out}' '{keep}'; exit $code")
             process = subprocess.run(["unshare", "-Urm", "sh", "-c", script, "sh",
                                       self.options.program, *case.args], cwd=self.work,
-                                     capture_output=True,
-                                     env=dict(os.environ, TRACKBED_DATA=SOURCE))
+                                     capture_output=True, env=self.environment())
             code = process.returncode
             if code == 99 or b"unshare" in process.stderr:
                 self.skipped.add("tmpfs of every size: no namespace here that may mount")
@@ -588,7 +622,7 @@ class Campaign:
             wrong += [f"{name} was left" for name in now if is_temporary(name)]
             if code in case.codes:
                 wrong += [] if now == self.new else ["has not the new result"]
-            elif code != 2 or len(error.splitlines()) != 1 or "No space left" not in error:
+            elif code != 2 or len(self.new_lines(error)) != 1 or "No space left" not in error:
                 wrong.append(f"ends with {code}: {error!r}")
             lost += self.judge(case, f"{pages} pages left", wrong)
             sizes += 1
