@@ -49,7 +49,11 @@ struct FalsifyVerbOptions {
 SweepSummary WriteOutcome(const SweepRecords& records, nlohmann::ordered_json outcome,
                           const OutputFolder& folder) {
   nlohmann::ordered_json header = records.header();
-  header["rows_expected"] = records.count();
+  // The table of a search that ended before its first run keeps the planned number, because a table
+  // of no rows is refused.
+  if (records.count() > 0) {
+    header["rows_expected"] = records.count();
+  }
   SweepRecords whole = SweepRecords::InMemory(header);
   for (std::size_t row = 0; row < records.count(); ++row) {
     whole.Append(row, records.Read(row));

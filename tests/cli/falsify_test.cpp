@@ -25,6 +25,24 @@ std::string SearchText(const std::string& limit, const std::string& search) {
          search;
 }
 
+TEST(FalsifyVerb, EndsBeforeItsFirstRun) {
+  const TempFolder folder;
+  // A run takes minutes. The output folder appears before the first run; the loop gives up after a
+  // minute.
+  folder.Write("study.yaml", "schema: 1\nname: reach\nscenario: " + ScenarioFile("winding") +
+                                 "\nset: {drive.plants: [mujoco], drive.timestep: 0.00001}\n"
+                                 "vary: {mission.speed: {distribution: uniform, from: 1, to: 3}}\n"
+                                 "search: {runs: 7, shrink_runs: 2}\n");
+  const Outcome outcome =
+      Trackbed(folder,
+               "falsify study.yaml -j 1 -o r --report & n=0; until [ -d r ] || [ $n -gt 600 ]; do "
+               "n=$((n + 1)); sleep 0.1; done; kill -INT $!; wait $!");
+  EXPECT_EQ(outcome.code, 130) << outcome.output;
+  const std::string table = ReadFile(folder.path() / "r/sweep.json");
+  EXPECT_THAT(table, HasSubstr("\"complete\": false"));
+  EXPECT_THAT(table, HasSubstr("\"rows_expected\": 10"));
+}
+
 TEST(FalsifyVerb, LeavesACounterexampleForATestSuite) {
   const TempFolder folder;
   folder.Write("study.yaml", SearchText("0.3", "search: {runs: 30}\n"));
