@@ -414,7 +414,8 @@ void AddRunFolder(const RunResult& result, ResultWriter& writer, const RunFolder
     AddLog(log, writer);
   }
   writer.Add(run_folder::kTimingJson, JsonText(TimingJson(result)));
-  if (options.mcap && !result.logs.empty()) {
+  // A long MCAP file takes many seconds, and Ctrl-C has to end the program soon.
+  if (options.mcap && !result.logs.empty() && !result.interrupted) {
     writer.Add(run_folder::kMcap, ToMcap(result));
   }
   writer.Add(run_folder::kMetricsJson, JsonText(MetricsJson(result)));

@@ -266,6 +266,15 @@ TEST_P(SignalTo, EndsItWithinASecond) {
   }
 }
 
+TEST(Signal, LeavesTheLogOfARunWithoutMcap) {
+  const TempFolder folder;
+  const auto ended = Ended(
+      folder, "run three_turns -o r --mcap --plant mujoco --set drive.timestep=0.0001", "TERM");
+  EXPECT_EQ(ended.first.code, 130);
+  EXPECT_TRUE(fs::exists(folder.path() / "r/mujoco.csv"));
+  EXPECT_FALSE(fs::exists(folder.path() / "r/run.mcap"));
+}
+
 TEST(Signal, InTheMiddleOfPlanningLeavesTheEarlierResult) {
   const TempFolder folder;
   folder.Write("vain.yaml", VainSearch());
