@@ -130,9 +130,9 @@ ordered_json VariationJson(const Variation& variation) {
 }  // namespace
 
 ordered_json DescribeStudy(const Study& study) {
-  // Write the scenario's absolute path, so that the description does not depend on the current
-  // folder.
-  const fs::path scenario = fs::absolute(study.scenario).lexically_normal();
+  // Write the scenario's absolute path without links, so that the description depends neither on
+  // the current folder nor on how the path is spelled.
+  const fs::path scenario = fs::weakly_canonical(fs::absolute(study.scenario));
   ordered_json json{{"study", study.name}, {"scenario", scenario.string()}};
   json["set"] = SettingsJson(study.set);
   json["overrides"] = study.overrides;

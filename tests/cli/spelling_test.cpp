@@ -223,5 +223,27 @@ TEST(SpellingsTest, OfALogGiveTheSameImport) {
   }
 }
 
+// A study also goes on where it was if its path leads through a link.
+TEST(SpellingsTest, OfAStudyGiveTheSameBytes) {
+  const TempFolder folder;
+  folder.Write("real/s.yaml", ReadFile(kSourceTree / "scenarios/winding.yaml"));
+  folder.Write("real/study.yaml",
+               "schema: 1\nname: study\nscenario: s.yaml\n"
+               "set: {drive.time_limit: 0.1, drive.plants: [kinematic], expect: {}}\n"
+               "vary: {mission.speed: [1, 2]}\noutputs: [metrics.kinematic.distance]\n");
+  fs::create_directory_symlink("real", folder.path() / "link");
+  const std::string absolute = (folder.path() / "real/study.yaml").string();
+  std::map<std::string, std::string> first;
+  for (const std::string& path :
+       {absolute, std::string("real/study.yaml"), std::string("link/../link/study.yaml")}) {
+    ASSERT_EQ(Trackbed(folder, "sweep -q " + path + " -o out").code, 0) << path;
+    std::map<std::string, std::string> files = FilesIn(folder.path() / "out");
+    if (first.empty()) {
+      first = files;
+    }
+    EXPECT_THAT(DifferingFiles(first, files), testing::IsEmpty()) << path;
+  }
+}
+
 }  // namespace
 }  // namespace trackbed
