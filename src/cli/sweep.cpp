@@ -20,9 +20,11 @@
 #include "src/cli/sweep_table.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/bisect.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
 namespace trackbed::cli {
@@ -115,6 +117,44 @@ Shard ShardOfTask() {
   return shard;
 }
 
+/// Checks the option --only, which runs rows again: its statuses exist, and the file has rows.
+void CheckOnly(const SweepVerbOptions& options, const Study& study, const fs::path& records) {
+  const std::vector<std::string> statuses =
+      study.bisect
+          ? std::vector<std::string>{ToString(BisectStatus::kFound),
+                                     ToString(BisectStatus::kPassesAtTo),
+                                     ToString(BisectStatus::kFailsAtFrom), "refused", "error"}
+          : std::vector<std::string>{"passed", "failed", "driven", "no_plan", "refused", "error"};
+  for (const std::string& status : options.only) {
+    if (std::find(statuses.begin(), statuses.end(), status) == statuses.end()) {
+      Refuse("--only", "unknown status " + UnknownName(status, statuses));
+    }
+  }
+  if (!options.only.empty() && !fs::exists(records)) {
+    Refuse("--only", fmt::format("there are no rows yet in {}; leave out --only to run the study",
+                                 records.string()));
+  }
+}
+
+/// Describes how the study ended, with its number of rows.
+std::string HowItEnded(const SweepSummary& sweep, bool has_only, bool stopped,
+                       const std::optional<double>& until) {
+  if (sweep.complete()) {
+    return fmt::format("{} rows from {} runs, {} passed", sweep.rows, sweep.runs, sweep.passed);
+  }
+  if (stopped) {
+    return fmt::format(
+        "stopped after {} of {} rows, {} passed: all pass rates are known to +-{} (95 %)",
+        sweep.rows, sweep.rows_expected, sweep.passed, *until);
+  }
+  if (has_only && !interrupted) {
+    return fmt::format("{} of {} rows, {} passed; without --only, the study goes on", sweep.rows,
+                       sweep.rows_expected, sweep.passed);
+  }
+  return fmt::format("interrupted after {} of {} rows; the same command goes on", sweep.rows,
+                     sweep.rows_expected);
+}
+
 int Sweep(const SweepVerbOptions& options) {
   const Shard shard = options.shard.empty() ? ShardOfTask() : ParseShard(options.shard);
   const CheckedStudy checked =
@@ -127,10 +167,11 @@ int Sweep(const SweepVerbOptions& options) {
   const std::string& name = study.name;
   const fs::path all = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   const fs::path out = FolderOfShard(all, shard);
+  const fs::path file = out / run_folder::kSweepRecords;
+  CheckOnly(options, study, file);
   // Lock the output folder before the runs, so that an error appears early.
   const OutputFolder folder(out, FileNamesOfVerb("sweep"));
   CheckKeptRows(all);
-  const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {
     SweepRecords::Remove(file);
     RemoveKeptRows(all);
@@ -164,15 +205,7 @@ int Sweep(const SweepVerbOptions& options) {
   const bool stopped = until && !interrupted && records.count() < records.rows();
   const SweepSummary sweep = WriteSweep(records, shard, folder, stopped ? options.until : "");
   if (!options.scenario.quiet) {
-    const std::string how =
-        sweep.complete()
-            ? fmt::format("{} rows from {} runs, {} passed", sweep.rows, sweep.runs, sweep.passed)
-        : stopped ? fmt::format(
-                        "stopped after {} of {} rows, {} passed: all pass rates are known to "
-                        "+-{} (95 %)",
-                        sweep.rows, sweep.rows_expected, sweep.passed, *until)
-                  : fmt::format("interrupted after {} of {} rows; the same command goes on",
-                                sweep.rows, sweep.rows_expected);
+    const std::string how = HowItEnded(sweep, !options.only.empty(), stopped, until);
     const fs::path csv = out / run_folder::kSweepCsv;
     Print("{}: {}, in {}\n", name, how, csv.string());
     // Largest number of rows of sweep.csv for which a table is printed; reading more rows would
@@ -186,7 +219,8 @@ int Sweep(const SweepVerbOptions& options) {
     KeepWorstRows(records, all, options.scenario);
   }
   PrintRowsWithoutRun(name, sweep);
-  return sweep.errors > 0 ? kInternal : sweep.complete() || stopped ? kOk : kInterrupted;
+  const bool ended = sweep.complete() || stopped || (!options.only.empty() && !interrupted);
+  return sweep.errors > 0 ? kInternal : ended ? kOk : kInterrupted;
 }
 
 }  // namespace

@@ -331,6 +331,22 @@ TEST(Sweep, RunsRowsOfAStatusOnceMore) {
   EXPECT_EQ(lines(), before + 1);
   ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r --only failed").code, 0);
   EXPECT_EQ(lines(), before + 6);
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r --only error").code, 0);
+  EXPECT_EQ(lines(), before + 6);
+}
+
+TEST(Sweep, SaysThatThereAreNoRowsToRunOnceMore) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kShort));
+  const Outcome missing = Trackbed(folder, "sweep study.yaml -o r --only failed");
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_EQ(
+      missing.output,
+      "--only: there are no rows yet in r/sweep.records; leave out --only to run the study\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "r"));
+  const Outcome unknown = Trackbed(folder, "sweep study.yaml -o r --only fialed");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.output, HasSubstr("--only: unknown status 'fialed'; did you mean 'failed'?"));
 }
 
 std::vector<std::string> NamesIn(const std::filesystem::path& folder) {
