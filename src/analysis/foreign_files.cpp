@@ -76,6 +76,27 @@ void RequireNoForeignFile(const fs::path& file) {
   }
 }
 
+std::string ResultThatLists(const fs::path& file) {
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(fs::absolute(file), error);
+  const std::string name = real.filename().string();
+  std::optional<Manifest> manifest;
+  try {
+    manifest = ReadManifest(real.parent_path());
+  } catch (const InputError&) {
+    return "";  // The manifest of another program.
+  }
+  if (error || !manifest || !fs::exists(StatusOf(real))) {
+    return "";
+  }
+  for (const auto& [result, files] : manifest->results) {
+    if (name == run_folder::kManifest || files.find(name) != files.end()) {
+      return result;
+    }
+  }
+  return "";
+}
+
 fs::path FolderBelow(const fs::path& folder, const fs::path& below) {
   fs::path path = folder;
   for (const fs::path& part : below) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "src/cli/film_of_run.h"
+#include "src/cli/output_file.h"
 #include "src/cli/run_summary.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/scenario_runs.h"
@@ -145,6 +146,9 @@ int CheckPathFile(const CheckPathOptions& options) {
   // Open the file here, so that the error message for an unreadable file names the file and not a
   // key of the generated scenario.
   static_cast<void>(OpenInput(file));
+  if (!options.report.empty()) {
+    PrepareOutputFile("--report", options.report, {file});
+  }
   const Scenario scenario =
       options.scenario.Parse(ScenarioText(options), "check-path", file.parent_path());
   const auto* plan = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;
@@ -170,11 +174,8 @@ int CheckPathFile(const CheckPathOptions& options) {
     PrintCheck(scenario, fitted, check, notes);
   }
   if (!options.report.empty()) {
-    const fs::path page = options.report;
-    if (page.has_parent_path()) {
-      MakeFolder(page.parent_path());
-    }
-    WriteFileAtomically(page, ReportPage(PathCheckReport(title, fitted, check, check_options)));
+    WriteFileAtomically(options.report,
+                        ReportPage(PathCheckReport(title, fitted, check, check_options)));
   }
   const int verdict = check.drivable() ? kOk : kFailedExpectations;
   return options.drive ? std::max(verdict, Drive(options, scenario)) : verdict;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "src/cli/output_file.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/control/optimal_steering.h"
@@ -207,8 +208,7 @@ int Experiment(const ExperimentOptions& options) {
   const fs::path file = FindModel(options.vehicle, "");
   const CarModel car(ComposeScene(file, {}), file.string());
   if (!options.out.empty()) {
-    // Create the output folder before the searches, so that an error appears early.
-    PrepareToWrite(options.out);
+    PrepareOutputFile("--out", options.out, {file});
   }
   const std::vector<Match> matches = MatchAll(car.params(), options, searches);
   if (!options.out.empty()) {

@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "src/cli/output_file.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
@@ -30,6 +31,7 @@ int RunFmuVerb(FmuVerbOptions& options) {
   }
   const Scenario scenario = options.scenario.Read(options.file);
   const std::string plant = PlantOf(options, scenario);
+  PrepareOutputFile("--out", options.out, {options.file});
   ExportFmu(scenario, plant, options.out, static_cast<FmiVersion>(options.fmi));
   if (!options.scenario.quiet) {
     Print("{}: the plant {} as a co-simulation FMU (FMI {}.0), in {}\n", scenario.name, plant,

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/cli/output_file.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
@@ -174,7 +175,6 @@ void ShowGgv(const CarModel& car, const std::string& out) {
   const GgvDiagram diagram = ComputeGgv(car, TyreLaw::kAuto, {1.0});
   PrintGgv(diagram, car.params().name);
   if (!out.empty()) {
-    RemoveAbandonedTemporaries(std::filesystem::path(out).parent_path());
     WriteFileAtomically(out, GgvTable(diagram).ToCsv());
   }
 }
@@ -195,7 +195,6 @@ void Adapt(const std::string& file, const AdaptOptions& options, const std::stri
   const AdaptedModel adapted = AdaptModel(file, options);
   PrintAdapted(adapted, file);
   if (!out.empty()) {
-    RemoveAbandonedTemporaries(std::filesystem::path(out).parent_path());
     WriteFileAtomically(out, adapted.xml);
     Print("wrote {}\n", out);
   }
@@ -280,6 +279,12 @@ void CheckOptions(const ModelOptions& options) {
 int ShowModel(const ModelOptions& options) {
   CheckOptions(options);
   const auto file = FindModel(options.name, "");
+  if (!options.out.empty()) {
+    PrepareOutputFile("--out", options.out, {file});
+  }
+  if (!options.save.empty()) {
+    PrepareOutputFile("--save", options.save, {file});
+  }
   if (options.adapt) {
     AdaptOptions answers = options.answers;
     answers.asset_folders = Paths(options.asset_folders);
@@ -299,7 +304,6 @@ int ShowModel(const ModelOptions& options) {
   } else if (options.save.empty()) {
     PrintModel(car, file.string());
   } else {
-    RemoveAbandonedTemporaries(std::filesystem::path(options.save).parent_path());
     WriteScene(car.scene(), options.save);
   }
   return kOk;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "src/cli/output_file.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/output_folder.h"
@@ -50,6 +51,8 @@ int Report(const ReportOptions& options) {
   const fs::path file = options.out.empty() ? folder / run_folder::kReport : fs::path(options.out);
   if (options.out.empty()) {
     RequireNoForeignFile(file);
+  } else {
+    PrepareOutputFile("--out", file, paths);
   }
   const std::optional<OutputFolder> in_use = LockFolderOf(file, folder);
   WriteReport(paths, file, film);

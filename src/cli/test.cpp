@@ -8,6 +8,7 @@
 #include <memory>
 #include <thread>
 
+#include "src/cli/output_file.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
@@ -109,9 +110,8 @@ int Test(const TestOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const std::vector<fs::path> files = ScenarioFiles(options.paths, FolderContent::kScenarios);
-  // Open the output file before the runs, so that an error appears early.
   if (!options.junit.empty()) {
-    PrepareToWrite(options.junit);
+    PrepareOutputFile("--junit", options.junit, files);
   }
   const std::vector<SuiteCase> cases =
       RunSuite(files,

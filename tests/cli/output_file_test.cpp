@@ -1,0 +1,101 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "tests/cli/program.h"
+#include "tests/support/temp_folder.h"
+#include "trackbed/core/file.h"
+
+// Tests that an option that names a file does not replace what the command reads, or results.
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// A verb whose option names a file, with its input `in`, which the command reads before.
+struct WritingVerb {
+  std::string name;
+  std::string input;  ///< file of the project that becomes `in`
+  std::string in;
+  std::string arguments;  ///< up to the name of the written file
+  std::string option;
+
+  friend void PrintTo(const WritingVerb& verb, std::ostream* out) { *out << verb.name; }
+};
+
+const std::string kStopsSoon = " --set drive.time_limit=0.1 expect={} drive.plants=[kinematic]";
+
+std::vector<WritingVerb> WritingVerbs() {
+  const std::string car = "tests/data/models/small_car.xml";
+  const std::string scenario = "scenarios/winding.yaml";
+  return {{"adapt", car, "car.xml", "model car.xml --adapt --out ", "--out"},
+          {"ggv", car, "car.xml", "model car.xml --ggv --out ", "--out"},
+          {"save", car, "car.xml", "model car.xml --save ", "--save"},
+          {"experiment", car, "car.xml",
+           "experiment optimal_steering --vehicle car.xml --evaluations 20 --speeds 2 --searches "
+           "crs2 --out ",
+           "--out"},
+          {"test", scenario, "s.yaml", "test s.yaml" + kStopsSoon + " --junit ", "--junit"},
+          {"fmu", scenario, "s.yaml", "fmu s.yaml" + kStopsSoon + " --out ", "--out"},
+          {"check_path", "scenarios/paths/bends.csv", "p.csv",
+           "check-path p.csv --speed 3 --report ", "--report"},
+          {"report", "tests/data/falsification/falsify_delay.csv", "study.csv",
+           "report study.csv --out ", "--out"}};
+}
+
+class OutputFile : public testing::TestWithParam<WritingVerb> {};
+
+INSTANTIATE_TEST_SUITE_P(Verbs, OutputFile, testing::ValuesIn(WritingVerbs()),
+                         [](const auto& of) { return of.param.name; });
+
+TEST_P(OutputFile, IsNotAnInput) {
+  const WritingVerb& verb = GetParam();
+  const TempFolder folder;
+  const std::string text = ReadFile(fs::path(TRACKBED_SOURCE_DIR) / verb.input);
+  folder.Write(verb.in, text);
+  fs::create_directory(folder.path() / "below");
+  fs::create_hard_link(folder.path() / verb.in, folder.path() / "twin");
+  fs::create_symlink(folder.path() / verb.in, folder.path() / "link");
+  for (const std::string& out : {verb.in, "./below/../" + verb.in, std::string("link"),
+                                 std::string("twin"), (folder.path() / verb.in).string()}) {
+    const Outcome outcome = Trackbed(folder, verb.arguments + out);
+    EXPECT_EQ(outcome.code, 2) << out << ": " << outcome.output;
+    EXPECT_THAT(outcome.output,
+                AllOf(HasSubstr(verb.option), HasSubstr("is an input of this command, and would be "
+                                                        "replaced; name another file")));
+    EXPECT_EQ(ReadFile(folder.path() / verb.in), text) << out;
+  }
+}
+
+TEST_P(OutputFile, IsNoResult) {
+  const WritingVerb& verb = GetParam();
+  const TempFolder folder;
+  folder.Write(verb.in, ReadFile(fs::path(TRACKBED_SOURCE_DIR) / verb.input));
+  ASSERT_EQ(Trackbed(folder, "plan -q " + ScenarioFile("winding") + " -o r").code, 0);
+  for (const char* name : {"plan.csv", "manifest.json"}) {
+    const std::string before = ReadFile(folder.path() / "r" / name);
+    const Outcome outcome = Trackbed(folder, verb.arguments + "r/" + name);
+    EXPECT_EQ(outcome.code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output,
+                HasSubstr(std::string("r/") + name + " is a file of the plan in its folder"));
+    EXPECT_EQ(ReadFile(folder.path() / "r" / name), before);
+  }
+}
+
+// The manifest of another program is in nobody's way.
+TEST(OutputFileTest, MayBeInAFolderOfAnotherProgram) {
+  const TempFolder folder;
+  folder.Write("manifest.json", R"({"name": "app"})");
+  folder.Write("ggv.csv", "old");
+  EXPECT_EQ(Trackbed(folder, "model dart --ggv --out ggv.csv").code, 0);
+  EXPECT_NE(ReadFile(folder.path() / "ggv.csv"), "old");
+}
+
+}  // namespace
+}  // namespace trackbed
