@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/control/preview_distance.h"
+#include "src/control/steering_limit.h"
 #include "src/control/tracking.h"
 #include "trackbed/control/surroundings.h"
 #include "trackbed/vehicle/kinematic_car.h"
@@ -164,13 +165,13 @@ class ActuatorModel {
 /// Drives the kinematic car or the linear single-track car from a measured state.
 class PredictedCar {
  public:
-  PredictedCar(const VehicleParams& vehicle, const VehicleState& state, bool slips)
+  PredictedCar(const VehicleParams& vehicle, const VehicleState& state)
       : gear_(state.speed < 0.0 ? -1 : 1) {
     const KinematicState start{.pose = state.pose,
                                .speed = state.speed,
                                .steering = state.steering,
                                .distance = state.distance};
-    if (slips && HasTyres(vehicle) && std::abs(state.speed) >= kMinDynamicSpeed) {
+    if (HasTyres(vehicle) && std::abs(state.speed) >= kMinDynamicSpeed) {
       single_track_.emplace(vehicle, SingleTrackState{.pose = state.pose,
                                                       .speed = state.speed,
                                                       .lateral_speed = state.lateral_speed,
@@ -203,26 +204,35 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
       : inner_(std::move(inner)), knowledge_(knowledge) {}
 
   double Steer(const ControlInput& input) override {
-    if (input.vehicle.steering_response.ideal() && knowledge_ == ActuatorKnowledge::kModel) {
-      return inner_->Steer(input);
-    }
-    VehicleParams vehicle = input.vehicle;
-    vehicle.steering_response = {};
-    if (knowledge_ == ActuatorKnowledge::kIgnore) {
-      vehicle.steering_lag = 0.0;
-      return inner_->Steer(Ahead(input, vehicle, input.state));
-    }
-    vehicle.steering_response.time_constant = input.vehicle.steering_response.time_constant / kLead;
+    const double road = std::exchange(road_, 1.0);
     slips_ = slips_ || RearAxleSlips(input);
+    VehicleParams vehicle = input.vehicle;
+    vehicle.friction_longitudinal *= road;
+    vehicle.friction_lateral *= road;
+    if (!slips_) {
+      vehicle.cornering_stiffness_front = 0.0;
+      vehicle.cornering_stiffness_rear = 0.0;
+    }
+    if (input.vehicle.steering_response.ideal() && knowledge_ == ActuatorKnowledge::kModel) {
+      return SteerWithin(input, vehicle, input.state);
+    }
+    if (knowledge_ == ActuatorKnowledge::kIgnore) {
+      vehicle.steering_response = {};
+      vehicle.steering_lag = 0.0;
+      return SteerWithin(input, vehicle, input.state);
+    }
     if (!model_) {
       model_.emplace(input.vehicle, input.period, input.state.steering_actuator);
     }
-    const ControlInput ahead = Ahead(input, vehicle, Predict(input));
+    const VehicleState state = Predict(input, vehicle);
+    vehicle.steering_response = {};
+    vehicle.steering_response.time_constant = input.vehicle.steering_response.time_constant / kLead;
+    const ControlInput ahead = Ahead(input, vehicle, state);
     const PathBend bend = ahead.reference.path.BendAt(ahead.station);
     const double steady =
         SteadyTurnOn(vehicle, bend.curvature, bend.direction * std::abs(ahead.state.speed))
             .steering;
-    return model_->Command(inner_->Steer(ahead), steady,
+    return model_->Command(SteerWithin(input, vehicle, state), steady,
                            DeadZone(input.vehicle, input.state.speed, input.period));
   }
 
@@ -230,6 +240,7 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
     return inner_->Accelerate(input);
   }
   void See(const Surroundings& surroundings) override {
+    road_ = surroundings.RoadFriction();
     if (auto* const sees = dynamic_cast<SeesSurroundings*>(inner_.get())) {
       sees->See(surroundings);
     }
@@ -248,6 +259,14 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
   }
 
  private:
+  /// Returns the angle that the control law wants in the predicted `state` of the car, within
+  /// AllowedSteering.
+  double SteerWithin(const ControlInput& input, VehicleParams vehicle, const VehicleState& state) {
+    const SteeringRange range = AllowedSteering(vehicle, state);
+    vehicle.steering_limit = std::max(-range.lowest, range.highest);
+    return std::clamp(inner_->Steer(Ahead(input, vehicle, state)), range.lowest, range.highest);
+  }
+
   /// Returns the inputs of the controller for the predicted `state` of the car.
   static ControlInput Ahead(const ControlInput& input, const VehicleParams& vehicle,
                             const VehicleState& state) {
@@ -275,10 +294,11 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
         .s;
   }
 
-  /// Returns the car's state at the end of the dead time.
-  [[nodiscard]] VehicleState Predict(const ControlInput& input) const {
+  /// Returns the state of the car `vehicle` at the end of the dead time.
+  [[nodiscard]] VehicleState Predict(const ControlInput& input,
+                                     const VehicleParams& vehicle) const {
     const double error = input.state.steering_actuator - model_->angle();
-    PredictedCar car(input.vehicle, input.state, slips_);
+    PredictedCar car(vehicle, input.state);
     SteeringFilter filter = model_->filter();
     const double step = input.period / kSubsteps;
     for (double left = input.vehicle.steering_response.dead_time; left > kSameTime; left -= step) {
@@ -297,6 +317,7 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
   ActuatorKnowledge knowledge_;
   std::optional<ActuatorModel> model_;
   bool slips_ = false;  // Whether the rear axle has ever moved sideways.
+  double road_ = 1.0;   // Factor of the road on the friction of the tyres, in the coming period.
 };
 
 }  // namespace

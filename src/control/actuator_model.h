@@ -6,17 +6,22 @@
 
 namespace trackbed {
 
-/// Wraps the path-following controller `inner` in a model of the car's steering actuator. The
-/// control law then accounts for the dead time, the lag, the backlash and the calibration curve of
-/// SteeringResponse, and for the actuator's limits of angle and rate.
+/// Wraps the path-following controller `inner` in a model of what the steering does. The control
+/// law then accounts for the dead time, the lag, the backlash and the calibration curve of
+/// SteeringResponse, and for the limits of angle and rate. Both with kModel and kIgnore:
+///   * The angle that `inner` wants is clamped to AllowedSteering (steering_limit.h). `inner` plans
+///     with this limit as VehicleParams::steering_limit.
+///   * The friction coefficients that `inner` receives are those on the road under the car, if the
+///      wrapper sees the surroundings.
+///   * As long as no measured state had a lateral speed of the rear axle, `inner` receives a car
+///      without tyre coefficients: the car is kinematic.
 ///
 /// With kModel, the wrapper predicts the car's state at the time t + T_d at which the coming
 /// command takes effect, and calls `inner` with the predicted state (a Smith predictor, Smith
 /// 1957). T_d is the dead time. The prediction has these steps:
 ///   1. A SteeringFilter keeps the commands that are on their way to the actuator.
 ///   2. The predicted car starts at the measured state. The predicted car is the linear
-///      single-track car, or the kinematic car if the tyre coefficients are unknown, if the car is
-///      slower than 1 m/s, or as long as no measured state had a lateral speed of the rear axle.
+///      single-track car, or the kinematic car without tyre coefficients or below 1 m/s.
 ///   3. The car drives for T_d at constant speed. The car's wheels follow the output of the filter
 ///   plus
 ///      the difference between the measured and the modeled actuator angle at t. Through this
@@ -41,8 +46,8 @@ namespace trackbed {
 /// no dead time, backlash or curve.
 ///
 /// With kIgnore, `inner` receives the measured state, and a vehicle with an ideal response and
-/// without steering lag. With an ideal response and kModel, the wrapper passes states and angles
-/// unchanged, bit for bit. Cost per control period: ten steps of the car model for each control
+/// without steering lag. With an ideal response and kModel, the wrapper passes the measured
+/// state unchanged, bit for bit, and angles within the limits. Cost per control period: ten steps of the car model for each control
 /// period within T_d, about 20 us.
 std::unique_ptr<SteeringController> WithActuatorModel(std::unique_ptr<SteeringController> inner,
                                                       ActuatorKnowledge knowledge);

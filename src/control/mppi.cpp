@@ -12,6 +12,7 @@
 #include "src/control/control_keys.h"
 #include "src/control/error_model.h"
 #include "src/control/roll_out.h"
+#include "src/control/steering_limit.h"
 #include "src/control/turn_round.h"
 #include "trackbed/control/surroundings.h"
 #include "trackbed/core/angle.h"
@@ -104,7 +105,6 @@ class Mppi final : public SteeringController, public SeesSurroundings {
 
   double Steer(const ControlInput& input) override {
     const Surroundings* const surroundings = std::exchange(surroundings_, nullptr);
-    slips_ = slips_ || RearAxleSlips(input);
     if (const std::optional<double> steering = turn_round_.Steer(input)) {
       std::fill(plan_.begin(), plan_.end(), 0.0);
       return angle_.Approach(input, *steering);
@@ -113,8 +113,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
     Shift(horizon / static_cast<double>(steps_));
     roll_out_.Prepare(
         input, ProjectOntoPath(input), angle_.Now(input), surroundings,
-        {.slips = slips_,
-         .steps = options_.steps,
+        {.steps = options_.steps,
          .step = step_,
          .weights = WeightsFor(input.vehicle, options_, std::abs(input.state.speed), input.period),
          .margin = options_.margin.value_or(0.25 * input.vehicle.width),
@@ -267,7 +266,6 @@ class Mppi final : public SteeringController, public SeesSurroundings {
   std::size_t pairs_;          // Number of pairs of roll-outs.
   std::vector<double> noise_;  // Deviations of each pair, in standard deviations.
   std::vector<double> plan_;   // Steering rate of each step [rad/s].
-  bool slips_ = false;         // Whether the rear axle has ever moved sideways.
   double step_ = 0.0;          // Duration of a step of the plan [s]; 0 before the first plan.
   double elapsed_ = 0.0;       // Time since the plan began [s].
   double cost_ = 0.0;          // Cost of the plan.

@@ -12,12 +12,11 @@
 namespace trackbed {
 namespace {
 
-/// Returns the angle from the car's heading to the velocity of the rear axle [rad], positive to the
-/// left; 0 at very low speed.
-double RearSlip(const ControlInput& input) {
-  const VehicleState& state = input.state;
-  const double across = state.lateral_speed - input.vehicle.cg_to_rear * state.yaw_rate;
-  return std::abs(state.speed) < kCrawl ? 0.0 : std::atan(across / state.speed);
+/// Returns the heading error [rad] of the car in the steady turn on its path.
+double SteadyHeading(const ControlInput& input, const PathBend& bend) {
+  const double speed = bend.direction * std::abs(input.state.speed);
+  // A slip angle of SteadyTurnOn is the ratio of the lateral to the longitudinal speed.
+  return std::atan(SteadyTurnOn(input.vehicle, bend.curvature, speed).heading_error);
 }
 
 class Preview final : public SteeringController {
@@ -33,12 +32,14 @@ class Preview final : public SteeringController {
     if (const std::optional<double> steering = turn_round_.Steer(input, angle)) {
       return *steering;
     }
-    const int direction = input.reference.path.BendAt(input.station).direction;
-    const double u = angle - (options_.slip ? RearSlip(input) : 0.0);
+    const PathBend here = input.reference.path.BendAt(input.station);
+    const int direction = here.direction;
+    // In the steady turn, the heading differs from the direction of motion.
+    const double u = angle + (options_.slip ? SteadyHeading(input, here) : 0.0);
     // In reverse gear, steering to the right turns the direction of motion to the left.
     const double bend =
         direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
-    const double limit = SteeringInAStep(input.vehicle, input.state.speed);
+    const double limit = input.vehicle.steering_limit;
     return std::clamp(SteeringOn(input, bend, direction), -limit, limit);
   }
 
@@ -46,12 +47,10 @@ class Preview final : public SteeringController {
   /// Returns the steering angle delta for a curvature [rad].
   [[nodiscard]] double SteeringOn(const ControlInput& input, double curvature,
                                   int direction) const {
-    if (options_.slip) {
-      const double speed = direction * std::abs(input.state.speed);
-      return SteadyTurnOn(input.vehicle, curvature, speed).steering;
-    }
-    return options_.law == PreviewLaw::kLinear ? input.vehicle.wheelbase * curvature
-                                               : SteeringForCurvature(input.vehicle, curvature);
+    const double speed = direction * std::abs(input.state.speed);
+    const SteadyTurn turn = options_.slip ? SteadyTurnOn(input.vehicle, curvature, speed)
+                                          : TurnWithoutSlip(input.vehicle, curvature, speed);
+    return options_.law == PreviewLaw::kLinear ? std::tan(turn.steering) : turn.steering;
   }
 
   PreviewOptions options_;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "src/control/steering_limit.h"
 #include "src/control/tracking.h"
-#include "src/control/turn_round.h"
 
 namespace trackbed {
 namespace {

@@ -67,7 +67,7 @@ double PreviewDistance(const ControlInput& input, double delay = 0.0);
 /// answer, with the response time T without the control period. If `speed` is below 5/4 L omega,
 /// the function uses 5/4 L omega instead for c. The result is at least v sqrt(2 e/a): a car that
 /// steers on an arc toward a point at the distance R has the lateral acceleration 2 e v^2/R^2,
-/// which must not exceed a, the fraction kReturnGripShare of LateralGrip (turn_round.h).
+/// which must not exceed a, the fraction kReturnGripShare of LateralGrip (steering_limit.h).
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset);
 
 /// Computes ReturnDistance (see above) for the car's present speed and its present offset from the

@@ -56,7 +56,6 @@ class PreviewIntegral final : public SteeringController {
   explicit PreviewIntegral(const PreviewIntegralOptions& options) : options_(options) {}
 
   double Steer(const ControlInput& input) override {
-    const VehicleParams& vehicle = input.vehicle;
     const Path& path = input.reference.path;
     const int direction = path.BendAt(input.station).direction;
     const double distance = Distance(input, direction);
@@ -74,7 +73,7 @@ class PreviewIntegral final : public SteeringController {
     }
     // In reverse gear, steering to the right turns the direction of motion to the left.
     const double wanted = direction * std::atan(moved / square);
-    const double limit = SteeringInAStep(vehicle, input.state.speed);
+    const double limit = input.vehicle.steering_limit;
     return Delayed(std::clamp(wanted, -limit, limit), input);
   }
 
@@ -119,17 +118,22 @@ class PreviewIntegral final : public SteeringController {
   }
 
   /// Returns the preview distance R [m] for which this law responds to an offset with the gain 2
-  /// L/R_1^2 of the single-point law with the preview distance R_1 = `single`. For the kinematic
-  /// car, R/R_1 is the square root of the ratio of the gains at equal distances. Tyres respond
-  /// late, so A(eta) is smaller than for the kinematic car, and the gain int A W/int A^2 W is
-  /// larger. R is then longer: with the kinematic ratio, a car whose steering rate is limited would
-  /// weave about its path for ever.
+  /// L'/R_1^2 of the single-point law with the preview distance R_1 = `single`, where L' is the
+  /// steering angle of a steady turn per curvature. For the kinematic car, L' = L, and R/R_1 is the
+  /// square root of the ratio of the gains at equal distances. Tyres respond late, so A(eta) is
+  /// smaller than for the kinematic car, and the gain int A W/int A^2 W is larger. R is then longer:
+  /// with the kinematic ratio, a car whose steering rate is limited would weave about its path for
+  /// ever.
   [[nodiscard]] double DistanceOfEqualGain(const ControlInput& input, int direction,
                                            double single) const {
     double distance = std::sqrt(KinematicGainRatio()) * single;
     // The gain is nearly proportional to R^-2.5, so each iteration divides the error by -4.
     constexpr int kIterations = 5;
     constexpr double kTolerance = 0.01;
+    constexpr double kGentle = 1e-6;  // [1/m]
+    const double length =
+        std::max(SteadyTurnOn(input.vehicle, kGentle, input.state.speed).steering / kGentle,
+                 input.vehicle.wheelbase);
     for (int i = 0; i < kIterations && IsDynamic(input, direction); ++i) {
       double moved = 0.0;
       double square = 0.0;
@@ -137,10 +141,7 @@ class PreviewIntegral final : public SteeringController {
         moved += node.weight * node.responses.step;
         square += node.weight * node.responses.step * node.responses.step;
       }
-      const double ratio = moved / square * single * single / (2.0 * input.vehicle.wheelbase);
-      if (ratio < 1.0 + kTolerance && i == 0) {
-        break;  // stiff tyres: the kinematic ratio holds
-      }
+      const double ratio = moved / square * single * single / (2.0 * length);
       distance *= std::sqrt(ratio);
       if (std::abs(ratio - 1.0) < kTolerance) {
         break;

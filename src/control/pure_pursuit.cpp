@@ -30,7 +30,7 @@ class PurePursuit final : public SteeringController {
       return *steering;
     }
     const double steering = std::atan(2.0 * input.vehicle.wheelbase * std::sin(u) / distance);
-    const double limit = SteeringInAStep(input.vehicle, input.state.speed);
+    const double limit = input.vehicle.steering_limit;
     // In reverse gear, steering to the right turns the direction of motion to the left.
     return path.BendAt(input.station).direction * std::clamp(steering, -limit, limit);
   }

@@ -47,8 +47,7 @@ class RearAxleFeedback final : public SteeringController {
         CurvatureAfterLag(input) * std::cos(psi) / std::max(1.0 - curvature * e, kNearCenter);
     const double feedback = direction * 2.0 * psi / d + e * Sinc(psi) / (d * d);
     const double steering = SteadyTurnOn(vehicle, parallel - feedback, speed).steering;
-    const double limit = SteeringInAStep(vehicle, input.state.speed);
-    return std::clamp(steering, -limit, limit);
+    return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/control/steering_limit.h"
 #include "src/control/turn_round.h"
 #include "trackbed/core/angle.h"
 
@@ -37,7 +38,7 @@ void RollOuts::Prepare(const ControlInput& input, const Tracking& tracking, doub
   settings_ = settings;
   vehicle_ = input.vehicle;
   direction_ = tracking.foot.direction;
-  slips_ = settings.slips && HasTyres(vehicle_);
+  slips_ = HasTyres(vehicle_);
   rate_limit_ = vehicle_.steering_rate;
   lag_ = vehicle_.steering_delay();
   lag_decay_ = lag_ > 0.0 ? std::exp(-settings.step / lag_) : 0.0;
@@ -49,14 +50,14 @@ void RollOuts::Prepare(const ControlInput& input, const Tracking& tracking, doub
             .yaw_rate = input.state.yaw_rate,
             .actuator = actuator,
             .wheels = input.state.steering};
-  PrepareStages(input, surroundings);
+  PrepareStages(input);
   PrepareNodes(input, tracking, surroundings);
   Project(start_);
   PrepareRegulator(input, tracking);
   PrepareObstacles(tracking, surroundings);
 }
 
-RollOuts::Stage RollOuts::StageAt(double speed, double acceleration, double road) const {
+RollOuts::Stage RollOuts::StageAt(double speed, double acceleration) const {
   Stage stage{.speed = speed,
               .stiffness = {vehicle_.cornering_stiffness_front, vehicle_.cornering_stiffness_rear},
               .friction_force = {std::numeric_limits<double>::infinity(),
@@ -71,7 +72,7 @@ RollOuts::Stage RollOuts::StageAt(double speed, double acceleration, double road
     const AxleGrip& axle = limit.axles[i];
     const double load =
         std::max(kMinShare, 1.0 + direction_ * axle.transfer * hard / (kGravity * axle.weight));
-    const double normal = load * vehicle_.mass * kGravity * axle.weight * road;
+    const double normal = load * vehicle_.mass * kGravity * axle.weight;
     const double use = vehicle_.mass * axle.force * hard /
                        (std::max(vehicle_.friction_longitudinal, kMinShare) * normal);
     stage.stiffness[i] *= load;
@@ -81,10 +82,9 @@ RollOuts::Stage RollOuts::StageAt(double speed, double acceleration, double road
   return stage;
 }
 
-void RollOuts::PrepareStages(const ControlInput& input, const Surroundings* surroundings) {
+void RollOuts::PrepareStages(const ControlInput& input) {
   const SpeedProfile& planned = input.reference.speed;
-  const double road = surroundings != nullptr ? surroundings->RoadFriction() : 1.0;
-  grip_ = settings_.grip * road * LateralGrip(vehicle_);
+  grip_ = settings_.grip * LateralGrip(vehicle_);
   const double now = std::max(direction_ * input.state.speed, 0.0);
   const double excess = now - planned.SpeedAt(input.station);
   const double decay = planned.knots().empty() ? 1.0 : std::exp(-input.speed_gain * settings_.step);
@@ -98,7 +98,7 @@ void RollOuts::PrepareStages(const ControlInput& input, const Surroundings* surr
                0.5 * std::max(acceleration, 0.0) * settings_.step * settings_.step;
     left *= decay;
     speed = std::max(planned.SpeedAt(station) + left, 0.0);
-    stage = StageAt(direction_ * speed, acceleration, road);
+    stage = StageAt(direction_ * speed, acceleration);
     stage.station = station - input.station;
   }
 }

@@ -15,8 +15,6 @@ namespace trackbed {
 
 /// Settings of the roll-outs, with all defaults replaced.
 struct RollOutSettings {
-  /// Whether the tyres slip; false for a kinematic car. Cars without tyre coefficients never slip.
-  bool slips = true;
   int steps = 50;          ///< Number of steps of a roll-out, >= 1.
   double step = 0.02;      ///< Duration of a step [s], > 0.
   ErrorWeights weights{};  ///< Weights of the deviation from the path.
@@ -93,12 +91,12 @@ class RollOuts {
     std::array<double, 2> friction_force{};  // Largest lateral force of the axles [N].
   };
 
-  void PrepareStages(const ControlInput& input, const Surroundings* surroundings);
+  void PrepareStages(const ControlInput& input);
   void PrepareNodes(const ControlInput& input, const Tracking& tracking,
                     const Surroundings* surroundings);
   void PrepareRegulator(const ControlInput& input, const Tracking& tracking);
   void PrepareObstacles(const Tracking& tracking, const Surroundings* surroundings);
-  [[nodiscard]] Stage StageAt(double speed, double acceleration, double road) const;
+  [[nodiscard]] Stage StageAt(double speed, double acceleration) const;
 
   void Advance(int k, double rate, RolledCar& car) const;
   void Slide(const Stage& stage, double speed, RolledCar& car) const;

@@ -35,8 +35,7 @@ class Stanley final : public SteeringController {
     // its limit.
     const double approach = std::atan2(gain * offset, softening + speed);
     const double steering = ahead.steering - direction * heading - approach;
-    const double limit = SteeringInAStep(vehicle, input.state.speed);
-    return std::clamp(steering, -limit, limit);
+    return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
   }
 
  private:

@@ -6,30 +6,6 @@
 
 namespace trackbed {
 
-/// Returns the lateral acceleration [m/s^2] at which the car slides or its inner wheels lift, on a
-/// road with the friction factor 1: the smaller one of mu_y g and g b/(2 h), where b is the mean
-/// track and h the height of the center of gravity. Infinite if unknown.
-double LateralGrip(const VehicleParams& vehicle);
-
-/// Fraction of the lateral grip that a car uses while it returns to its path. A step of the
-/// steering angle makes an undamped car overshoot the steady lateral acceleration by a factor of 2.
-inline constexpr double kReturnGripShare = 0.5;
-
-/// Returns the steering angle [rad] of the steady turn that uses the whole LateralGrip at `speed`,
-/// but at most the steering limit.
-double SteeringAtGrip(const VehicleParams& vehicle, double speed);
-
-/// Returns the largest steering angle [rad] that a geometric control law commands at `speed`, even
-/// in a step: the steering limit, or the angle of the steady turn with the lateral acceleration
-/// mu_y g or 0.65 g b/(2 h), whichever is less. Beyond this angle, the tyres slide without more
-/// lateral force, or a tall car rolls over.
-double SteeringInAStep(const VehicleParams& vehicle, double speed);
-
-/// Returns the largest steering angle [rad] with which a car may turn round at `speed` [m/s]: the
-/// steering limit, or the angle of the steady turn in which the car uses half of its lateral grip.
-/// The fraction is kReturnGripShare of LateralGrip. A car of unknown grip uses its steering limit.
-double TurnRoundLimit(const VehicleParams& vehicle, double speed);
-
 /// Turns a car round whose target lies behind it.
 ///
 /// Laws such as pure pursuit steer by the sine of the angle u from the direction of motion to the

@@ -13,6 +13,8 @@
 #include "trackbed/control/lqr.h"
 #include "trackbed/control/mpc.h"
 #include "trackbed/control/preview.h"
+#include "trackbed/control/rear_axle_feedback.h"
+#include "trackbed/vehicle/steady_turn.h"
 #include "trackbed/vehicle/steering_response.h"
 
 // Controllers in a loop with an actuator that has dead time, lag, backlash and a curve.
@@ -374,6 +376,37 @@ TEST(ActuatorModel, PassesAnIdealActuator) {
       ASSERT_EQ(wrapped[i].command, expected[i].command) << entry.name << i;
     }
   }
+}
+
+TEST(ActuatorModel, KnowsThatACarWithoutSlipIsKinematic) {
+  // On its circle, a kinematic car needs the angle atan(L kappa). Once the rear axle has moved
+  // sideways, the car has tyres, and needs the steering of its steady turn.
+  VehicleParams car = ReferenceCarWithTyres();
+  const double speed = 15.0;
+  const double curvature = 0.01;
+  const Reference reference{Path({}, {{100.0, curvature, 1}}), SpeedProfile({{0.0, speed}})};
+  const auto controller = MakeSteeringController(RearAxleFeedbackOptions{});
+  VehicleState state;
+  state.speed = speed;
+  const auto steer = [&](double heading, double lateral_speed) {
+    state.pose = reference.path.At(20.0).pose;
+    state.pose.yaw += heading;
+    state.yaw_rate = speed * curvature;
+    state.lateral_speed = lateral_speed;
+    return controller->Steer({.vehicle = car,
+                              .reference = reference,
+                              .schedule = {},
+                              .state = state,
+                              .station = 20.0,
+                              .period = 0.02});
+  };
+  EXPECT_NEAR(steer(0.0, car.cg_to_rear * speed * curvature), std::atan(car.wheelbase * curvature),
+              Tolerance(1e-12));
+  const SteadyTurn turn = SteadyTurnOn(car, curvature, speed);
+  ASSERT_GT(std::abs(turn.steering - std::atan(car.wheelbase * curvature)), 1e-3);
+  EXPECT_NEAR(steer(turn.heading_error, turn.lateral_speed), turn.steering, Tolerance(1e-12));
+  EXPECT_NEAR(steer(turn.heading_error, car.cg_to_rear * speed * curvature), turn.steering,
+              Tolerance(1e-12));
 }
 
 TEST(ActuatorModel, IsLeftOutOnRequest) {

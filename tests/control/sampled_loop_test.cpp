@@ -222,6 +222,18 @@ TEST(LargeDeviations, DecayDespiteTheLimitedSteeringRate) {
   }
 }
 
+TEST(LargeDeviations, DecayDespiteUndersteer) {
+  // On its tyres, this car turns at 30 m/s with a ninth of the curvature of the kinematic car. With
+  // the gain of the kinematic car, offsets would decay too slowly.
+  const VehicleParams f1tenth = Cars()[3];
+  for (const char* controller : {"preview", "preview_integral"}) {
+    for (const double speed : {10.0, 20.0, 30.0}) {
+      EXPECT_LT(RemainingOffset(controller, f1tenth, speed, 3.0), 0.05 * f1tenth.width)
+          << controller << " at " << speed << " m/s";
+    }
+  }
+}
+
 TEST(LargeDeviations, DecayDespiteTheBacklash) {
   // A dead zone of a quarter of the backlash would leave R^2/(2 L) times 5.7 mrad, which is 46 mm
   // at 5 m/s.

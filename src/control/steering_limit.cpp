@@ -1,0 +1,84 @@
+#include "src/control/steering_limit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/control/preview_distance.h"
+#include "src/control/tracking.h"
+
+namespace trackbed {
+namespace {
+
+/// Fraction of g b/(2 h) to which a step of the steering angle is limited. The body of the car
+/// leans out of the turn, so the inner wheels lift at 0.83 of g b/(2 h) in a steady turn (Prius in
+/// MuJoCo), and the roll angle overshoots after a step, by a factor of 1.25 at a damping ratio of
+/// 0.4. In MuJoCo, the BMW 320i on contact tyres rolls over after steps to 0.75 of g b/(2 h).
+constexpr double kRollShare = 0.65;
+
+/// Returns the acceleration g b/(2 h) [m/s^2] at which the inner wheels of a rigid car lift.
+/// Infinite if unknown.
+double RigidRollOver(const VehicleParams& vehicle) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  if (vehicle.braking.axles.empty()) {
+    return kUnknown;
+  }
+  const double height = std::abs(vehicle.braking.axles.front().transfer) * vehicle.wheelbase;
+  const double track = 0.5 * (vehicle.track_front + vehicle.track_rear);
+  return height > 0.0 && track > 0.0 ? kGravity * track / (2.0 * height) : kUnknown;
+}
+
+/// Returns the steering angle [rad] of the steady turn with the lateral acceleration `allowed`
+/// [m/s^2], but at most the steering limit.
+double SteeringAt(const VehicleParams& vehicle, double speed, double allowed) {
+  const double tightest = CurvatureForSteering(vehicle, vehicle.steering_limit);
+  if (vehicle.kind != VehicleKind::kSteered || !(speed * speed * tightest > allowed)) {
+    return vehicle.steering_limit;
+  }
+  const double steering = SteadyTurnOn(vehicle, allowed / (speed * speed), speed).steering;
+  return std::clamp(std::abs(steering), 0.0, vehicle.steering_limit);
+}
+
+/// Returns the angle from the car's heading to the motion of its front axle [rad], positive to the
+/// left; 0 at very low speed.
+double FrontDirection(const VehicleParams& vehicle, const VehicleState& state) {
+  const double across = state.lateral_speed + vehicle.cg_to_front() * state.yaw_rate;
+  return std::abs(state.speed) < kCrawl ? 0.0 : std::atan(across / state.speed);
+}
+
+}  // namespace
+
+double LateralGrip(const VehicleParams& vehicle) {
+  const double sliding = vehicle.friction_lateral > 0.0 ? vehicle.friction_lateral * kGravity
+                                                        : std::numeric_limits<double>::infinity();
+  return std::min(sliding, RigidRollOver(vehicle));
+}
+
+double SteeringAtGrip(const VehicleParams& vehicle, double speed) {
+  return SteeringAt(vehicle, speed, LateralGrip(vehicle));
+}
+
+double SteeringInAStep(const VehicleParams& vehicle, double speed) {
+  const double allowed = std::min(LateralGrip(vehicle), kRollShare * RigidRollOver(vehicle));
+  const double linear = SteeringAt(vehicle, speed, allowed);
+  if (linear >= vehicle.steering_limit) {
+    return linear;
+  }
+  const double curvature = allowed / (speed * speed);
+  const double brush = BrushTurnOn(vehicle, {.curvature = curvature, .speed = speed}).turn.steering;
+  return std::min(std::max({linear, std::abs(brush), SteeringForCurvature(vehicle, curvature)}),
+                  vehicle.steering_limit);
+}
+
+double TurnRoundLimit(const VehicleParams& vehicle, double speed) {
+  return SteeringAt(vehicle, speed, kReturnGripShare * LateralGrip(vehicle));
+}
+
+SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& state) {
+  const double step = SteeringInAStep(vehicle, state.speed);
+  const double rolling = std::clamp(FrontDirection(vehicle, state), -vehicle.steering_limit,
+                                    vehicle.steering_limit);
+  return {.lowest = std::min(-step, rolling), .highest = std::max(step, rolling)};
+}
+
+}  // namespace trackbed

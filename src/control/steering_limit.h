@@ -1,0 +1,47 @@
+#pragma once
+
+#include "trackbed/control/steering_controller.h"
+
+/// Limits of the steering angle by the grip of the tyres and by roll-over. WithActuatorModel
+/// (actuator_model.h) applies them to every controller with feedback.
+namespace trackbed {
+
+/// Returns the lateral acceleration [m/s^2] at which the car slides or its inner wheels lift, on a
+/// road with the friction factor 1: the smaller one of mu_y g and g b/(2 h), where b is the mean
+/// track and h the height of the center of gravity. Infinite if unknown.
+double LateralGrip(const VehicleParams& vehicle);
+
+/// Fraction of the lateral grip that a car uses while it returns to its path. A step of the
+/// steering angle makes an undamped car overshoot the steady lateral acceleration by a factor of 2.
+inline constexpr double kReturnGripShare = 0.5;
+
+/// Returns the steering angle [rad] of the steady turn that uses the whole LateralGrip at `speed`,
+/// but at most the steering limit.
+double SteeringAtGrip(const VehicleParams& vehicle, double speed);
+
+/// Returns the largest steering angle [rad] that a control law commands at `speed`, even in a step:
+/// the steering limit, or the angle of the steady turn with the lateral acceleration mu_y g or 0.65
+/// g b/(2 h), whichever is less. Beyond this angle, the tyres slide without more lateral force, or
+/// a tall car rolls over. The angle of the turn is the largest one of a car without slip, of linear
+/// tyres, and of the brush model: at the grip, an understeering car needs more steering than linear
+/// tyres, and an oversteering car needs less in the turn than to enter it.
+double SteeringInAStep(const VehicleParams& vehicle, double speed);
+
+/// Returns the largest steering angle [rad] with which a car may turn round at `speed` [m/s]: the
+/// steering limit, or the angle of the steady turn in which the car uses half of its lateral grip.
+/// The fraction is kReturnGripShare of LateralGrip. A car of unknown grip uses its steering limit.
+double TurnRoundLimit(const VehicleParams& vehicle, double speed);
+
+/// Range of steering angles [rad] that a control law may command.
+struct SteeringRange {
+  double lowest = 0.0;   ///< Rightmost angle, at most 0.
+  double highest = 0.0;  ///< Leftmost angle, at least 0.
+};
+
+/// Returns the range of steering angles for the car's present motion: SteeringInAStep to both
+/// sides, extended up to the direction in which the front axle moves, but at most the steering
+/// limit. Wheels that roll in their direction of motion exert no lateral force, so a sliding car
+/// may always steer into its slide.
+SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& state);
+
+}  // namespace trackbed

@@ -1,0 +1,168 @@
+#include "src/control/steering_limit.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/control/tracking.h"
+#include "tests/control/loop.h"
+#include "tests/tolerance.h"
+#include "trackbed/control/surroundings.h"
+#include "trackbed/core/angle.h"
+
+// Limits of the steering angle by grip and by roll-over, and the controllers that keep them.
+namespace trackbed {
+namespace steering_limit_test {
+
+TEST(TurnRoundLimit, KeepsHalfOfTheGrip) {
+  VehicleParams car = ReferenceCar();
+  EXPECT_EQ(TurnRoundLimit(car, 30.0), car.steering_limit);  // unknown grip
+  car.friction_lateral = 0.8;
+  EXPECT_EQ(TurnRoundLimit(car, 1.0), car.steering_limit);
+  EXPECT_NEAR(TurnRoundLimit(car, 10.0), std::atan(car.wheelbase * 0.4 * kGravity / 100.0),
+              Tolerance(1e-12));
+  // The inner wheels lift off at the lateral acceleration g b/(2 h) = 0.6 g, with the track width b
+  // = 1.5 m and the height h = 1.25 m of the center of gravity.
+  car.track_front = 1.5;
+  car.track_rear = 1.5;
+  const double height = 1.25;
+  car.braking.axles = {{.weight = 0.5, .force = 0.5, .transfer = height / car.wheelbase}};
+  EXPECT_NEAR(TurnRoundLimit(car, -10.0), std::atan(car.wheelbase * 0.3 * kGravity / 100.0),
+              Tolerance(1e-12));
+}
+
+TEST(SteeringAtGrip, IsTheAngleOfTheCircleAtTheLimit) {
+  // Without slip, a car with the friction coefficient 0.8 reaches a lateral acceleration of 0.8 g
+  // at 10 m/s on the curvature 0.8 g/v^2. At 1 m/s, even full lock causes a smaller lateral
+  // acceleration.
+  VehicleParams car = ReferenceCar();
+  EXPECT_EQ(SteeringAtGrip(car, 40.0), car.steering_limit);  // unknown grip
+  car.friction_lateral = 0.8;
+  const double limit = std::atan(car.wheelbase * 0.8 * kGravity / 100.0);
+  EXPECT_NEAR(SteeringAtGrip(car, 10.0), limit, Tolerance(1e-12));
+  EXPECT_NEAR(SteeringAtGrip(car, -10.0), limit, Tolerance(1e-12));
+  EXPECT_EQ(SteeringAtGrip(car, 1.0), car.steering_limit);
+  // A car with tyres needs the steering angle of its steady turn, which includes understeer.
+  VehicleParams tyres = ReferenceCarWithTyres();
+  tyres.friction_lateral = 0.8;
+  EXPECT_NEAR(SteeringAtGrip(tyres, 10.0),
+              SteadyTurnOn(tyres, 0.8 * kGravity / 100.0, 10.0).steering, Tolerance(1e-12));
+}
+
+TEST(SteeringInAStep, LeavesRoomForTheSlipAtTheGrip) {
+  // An understeering car needs more steering at the grip than linear tyres: by the brush model, an
+  // axle at 0.95 of its friction force has the slip angle 3 mu F_z/C (1 - cbrt(1 - 0.95)).
+  VehicleParams car = ReferenceCarWithTyres();
+  car.friction_lateral = 0.8;
+  car.cornering_stiffness_front = 0.5 * car.cornering_stiffness_rear;
+  const double rear_share = car.cg_to_front() / car.wheelbase;
+  car.braking.axles = {{.weight = 1.0 - rear_share, .force = 0.5, .transfer = 0.0},
+                       {.weight = rear_share, .force = 0.5, .transfer = 0.0}};
+  car.driving = car.braking;
+  const double speed = 20.0;
+  const double force = car.mass * car.friction_lateral * kGravity;
+  const double slip = 3.0 * (1.0 - std::cbrt(0.05));
+  const double front = slip * force * (1.0 - rear_share) / car.cornering_stiffness_front;
+  const double rear = slip * force * rear_share / car.cornering_stiffness_rear;
+  const double curvature = car.friction_lateral * kGravity / (speed * speed);
+  EXPECT_NEAR(SteeringInAStep(car, speed),
+              std::atan(car.wheelbase * curvature + front - rear), Tolerance(1e-12));
+  EXPECT_GT(SteeringInAStep(car, speed), SteeringAtGrip(car, speed));
+}
+
+TEST(AllowedSteering, AlwaysIncludesTheDirectionOfTheFrontWheels) {
+  // A car that slides to the left with its nose to the right may steer to the left up to the
+  // direction of its front axle, and to the right no farther than without a slide.
+  VehicleParams car = ReferenceCarWithTyres();
+  car.friction_lateral = 0.8;
+  VehicleState state;
+  state.speed = 20.0;
+  const double step = SteeringInAStep(car, state.speed);
+  EXPECT_EQ(AllowedSteering(car, state).lowest, -step);
+  EXPECT_EQ(AllowedSteering(car, state).highest, step);
+  state.lateral_speed = 4.0;
+  state.yaw_rate = 0.5;
+  const double direction = std::atan((4.0 + 0.5 * car.cg_to_front()) / 20.0);
+  ASSERT_GT(direction, step);
+  EXPECT_EQ(AllowedSteering(car, state).lowest, -step);
+  EXPECT_NEAR(AllowedSteering(car, state).highest, direction, Tolerance(1e-15));
+  state.lateral_speed = -100.0;
+  EXPECT_EQ(AllowedSteering(car, state).lowest, -car.steering_limit);
+}
+
+/// Surroundings without obstacles, on a road with the given friction.
+class Roads final : public Surroundings {
+ public:
+  explicit Roads(double friction) : friction_(friction) {}
+  [[nodiscard]] const std::vector<SeenObstacle>& Obstacles() const override { return none_; }
+  [[nodiscard]] const PathEdges& Edges() const override { return edges_; }
+  [[nodiscard]] double RoadFriction() const override { return friction_; }
+
+ private:
+  double friction_;
+  std::vector<SeenObstacle> none_;
+  PathEdges edges_;
+};
+
+/// Returns the command of a new controller at 20 m/s, for a car whose rear axle slides slightly.
+double CommandBeside(const ControllerEntry& entry, const VehicleParams& car, double offset,
+                     double heading, double road) {
+  const Reference reference{Path({}, {{300.0, 0.0, 1}}), SpeedProfile({{0.0, 20.0}})};
+  VehicleState state;
+  state.pose = {50.0, offset, heading};
+  state.speed = 20.0;
+  state.lateral_speed = 1e-6;
+  const Roads surroundings(road);
+  const auto controller = MakeSteeringController(entry.defaults);
+  dynamic_cast<SeesSurroundings&>(*controller).See(surroundings);
+  return controller->Steer({.vehicle = car,
+                            .reference = reference,
+                            .schedule = {},
+                            .state = state,
+                            .station = 50.0,
+                            .period = 0.02});
+}
+
+class GrippingController : public ::testing::TestWithParam<ControllerEntry> {};
+
+TEST_P(GrippingController, SteersNoFartherThanItsTyresGrip) {
+  // Beside a straight or across it at 20 m/s, the laws would command up to full lock. The car's
+  // steering is fast, so that the limits of the rate do not matter.
+  VehicleParams car = ReferenceCarWithTyres();
+  car.friction_lateral = 0.8;
+  car.steering_rate = 20.0;
+  double largest = 0.0;
+  for (const double road : {1.0, 0.3}) {
+    VehicleParams there = car;
+    there.friction_lateral *= road;
+    const double limit = SteeringInAStep(there, 20.0);
+    for (const double offset : {-8.0, 4.0}) {
+      for (const double heading : {-1.2, -0.5, 0.3, 1.4}) {
+        const double steering = CommandBeside(GetParam(), car, offset, heading, road);
+        EXPECT_LE(std::abs(steering), limit + Tolerance(1e-12))
+            << offset << " m, " << heading << " rad, road " << road;
+        largest = std::max(largest, std::abs(steering) / limit);
+      }
+    }
+  }
+  // mpc, the slowest law, reaches the limit in its first step of 0.1 s, five control periods.
+  EXPECT_GT(largest, 0.199);
+}
+
+std::vector<ControllerEntry> Followers() {
+  std::vector<ControllerEntry> all;
+  for (const ControllerEntry& entry : Controllers()) {
+    if (entry.needs_plan && entry.station == StationSource::kProjection) {
+      all.push_back(WithFewSamples(entry));
+    }
+  }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(SteeringLimit, GrippingController, ::testing::ValuesIn(Followers()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace steering_limit_test
+}  // namespace trackbed
