@@ -47,8 +47,8 @@ namespace trackbed {
 ///
 /// With kIgnore, `inner` receives the measured state, and a vehicle with an ideal response and
 /// without steering lag. With an ideal response and kModel, the wrapper passes the measured
-/// state unchanged, bit for bit, and angles within the limits. Cost per control period: ten steps of the car model for each control
-/// period within T_d, about 20 us.
+/// state unchanged, bit for bit, and angles within the limits. Cost per control period: ten steps
+/// of the car model for each control period within T_d, about 20 us.
 std::unique_ptr<SteeringController> WithActuatorModel(std::unique_ptr<SteeringController> inner,
                                                       ActuatorKnowledge knowledge);
 

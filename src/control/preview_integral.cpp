@@ -121,9 +121,9 @@ class PreviewIntegral final : public SteeringController {
   /// L'/R_1^2 of the single-point law with the preview distance R_1 = `single`, where L' is the
   /// steering angle of a steady turn per curvature. For the kinematic car, L' = L, and R/R_1 is the
   /// square root of the ratio of the gains at equal distances. Tyres respond late, so A(eta) is
-  /// smaller than for the kinematic car, and the gain int A W/int A^2 W is larger. R is then longer:
-  /// with the kinematic ratio, a car whose steering rate is limited would weave about its path for
-  /// ever.
+  /// smaller than for the kinematic car, and the gain int A W/int A^2 W is larger. R is then
+  /// longer: with the kinematic ratio, a car whose steering rate is limited would weave about its
+  /// path for ever.
   [[nodiscard]] double DistanceOfEqualGain(const ControlInput& input, int direction,
                                            double single) const {
     double distance = std::sqrt(KinematicGainRatio()) * single;

@@ -76,8 +76,8 @@ double TurnRoundLimit(const VehicleParams& vehicle, double speed) {
 
 SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& state) {
   const double step = SteeringInAStep(vehicle, state.speed);
-  const double rolling = std::clamp(FrontDirection(vehicle, state), -vehicle.steering_limit,
-                                    vehicle.steering_limit);
+  const double rolling =
+      std::clamp(FrontDirection(vehicle, state), -vehicle.steering_limit, vehicle.steering_limit);
   return {.lowest = std::min(-step, rolling), .highest = std::max(step, rolling)};
 }
 

@@ -67,8 +67,8 @@ TEST(SteeringInAStep, LeavesRoomForTheSlipAtTheGrip) {
   const double front = slip * force * (1.0 - rear_share) / car.cornering_stiffness_front;
   const double rear = slip * force * rear_share / car.cornering_stiffness_rear;
   const double curvature = car.friction_lateral * kGravity / (speed * speed);
-  EXPECT_NEAR(SteeringInAStep(car, speed),
-              std::atan(car.wheelbase * curvature + front - rear), Tolerance(1e-12));
+  EXPECT_NEAR(SteeringInAStep(car, speed), std::atan(car.wheelbase * curvature + front - rear),
+              Tolerance(1e-12));
   EXPECT_GT(SteeringInAStep(car, speed), SteeringAtGrip(car, speed));
 }
 
