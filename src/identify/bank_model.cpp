@@ -52,57 +52,90 @@ std::optional<std::size_t> EndOfLap(const std::vector<RecordedSample>& samples, 
   return nearest;
 }
 
-/// Returns evenly spaced points on the first lap of a drive. The gap between the end and the start
-/// of the lap is distributed over the lap.
-std::vector<Vec2> FirstLap(const Scenario& scenario, const Identification& study) {
+/// Returns evenly spaced points on the path of a drive: on its first lap if it returns to its
+/// start, else on the whole drive. The gap between the end and the start of the lap is distributed
+/// over the lap.
+CenterPoints PathOf(const Scenario& scenario, const Identification& study) {
   const std::vector<RecordedSample>& samples = scenario.record->data->samples;
   const auto moves = [&](const RecordedSample& sample) {
     return sample.valid && std::abs(sample.velocity_V.x()) >= scenario.record->min_speed;
   };
   const auto first = static_cast<std::size_t>(std::find_if(samples.begin(), samples.end(), moves) -
                                               samples.begin());
-  const std::optional<std::size_t> last =
+  const std::optional<std::size_t> lap =
       first < samples.size() ? EndOfLap(samples, first) : std::nullopt;
-  if (!last) {
-    throw InputError(Problem{
-        .file = study.file.string(),
-        .key = "bank.track",
-        .message = fmt::format("missing, and the record of {} does not return to its start; name "
-                               "the file of the closed track that was driven on",
-                               scenario.name)});
-  }
+  const std::size_t last = lap.value_or(samples.size() - 1);
   std::vector<double> driven{0.0};
-  for (std::size_t i = first + 1; i <= *last; ++i) {
+  for (std::size_t i = first + 1; i <= last; ++i) {
     driven.push_back(driven.back() +
                      (samples[i].pose.position() - samples[i - 1].pose.position()).norm());
   }
+  if (!(driven.back() > 0.0)) {
+    throw InputError(
+        Problem{.file = study.file.string(),
+                .key = "bank.track",
+                .message = fmt::format("missing, and the car stands still in the record of {}; "
+                                       "name the file of the track that was driven on",
+                                       scenario.name)});
+  }
   constexpr double kSpacing = 2.0;  // [m]
-  const double lap = driven.back();
-  const auto count = static_cast<std::size_t>(std::clamp(std::ceil(lap / kSpacing), 40.0, 1000.0));
-  const Vec2 gap = samples[*last].pose.position() - samples[first].pose.position();
-  std::vector<Vec2> points;
+  const double length = driven.back();
+  const auto count =
+      static_cast<std::size_t>(std::clamp(std::ceil(length / kSpacing), 40.0, 1000.0));
+  const std::size_t parts = lap ? count : count - 1;
+  const Vec2 gap =
+      lap ? Vec2(samples[last].pose.position() - samples[first].pose.position()) : Vec2(0.0, 0.0);
+  CenterPoints path{.points = {}, .closed = lap.has_value()};
   std::size_t i = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    const double part = static_cast<double>(k) / static_cast<double>(count);
-    while (i + 2 < driven.size() && driven[i + 1] <= part * lap) {
+    const double part = static_cast<double>(k) / static_cast<double>(parts);
+    while (i + 2 < driven.size() && driven[i + 1] <= part * length) {
       ++i;
     }
     const double step = driven[i + 1] - driven[i];
-    const double share = step > 0.0 ? (part * lap - driven[i]) / step : 0.0;
+    const double share = step > 0.0 ? (part * length - driven[i]) / step : 0.0;
     const Vec2 from = samples[first + i].pose.position();
-    points.push_back(from + share * (samples[first + i + 1].pose.position() - from) - part * gap);
+    const Vec2 at = from + share * (samples[first + i + 1].pose.position() - from) - part * gap;
+    path.points.push_back({at, 1.0, 1.0});
   }
-  return points;
+  return path;
 }
 
-/// Returns the track points of the first lap, with edges that all records stay within.
-std::vector<TrackPoint> TrackOfRecords(const Identification& study) {
-  const Scenario& first = study.fit_scenarios.front();
-  std::vector<TrackPoint> points;
-  for (const Vec2& point : FirstLap(first, study)) {
-    points.push_back({point, 1.0, 1.0});
+/// Returns the offset of a point from the polyline through points, positive to the left.
+double OffsetFrom(const CenterPoints& line, const Vec2& at) {
+  double offset = std::numeric_limits<double>::infinity();
+  const std::size_t count = line.points.size();
+  for (std::size_t i = 0; i + (line.closed ? 0 : 1) < count; ++i) {
+    const Vec2& from = line.points[i].position;
+    const Vec2 chord = line.points[(i + 1) % count].position - from;
+    const double share = std::clamp((at - from).dot(chord) / chord.squaredNorm(), 0.0, 1.0);
+    const Vec2 apart = at - from - share * chord;
+    if (apart.norm() < std::abs(offset)) {
+      offset = std::copysign(apart.norm(), Cross(chord, apart));
+    }
   }
-  const Track line(points);
+  return offset;
+}
+
+/// Returns the smallest radius of the circles through three neighboring points [m].
+double SmallestRadius(const CenterPoints& line) {
+  double smallest = std::numeric_limits<double>::infinity();
+  const std::size_t count = line.points.size();
+  for (std::size_t i = 0; i + (line.closed ? 0 : 2) < count; ++i) {
+    const Vec2 a = line.points[i].position;
+    const Vec2 b = line.points[(i + 1) % count].position;
+    const Vec2 c = line.points[(i + 2) % count].position;
+    const double area = 0.5 * std::abs(Cross(b - a, c - a));
+    smallest = std::min(
+        smallest, (b - a).norm() * (c - b).norm() * (c - a).norm() / std::max(4.0 * area, 1e-9));
+  }
+  return smallest;
+}
+
+/// Returns the path of the first record, with edges that all records stay within.
+CenterPoints TrackOfRecords(const Identification& study) {
+  const Scenario& first = study.fit_scenarios.front();
+  CenterPoints line = PathOf(first, study);
   double left = 0.0;
   double right = 0.0;
   for (const auto* scenarios : {&study.fit_scenarios, &study.held_out_scenarios}) {
@@ -115,36 +148,45 @@ std::vector<TrackPoint> TrackOfRecords(const Identification& study) {
           continue;
         }
         before = at;
-        const double offset = line.Locate(at).offset;
+        const double offset = OffsetFrom(line, at);
         left = std::max(left, offset);
         right = std::max(right, -offset);
+        constexpr double kWidest = 30.0;  // of a road to either side [m]
+        if (!line.closed && std::abs(offset) > kWidest) {
+          throw InputError(Problem{
+              .file = study.file.string(),
+              .key = "bank.track",
+              .message = fmt::format("missing, and {} drives {:.3g} m beside the path of {}; name "
+                                     "the file of a track that all records follow, or remove {}",
+                                     scenario.name, std::abs(offset), first.name, scenario.name)});
+        }
       }
     }
   }
   const double half = 0.5 * LoadCar(first).params().width;
-  double widest = std::numeric_limits<double>::infinity();
   constexpr double kFold = 0.9;  // of the radius, to which the ground reaches
-  for (double s = 0.0; s < line.length(); s += line.length() / 400.0) {
-    widest = std::min(widest, kFold / std::max(std::abs(line.At(s).curvature), 1e-9));
-  }
-  for (TrackPoint& point : points) {
+  const double widest = kFold * SmallestRadius(line);
+  for (TrackPoint& point : line.points) {
     point.width_left = std::min(left + half, widest);
     point.width_right = std::min(right + half, widest);
   }
-  return points;
+  return line;
 }
 
 /// Returns the number of knots. The study must have room for as many parameters.
-std::size_t KnotsOf(const Identification& study, double length) {
+std::size_t KnotsOf(const Identification& study, double length, bool closed) {
   const std::size_t room = kMostParameters - std::min(kMostParameters, study.parameters.size());
-  const auto least = ClosedSplineBasis::kMinFunctions;
-  const auto knots = static_cast<std::size_t>(
-      std::lround(std::min(1e6, length / study.bank->spacing.value_or(length / 8.0))));
+  // An open line has knots at both ends, and those inside again in its mirror image.
+  const std::size_t more = closed ? 0 : 1;
+  const std::size_t least =
+      closed ? ClosedSplineBasis::kMinFunctions : ClosedSplineBasis::kMinFunctions / 2 + more;
+  const auto knots = more + static_cast<std::size_t>(std::lround(std::min(
+                                1e6, length / study.bank->spacing.value_or(length / 8.0))));
   if (std::max(knots, least) > room) {
-    const std::string remedy =
-        room < least
-            ? fmt::format("remove {} parameters", least - room)
-            : fmt::format("set it to {:.4g} m or more", length / static_cast<double>(room) + 0.05);
+    const std::string remedy = room < least
+                                   ? fmt::format("remove {} parameters", least - room)
+                                   : fmt::format("set it to {:.4g} m or more",
+                                                 length / static_cast<double>(room - more) + 0.05);
     throw InputError(Problem{
         .file = study.file.string(),
         .key = "bank.spacing",
@@ -156,9 +198,16 @@ std::size_t KnotsOf(const Identification& study, double length) {
   return std::max(knots, least);
 }
 
-std::vector<TrackPoint> PointsOf(const Identification& study) {
+CenterPoints PointsOf(const Identification& study) {
   TRACKBED_CHECK(study.bank && !study.fit_scenarios.empty(), "a study {}", "without bank");
-  return study.bank->points.empty() ? TrackOfRecords(study) : study.bank->points;
+  return study.bank->center.points.empty() ? TrackOfRecords(study) : study.bank->center;
+}
+
+/// Returns the basis of a spline with the given knots: that of an open line has the knots of the
+/// line and of its mirror image.
+ClosedSplineBasis BasisOf(const BankedGround& ground, std::size_t knots) {
+  return ground.closed() ? ClosedSplineBasis(ground.length(), knots)
+                         : ClosedSplineBasis(2.0 * ground.length(), 2 * (knots - 1));
 }
 
 }  // namespace
@@ -167,14 +216,17 @@ bool IsBankParameter(const std::string& name) {
   return name.starts_with(kPrefix);
 }
 
-BankModel::BankModel(const Identification& study)
+BankModel::BankModel(const Identification& study) : BankModel(study, PointsOf(study)) {}
+
+BankModel::BankModel(const Identification& study, CenterPoints points)
     : options_(*study.bank),
-      ground_(PointsOf(study)),
-      basis_(ground_.track().length(), KnotsOf(study, ground_.track().length())) {}
+      ground_(std::move(points.points), points.closed),
+      knots_(KnotsOf(study, ground_.length(), ground_.closed())),
+      basis_(BasisOf(ground_, knots_)) {}
 
 std::vector<IdentifiedParameter> BankModel::Parameters() const {
   std::vector<IdentifiedParameter> parameters;
-  for (std::size_t i = 0; i < basis_.count(); ++i) {
+  for (std::size_t i = 0; i < knots_; ++i) {
     parameters.push_back({.name = fmt::format("{}{}]", kPrefix, i),
                           .from = -options_.largest,
                           .to = options_.largest,
@@ -185,14 +237,15 @@ std::vector<IdentifiedParameter> BankModel::Parameters() const {
 }
 
 BankedTrack BankModel::At(std::span<const double> parameters) const {
-  TRACKBED_CHECK(parameters.size() == basis_.count(), "{} values for {} knots", parameters.size(),
-                 basis_.count());
-  const Eigen::MatrixXd coefficients = Eigen::Map<const Eigen::VectorXd>(
-      parameters.data(), static_cast<Eigen::Index>(parameters.size()));
-  const Track& track = ground_.track();
-  BankedTrack banked{.points = track.points(), .banks = {}, .heights = {}};
+  TRACKBED_CHECK(parameters.size() == knots_, "{} values for {} knots", parameters.size(), knots_);
+  Eigen::MatrixXd coefficients(static_cast<Eigen::Index>(basis_.count()), 1);
+  for (std::size_t i = 0; i < basis_.count(); ++i) {
+    coefficients(static_cast<Eigen::Index>(i), 0) = parameters[i < knots_ ? i : basis_.count() - i];
+  }
+  BankedTrack banked{
+      .points = ground_.points(), .banks = {}, .heights = {}, .closed = ground_.closed()};
   for (std::size_t i = 0; i < banked.points.size(); ++i) {
-    banked.banks.push_back(Evaluate(basis_.At(track.StationOf(i), 0), coefficients, 0)[0]);
+    banked.banks.push_back(Evaluate(basis_.At(ground_.StationOf(i), 0), coefficients, 0)[0]);
     banked.heights.push_back(0.0);
   }
   return banked;

@@ -8,20 +8,22 @@
 
 #include "trackbed/recording/banked_track.h"
 #include "trackbed/scenario/identification.h"
+#include "trackbed/track/closed_spline.h"
 
 namespace trackbed {
 
 /// Returns whether a parameter of a study is the bank at a knot, and not a number of the car.
 bool IsBankParameter(const std::string& name);
 
-/// The bank of a study's track as a function of parameters: the coefficients of a closed spline
-/// over the station, one per knot.
+/// The bank of a study's track as a function of parameters: the coefficients of a spline over the
+/// station, one per knot. The spline of a closed track is closed. That of an open track is
+/// continued as an even function beyond both ends, so its slope is zero there.
 class BankModel {
  public:
-  /// Makes the track of the study: that of `bank.track`, or the first lap of the first fitted
-  /// record, as wide as all records drive. The study must have `bank`. Throws InputError if the
-  /// first record does not return to its start, if the track has more knots than the study has room
-  /// for, and in the same cases as BankedGround.
+  /// Makes the track of the study: that of `bank.track`, or the path of the first fitted record, as
+  /// wide as all records drive: its first lap if it returns to its start, else the whole open path.
+  /// The study must have `bank`. Throws InputError if a record leaves the path of an open road, if
+  /// the track has more knots than the study has room for, and in the same cases as BankedGround.
   explicit BankModel(const Identification& study);
 
   /// Returns the parameters, bank[0] at the start line first [rad]. Before the fit, they are
@@ -34,8 +36,11 @@ class BankModel {
   [[nodiscard]] std::shared_ptr<const Terrain> GroundAt(std::span<const double> parameters) const;
 
  private:
+  BankModel(const Identification& study, CenterPoints points);
+
   BankEstimation options_;
   BankedGround ground_;
+  std::size_t knots_;
   ClosedSplineBasis basis_;
 };
 

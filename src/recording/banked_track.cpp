@@ -12,13 +12,14 @@
 #include <system_error>
 #include <utility>
 
+#include "src/recording/ground_line.h"
+#include "trackbed/core/angle.h"
 #include "trackbed/core/csv_rows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/table.h"
-#include "trackbed/track/closed_spline.h"
 #include "trackbed/track/track_file.h"
 
-// Makes a terrain from a closed track with bank and grade. The node of the terrain at a point p has
+// Makes a terrain from a track with bank and grade. The node of the terrain at a point p has
 // a place (s, d) on each part of the track nearby: the samples of the center line within reach are
 // split into runs of consecutive samples, and the nearest sample of each run is refined by Newton's
 // method. The places do not depend on the bank, so they are computed once for many banks.
@@ -35,6 +36,8 @@ constexpr double kSlopeToBorder = 72.0;
 // Height by which the level border lies below the lowest point of the road [m].
 constexpr double kBorderDepth = 1.0;
 constexpr double kMaxSide = 4000.0;  // [m]
+// Column of a file that says whether its line is closed.
+constexpr const char* kClosedColumn = "closed";
 
 /// Falls from 1 at u = 0 to 0 at u = 1, with zero first and second derivative at both ends.
 double Fade(double u) {
@@ -42,30 +45,16 @@ double Fade(double u) {
   return v * v * v * (10.0 - v * (15.0 - 6.0 * v));
 }
 
-/// Returns a closed spline of bank slopes and heights through the points of the track.
-Eigen::MatrixXd SurfaceSpline(const Track& track, const ClosedSplineBasis& basis,
-                              const std::vector<double>& banks,
-                              const std::vector<double>& heights) {
-  const std::size_t count = track.points().size();
-  SplineSamples samples;
-  samples.values.resize(static_cast<Eigen::Index>(count), 2);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double before =
-        i == 0 ? track.StationOf(count - 1) - track.length() : track.StationOf(i - 1);
-    const double after = i + 1 == count ? track.length() : track.StationOf(i + 1);
-    samples.t.push_back(track.StationOf(i));
-    samples.weights.push_back(0.5 * (after - before));
-    samples.values.row(static_cast<Eigen::Index>(i)) << std::tan(banks[i]), heights[i];
-  }
-  return FitClosedSpline(basis, samples, track.smoothing());
-}
-
 }  // namespace
 
-BankedGround::BankedGround(std::vector<TrackPoint> points) : track_(std::move(points)) {
-  Vec2 low = track_.points().front().position;
+BankedGround::BankedGround(std::vector<TrackPoint> points, bool closed) {
+  if (const std::string problem = closed ? "" : OpenLineProblem(points); !problem.empty()) {
+    throw InputError(Problem{.message = problem});
+  }
+  line_ = std::make_shared<const GroundLine>(std::move(points), closed);
+  Vec2 low = line_->points().front().position;
   Vec2 high = low;
-  for (const TrackPoint& point : track_.points()) {
+  for (const TrackPoint& point : line_->points()) {
     low = low.cwiseMin(point.position);
     high = high.cwiseMax(point.position);
     reach_ = std::max({reach_, point.width_left, point.width_right});
@@ -81,12 +70,28 @@ BankedGround::BankedGround(std::vector<TrackPoint> points) : track_(std::move(po
   size_.columns =
       static_cast<int>(std::ceil((high.x() + kMargin - size_.low.x()) / Terrain::kBlock));
   size_.rows = static_cast<int>(std::ceil((high.y() + kMargin - size_.low.y()) / Terrain::kBlock));
-  const double parts = std::ceil(track_.length() / kSampleSpacing);
-  for (double i = 0.0; i < parts; i += 1.0) {
-    stations_.push_back(track_.length() * i / parts);
-    samples_.push_back(track_.At(stations_.back()));
+  const double parts = std::ceil(line_->length() / kSampleSpacing);
+  for (double i = 0.0; i < parts + (closed ? 0.0 : 1.0); i += 1.0) {
+    stations_.push_back(line_->length() * i / parts);
+    samples_.push_back(line_->At(stations_.back()));
   }
   FindNodes();
+}
+
+const std::vector<TrackPoint>& BankedGround::points() const {
+  return line_->points();
+}
+
+bool BankedGround::closed() const {
+  return line_->closed();
+}
+
+double BankedGround::length() const {
+  return line_->length();
+}
+
+double BankedGround::StationOf(std::size_t point) const {
+  return line_->StationOf(point);
 }
 
 void BankedGround::FindNodes() {
@@ -131,12 +136,13 @@ BankedGround::Node BankedGround::NodeAt(const Vec2& point,
       d = offset.dot(LeftNormal(ahead));
       fold = 1.0 - at.curvature * d;
       s += offset.dot(ahead) / std::max(fold, 0.3);
-      at = track_.At(s);
+      at = line_->At(s);
     }
-    const TrackEdges edges = track_.EdgesAt(s);
+    const TrackEdges edges = line_->EdgesAt(s);
     const double beside = std::max({0.0, d - edges.left, edges.right - d});
     // The road ends where 1 - kappa d falls from a half to a tenth.
-    const double share = Fade((0.5 - fold) / 0.4) * Fade((beside - kSurfaceMargin) / kBlendWidth);
+    const auto fade = [](double beyond) { return Fade((beyond - kSurfaceMargin) / kBlendWidth); };
+    const double share = Fade((0.5 - fold) / 0.4) * fade(beside) * fade(line_->BeyondEnds(s));
     if (share <= 0.0) {
       return;
     }
@@ -181,7 +187,8 @@ std::vector<std::size_t> BankedGround::NearestOfRuns(const Vec2& point,
       runs.back().square = square;
     }
   }
-  if (runs.size() > 1 && runs.front().first == 0 && runs.back().last + 1 == samples_.size()) {
+  if (line_->closed() && runs.size() > 1 && runs.front().first == 0 &&
+      runs.back().last + 1 == samples_.size()) {
     if (runs.back().square < runs.front().square) {
       runs.front() = runs.back();
     }
@@ -197,7 +204,7 @@ std::vector<std::size_t> BankedGround::NearestOfRuns(const Vec2& point,
 std::vector<double> BankedGround::Coarse(const std::vector<double>& heights, double base) const {
   // The mean height of the points, weighted by proximity; level at the border.
   constexpr std::size_t kMaxPoints = 500;
-  const std::vector<TrackPoint>& points = track_.points();
+  const std::vector<TrackPoint>& points = line_->points();
   const std::size_t stride = 1 + points.size() / kMaxPoints;
   std::vector<double> coarse;
   for (int row = 0; row < size_.CoarseRows(); ++row) {
@@ -222,16 +229,18 @@ std::vector<double> BankedGround::Coarse(const std::vector<double>& heights, dou
 
 std::shared_ptr<const Terrain> BankedGround::With(const std::vector<double>& banks,
                                                   const std::vector<double>& heights) const {
-  const std::size_t count = track_.points().size();
+  const std::size_t count = line_->points().size();
   TRACKBED_REQUIRE(banks.size() == count && heights.size() == count,
                    "BankedGround: {} banks, {} heights for {} points", banks.size(), heights.size(),
                    count);
-  const ClosedSplineBasis basis(track_.length(), count);
-  const Eigen::MatrixXd surface = SurfaceSpline(track_, basis, banks, heights);
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(count), 2);
   double steepest = 0.0;
-  for (const double bank : banks) {
-    steepest = std::max(steepest, std::abs(std::tan(bank)));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double slope = std::tan(banks[i]);
+    values.row(static_cast<Eigen::Index>(i)) << slope, heights[i];
+    steepest = std::max(steepest, std::abs(slope));
   }
+  const GroundSurface surface = line_->SurfaceThrough(values);
   Terrain::Size size = size_;
   size.base = *std::min_element(heights.begin(), heights.end()) - steepest * reach_ - kBorderDepth;
   auto terrain = std::make_shared<Terrain>(size, Coarse(heights, size.base));
@@ -240,7 +249,7 @@ std::shared_ptr<const Terrain> BankedGround::With(const std::vector<double>& ban
     terrain->Refine(block.column, block.row, [&](const Vec2& /*point*/, double coarse) {
       double z = 0.0;
       for (const Place& place : node->places) {
-        const Eigen::RowVectorXd at = Evaluate(basis.At(place.s, 0), surface, 0);
+        const Eigen::RowVectorXd at = surface.At(place.s);
         z += place.weight * (at[1] + place.d * at[0]);
       }
       const double share = (node++)->share;
@@ -251,11 +260,105 @@ std::shared_ptr<const Terrain> BankedGround::With(const std::vector<double>& ban
 }
 
 std::shared_ptr<const Terrain> MakeTerrain(const BankedTrack& track) {
-  return BankedGround(track.points).With(track.banks, track.heights);
+  return BankedGround(track.points, track.closed).With(track.banks, track.heights);
+}
+
+bool IsClosedLine(const std::vector<TrackPoint>& points) {
+  if (points.size() < Track::kMinPoints) {
+    return false;
+  }
+  constexpr double kLargestGap = 2.0;  // in distances of neighboring points
+  constexpr double kSameDirection = kPi / 6.0;
+  const auto chord = [&](std::size_t i) -> Vec2 {
+    return points[(i + 1) % points.size()].position - points[i].position;
+  };
+  const auto turn = [](const Vec2& from, const Vec2& to) {
+    return std::abs(std::atan2(Cross(from, to), from.dot(to)));
+  };
+  double longest = 0.0;
+  const std::size_t last = points.size() - 1;
+  for (std::size_t i = 0; i < last; ++i) {
+    longest = std::max(longest, chord(i).norm());
+  }
+  const double turns = turn(chord(0), chord(1)) + turn(chord(last - 2), chord(last - 1));
+  return chord(last).norm() <= kLargestGap * longest &&
+         turn(chord(last - 1), chord(0)) <= kSameDirection + turns;
+}
+
+std::string OpenLineProblem(const std::vector<TrackPoint>& points) {
+  if (points.size() < Track::kMinPoints || points.size() > Track::kMaxPoints) {
+    return fmt::format("the open line has {} points; must have {} to {}", points.size(),
+                       Track::kMinPoints, Track::kMaxPoints);
+  }
+  constexpr double kSharpest = 150.0 * kPi / 180.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Vec2 to = points[i].position - points[i - 1].position;
+    if (to.norm() <= 0.0) {
+      return fmt::format("the open line repeats its point {} at {:.6g}, {:.6g}", i,
+                         points[i].position.x(), points[i].position.y());
+    }
+    const Vec2 from = i > 1 ? Vec2(points[i - 1].position - points[i - 2].position) : to;
+    if (std::abs(std::atan2(Cross(from, to), from.dot(to))) > kSharpest) {
+      return fmt::format(
+          "the open line turns back at its point {}, {:.6g}, {:.6g}; must turn by "
+          "at most 150 degrees from point to point",
+          i, points[i - 1].position.x(), points[i - 1].position.y());
+    }
+  }
+  return "";
+}
+
+namespace {
+
+/// Reads the column `closed` of a file; nullopt if it has none.
+std::optional<bool> ReadClosed(const std::filesystem::path& file) {
+  std::optional<std::size_t> index;
+  std::optional<bool> closed;
+  ProblemList problems;
+  ReadCsvTable(
+      file, {.delimiter = kFindDelimiter}, problems,
+      [&](const std::vector<std::string>& names, int /*line*/) {
+        for (std::size_t i = 0; i < names.size(); ++i) {
+          index = boost::iequals(names[i], kClosedColumn) ? i : index;
+        }
+      },
+      [&](const std::vector<std::string>& cells, int line) {
+        if (!index || *index >= cells.size()) {
+          return;
+        }
+        const std::string& cell = cells[*index];
+        if (cell != "0" && cell != "1") {
+          problems.Add({file.string(), line, 0, kClosedColumn,
+                        fmt::format("'{}'; must be 1 if the line is closed, 0 if not", cell)});
+        }
+        closed = closed.value_or(true) && cell != "0";
+      });
+  problems.ThrowIfAny();
+  return closed;
+}
+
+}  // namespace
+
+CenterPoints ReadCenterPoints(const std::filesystem::path& file) {
+  constexpr double kLogSpacing = 0.5;    // [m]
+  constexpr double kLogHalfWidth = 5.0;  // [m]
+  TrackFilePoints read = ReadTrackPoints(file, kLogSpacing, kLogHalfWidth);
+  CenterPoints line{
+      .points = std::move(read.points), .closed = true, .lines = std::move(read.lines)};
+  const std::optional<bool> closed = ReadClosed(file);
+  line.closed = !read.is_log && closed.value_or(IsClosedLine(line.points));
+  if (line.closed) {
+    line.points = ReadTrackFile(file).track.points();
+  } else if (std::string problem = OpenLineProblem(line.points); !problem.empty()) {
+    throw InputError(Problem{.file = file.string(), .message = std::move(problem)});
+  }
+  return line;
 }
 
 BankedTrack ReadBankedTrack(const std::filesystem::path& file) {
-  BankedTrack track{.points = ReadTrackFile(file).track.points(), .banks = {}, .heights = {}};
+  CenterPoints line = ReadCenterPoints(file);
+  BankedTrack track{
+      .points = std::move(line.points), .banks = {}, .heights = {}, .closed = line.closed};
   constexpr double kMaxBank = 0.25 * std::numbers::pi;
   constexpr double kMaxHeight = 1e4;  // [m]
   struct Column {
@@ -269,7 +372,7 @@ BankedTrack ReadBankedTrack(const std::filesystem::path& file) {
   ProblemList problems;
   ReadCsvTable(
       file, {.delimiter = kFindDelimiter}, problems,
-      [&](const std::vector<std::string>& names, int line) {
+      [&](const std::vector<std::string>& names, int row) {
         for (Column& column : columns) {
           for (std::size_t i = 0; i < names.size(); ++i) {
             column.index = boost::iequals(names[i], column.name) ? i : column.index;
@@ -277,12 +380,16 @@ BankedTrack ReadBankedTrack(const std::filesystem::path& file) {
         }
         if (!columns[0].index && !columns[1].index) {
           problems.Add({.file = file.string(),
-                        .line = line,
+                        .line = row,
                         .message = "no column 'bank_rad' and no column 'z_m'; add the bank of the "
                                    "road at each point, positive if it rises to the left"});
         }
       },
-      [&](const std::vector<std::string>& cells, int line) {
+      [&](const std::vector<std::string>& cells, int row) {
+        // Rows without a point are those of a log, and a last row that repeats the first point.
+        if (track.banks.size() >= line.lines.size() || line.lines[track.banks.size()] != row) {
+          return;
+        }
         for (Column& column : columns) {
           double number = 0.0;
           if (column.index) {
@@ -291,7 +398,7 @@ BankedTrack ReadBankedTrack(const std::filesystem::path& file) {
                 std::from_chars(cell.data(), cell.data() + cell.size(), number);
             if (error != std::errc{} || end != cell.data() + cell.size() ||
                 !(std::abs(number) <= column.most)) {
-              problems.Add({file.string(), line, 0, column.name,
+              problems.Add({file.string(), row, 0, column.name,
                             fmt::format("'{}'; must be a number between {:.4g} and {:.4g}", cell,
                                         -column.most, column.most)});
               number = 0.0;
@@ -301,18 +408,25 @@ BankedTrack ReadBankedTrack(const std::filesystem::path& file) {
         }
       });
   problems.ThrowIfAny();
-  // ReadTrackFile drops a last row that repeats the first point.
-  track.banks.resize(track.points.size());
-  track.heights.resize(track.points.size());
+  TRACKBED_CHECK(track.banks.size() == track.points.size(), "{}: {} banks for {} points",
+                 file.string(), track.banks.size(), track.points.size());
   return track;
 }
 
 std::string BankedTrackCsv(const BankedTrack& track) {
-  Table table({"# x_m", "y_m", "w_tr_right_m", "w_tr_left_m", "bank_rad", "z_m"});
+  std::vector<std::string> names{"# x_m", "y_m", "w_tr_right_m", "w_tr_left_m", "bank_rad", "z_m"};
+  if (!track.closed) {
+    names.emplace_back(kClosedColumn);
+  }
+  Table table(names);
   for (std::size_t i = 0; i < track.points.size(); ++i) {
     const TrackPoint& point = track.points[i];
-    table.AddRow({point.position.x(), point.position.y(), point.width_right, point.width_left,
-                  track.banks[i], track.heights[i]});
+    std::vector<double> row{point.position.x(), point.position.y(), point.width_right,
+                            point.width_left,   track.banks[i],     track.heights[i]};
+    if (!track.closed) {
+      row.push_back(0.0);
+    }
+    table.AddRow(row);
   }
   return table.ToCsv();
 }

@@ -12,10 +12,10 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/recording/banked_track.h"
 #include "trackbed/scenario/input_files.h"
 #include "trackbed/sim/plant.h"
 #include "trackbed/sim/scene.h"
-#include "trackbed/track/track_file.h"
 
 namespace trackbed {
 namespace {
@@ -147,7 +147,7 @@ void ReadBank(Identification& study, const std::vector<fs::path>& assets, const 
     return;
   }
   try {
-    study.bank->points = ReadTrackFile(folder / *study.bank->track).track.points();
+    study.bank->center = ReadCenterPoints(folder / *study.bank->track);
   } catch (const RunError& error) {
     add_error("bank.track", error.what());
   }

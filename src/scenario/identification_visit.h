@@ -42,9 +42,10 @@ inline void Visit(KeyVisitor& a, ResidualDeviations& residuals) {
 }
 
 inline void Visit(KeyVisitor& a, BankEstimation& bank) {
-  a.Field({"track", "", "track file; default: the first lap of the first fitted record"},
-          bank.track);
-  a.Field({"spacing", "m", "distance of the knots of the bank; default: an eighth of a lap"},
+  a.Field(
+      {"track", "", "track file; default: the path of the first fitted record, or its first lap"},
+      bank.track);
+  a.Field({"spacing", "m", "distance of the knots of the bank; default: an eighth of its length"},
           bank.spacing, kPositive);
   a.Field({"deviation", "rad", "standard deviation of the bank before the fit, about 0"},
           bank.deviation, Need::kOptional, kPositive);
@@ -81,9 +82,9 @@ inline void Visit(KeyVisitor& a, Identification& study) {
   a.Field({"steering_offset", "",
            "also estimate a constant steering offset, unless it is one of the parameters"},
           study.steering_offset, Need::kOptional);
-  a.Section(
-      {"bank", "", "also estimate the bank of a closed track that all records were driven on"},
-      study.bank);
+  a.Section({"bank", "",
+             "also estimate the bank of a track or an open road that all records were driven on"},
+            study.bank);
   a.Field({"starts", "", "the search begins so often: first at `start`, then at random points"},
           study.starts, Need::kOptional, Range{.min = 1.0, .max = 1000.0});
   a.Field({"evaluations", "", "of the cost, about, from each start: then the search ends"},

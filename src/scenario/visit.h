@@ -187,7 +187,7 @@ inline void Visit(KeyVisitor& a, RecordSpec& record) {
   a.Field({"from", "s", "what is before is left out; default: the map's"}, record.from,
           kNonNegative);
   a.Field({"to", "s", "what is after is left out; default: the map's"}, record.to, kPositive);
-  a.Field({"ground", "", "closed track with its bank, a CSV file, whose surface is the ground"},
+  a.Field({"ground", "", "banked track or open road, a CSV file, whose surface is the ground"},
           record.ground);
   static const EnumNames<ReplaySteering> steering{{ReplaySteering::kCommand, "command"},
                                                   {ReplaySteering::kMeasured, "measured"}};

@@ -253,6 +253,14 @@ TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& r
   return {std::move(track), std::move(rows.notes)};
 }
 
+TrackFilePoints ReadTrackPoints(const std::filesystem::path& file, double log_spacing,
+                                double log_half_width) {
+  CheckSize(file);
+  const TrackReading reading;
+  TrackRows rows(file, reading, LogReading{log_spacing, log_half_width});
+  return {std::move(rows.points), std::move(rows.lines), rows.is_log()};
+}
+
 Track ReadTrack(const std::filesystem::path& file, std::optional<double> smoothing) {
   return ReadTrackFile(file, {.smoothing = smoothing}).track;
 }

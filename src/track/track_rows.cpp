@@ -38,8 +38,9 @@ const std::array<std::vector<const char*>, kTrackQuantities>& UsualNames() {
 
 }  // namespace
 
-TrackRows::TrackRows(const std::filesystem::path& file, const TrackReading& reading)
-    : name_(file.string()), reading_(reading) {
+TrackRows::TrackRows(const std::filesystem::path& file, const TrackReading& reading,
+                     std::optional<LogReading> log)
+    : name_(file.string()), reading_(reading), log_(log) {
   ReadCsvTable(
       file, {.delimiter = kFindDelimiter}, problems,
       [&](const std::vector<std::string>& names, int line) { TakeNames(names, line); },
@@ -87,7 +88,7 @@ void TrackRows::TakeNames(const std::vector<std::string>& names, int line) {
     const Quantity missing = columns_[kRight] ? kLeft : kRight;
     add(fmt::format("no column '{}', but '{}'", UsualNames()[missing].front(),
                     names[*columns_[missing == kLeft ? kRight : kLeft]]));
-  } else if (!has_widths && !reading_.width) {
+  } else if (!has_widths && !reading_.width && !log_) {
     add("no columns of widths, 'w_tr_right_m' and 'w_tr_left_m'; add them, or give the width of "
         "the track by mission.track.width");
   } else if (has_widths && reading_.width) {
@@ -98,6 +99,9 @@ void TrackRows::TakeNames(const std::vector<std::string>& names, int line) {
   }
   if (has_sides) {
     columns_[kWidth].reset();
+  }
+  if (has_widths) {
+    log_.reset();
   }
   if (!others.empty()) {
     notes.push_back("columns taken by their names: " + others);
@@ -138,7 +142,13 @@ void TrackRows::TakeRow(const std::vector<std::string>& cells, int line) {
   if (!valid) {
     return;
   }
-  if (!columns_[kRight]) {
+  if (log_) {
+    const Vec2 at(numbers[kX], numbers[kY]);
+    if (!points.empty() && (at - points.back().position).norm() < log_->spacing) {
+      return;
+    }
+    numbers[kRight] = numbers[kLeft] = log_->half_width;
+  } else if (!columns_[kRight]) {
     const double width = columns_[kWidth] ? numbers[kWidth] : *reading_.width;
     numbers[kRight] = 0.5 * width;
     numbers[kLeft] = 0.5 * width;

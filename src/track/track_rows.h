@@ -17,12 +17,22 @@ namespace trackbed {
 inline constexpr std::size_t kTrackQuantities = 5;
 using TrackNumbers = std::array<double, kTrackQuantities>;
 
+/// How to read a file without columns of widths as the log of a drive.
+struct LogReading {
+  double spacing = 0.0;     // Distance between points; rows in between are skipped [m].
+  double half_width = 0.0;  // Width of the road to either side [m].
+};
+
 /// Rows of a track file.
 class TrackRows {
  public:
   /// Reads the rows of a file. Throws InputError if a row or the header has a problem. Drops the
-  /// first point if the file repeats it at its end.
-  TrackRows(const std::filesystem::path& file, const TrackReading& reading);
+  /// first point if the file repeats it at its end. With `log`, the file needs no widths.
+  TrackRows(const std::filesystem::path& file, const TrackReading& reading,
+            std::optional<LogReading> log = {});
+
+  /// Returns whether the file was read as the log of a drive.
+  [[nodiscard]] bool is_log() const { return log_.has_value(); }
 
   /// Adds a problem of a point.
   void Add(std::size_t point, std::string key, std::string message) {
@@ -43,6 +53,7 @@ class TrackRows {
 
   std::string name_;
   const TrackReading& reading_;
+  std::optional<LogReading> log_;  // Reset if the file has widths.
   std::vector<std::string> names_;
   std::array<std::optional<std::size_t>, kTrackQuantities> columns_;
   bool is_broken_ = false;

@@ -1,5 +1,6 @@
 #include "trackbed/recording/banked_track.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -142,6 +143,117 @@ TEST(BankedTrack, NamesWhatIsWrongWithAFile) {
               HasSubstr("degrees.csv:2: bank_rad: '9'; must be a number between -0.7854 and"));
   EXPECT_THAT(error("text.csv", kHeader, "left"), HasSubstr("text.csv:2: bank_rad: 'left'; must"));
   EXPECT_THAT(error("nan.csv", kHeader, "nan"), HasSubstr("nan.csv:2: bank_rad: 'nan'; must"));
+}
+
+/// Returns the points of an arc with a radius of 60 m from 0 to 2 rad, about the origin.
+std::vector<TrackPoint> ArcPoints(double radius, int count) {
+  std::vector<TrackPoint> points;
+  for (int i = 0; i < count; ++i) {
+    points.push_back({radius * Direction(2.0 * i / (count - 1)), 5.0, 4.0});
+  }
+  return points;
+}
+
+TEST(OpenRoad, IsAConeOnAnArcThatEnds) {
+  constexpr double kRadius = 60.0;
+  constexpr double kBank = -0.2;
+  constexpr double kGrade = 0.05;
+  BankedTrack road{ArcPoints(kRadius, 81), Same(kBank, 81), {}};
+  road.closed = IsClosedLine(road.points);
+  ASSERT_FALSE(road.closed);
+  for (std::size_t i = 0; i < road.points.size(); ++i) {
+    road.heights.push_back(kGrade * kRadius * 2.0 * static_cast<double>(i) / 80.0);
+  }
+  const auto terrain = MakeTerrain(road);
+  for (double angle = 0.0; angle <= 2.0; angle += 0.05) {
+    for (const double radius : {57.0, 60.0, 64.0}) {
+      // The spline has no curvature at its ends: it leaves the arc by the wavelength of its
+      // smoothing, four times 1.5 m, squared over 8 times the radius, at most 0.08 m. On the bank,
+      // this is 15 mm.
+      const double expected = kGrade * kRadius * angle + (kRadius - radius) * std::tan(kBank);
+      EXPECT_NEAR(terrain->At(radius * Direction(angle)).height, expected, Tolerance(0.015))
+          << angle << ", " << radius;
+    }
+  }
+  // A meter beyond its end, the road continues with the bank and the grade of the end.
+  const Vec2 ahead = kRadius * Direction(2.0) + 1.0 * Direction(2.0 + 0.5 * kPi);
+  EXPECT_NEAR(terrain->At(ahead).height, kGrade * (2.0 * kRadius + 1.0), Tolerance(0.015));
+}
+
+TEST(OpenRoad, IsTheLogOfADrive) {
+  // Rows of a log at 100 Hz, with a stop: points are 0.5 m apart, and there are no widths.
+  TempFolder folder;
+  std::string log = "t,x,y,bank_rad,z_m\n";
+  double x = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    x += i > 1000 && i < 1500 ? 0.0 : 0.04;
+    log +=
+        fmt::format("{},{},{},{},{}\n", 0.01 * i, x, 3.0 * std::sin(0.05 * x), 0.002 * x, 0.03 * x);
+  }
+  const BankedTrack road = ReadBankedTrack(folder.Write("drive.csv", log));
+  EXPECT_FALSE(road.closed);
+  ASSERT_GT(road.points.size(), 100U);
+  for (std::size_t i = 0; i < road.points.size(); ++i) {
+    const Vec2& at = road.points[i].position;
+    EXPECT_NEAR(road.banks[i], 0.002 * at.x(), Tolerance(1e-9));
+    EXPECT_NEAR(road.heights[i], 0.03 * at.x(), Tolerance(1e-9));
+    EXPECT_EQ(road.points[i].width_left, 5.0);
+    if (i > 0) {
+      // Less than a row of 0.04 sqrt(1 + 0.15^2) m beyond the spacing.
+      EXPECT_NEAR((at - road.points[i - 1].position).norm(), 0.52, Tolerance(0.0205));
+    }
+  }
+  // The copy of a run folder is open, too, even if the ends of its line meet.
+  BankedTrack ring{RingPoints(40.0, 60, 5.0, 4.0), Same(0.1, 60), Same(0.0, 60), false};
+  EXPECT_TRUE(IsClosedLine(ring.points));
+  EXPECT_FALSE(ReadBankedTrack(folder.Write("bank.csv", BankedTrackCsv(ring))).closed);
+}
+
+TEST(OpenRoad, IsNotClosedWithoutItsEnd) {
+  // A ring is closed; without an eighth of its points, or with a corner at its end, it is not.
+  std::vector<TrackPoint> ring = RingPoints(40.0, 80, 5.0, 4.0);
+  EXPECT_TRUE(IsClosedLine(ring));
+  ring.resize(70);
+  EXPECT_FALSE(IsClosedLine(ring));
+  std::vector<TrackPoint> corner;
+  for (int i = 0; i < 40; ++i) {
+    corner.push_back({Vec2(i, 0.0), 2.0, 2.0});
+  }
+  for (int i = 1; i < 40; ++i) {
+    const double angle = kPi * i / 39.0;
+    corner.push_back(
+        {Vec2(39.0 - 19.5 * (1.0 - std::cos(angle)), 19.5 * std::sin(angle)), 2.0, 2.0});
+  }
+  // The gap is small and the last chord points down, at a right angle to the first one.
+  corner.pop_back();
+  EXPECT_FALSE(IsClosedLine(corner));
+}
+
+TEST(OpenRoad, NamesWhatIsWrong) {
+  TempFolder folder;
+  const auto error_of = [&](const std::string& text) {
+    try {
+      static_cast<void>(ReadBankedTrack(folder.Write("road.csv", text)));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  std::string few = "x,y,bank_rad\n";
+  for (int i = 0; i < 5; ++i) {
+    few += fmt::format("{},0,0.1\n", 2 * i);
+  }
+  EXPECT_THAT(error_of(few), HasSubstr("the open line has 5 points; must have 8 to 20000"));
+  std::string back = "x,y,bank_rad\n";
+  for (int i = 0; i < 20; ++i) {
+    back += fmt::format("{},0,0.1\n", i < 15 ? i : 28 - i);
+  }
+  EXPECT_THAT(error_of(back), HasSubstr("turns back at its point 15, 14, 0"));
+  std::string unclear = "x,y,bank_rad,closed\n";
+  for (int i = 0; i < 20; ++i) {
+    unclear += fmt::format("{},0,0.1,{}\n", i, i == 7 ? "no" : "0");
+  }
+  EXPECT_THAT(error_of(unclear), HasSubstr("road.csv:9: closed: 'no'; must be 1 if the line is"));
 }
 
 }  // namespace

@@ -9,7 +9,8 @@
 #include "trackbed/track/track.h"
 #include "trackbed/world/terrain.h"
 
-/// The ground along a closed track with bank and grade, on which recorded drives are replayed.
+/// The ground along a closed or open track with bank and grade, on which recorded drives are
+/// replayed.
 ///
 /// Symbols: s is the station along the track's center line [m], d the offset from it, positive to
 /// the left [m], beta(s) the bank, positive if the road rises to the left [rad], and z(s) the
@@ -20,7 +21,19 @@ struct BankedTrack {
   std::vector<TrackPoint> points;  ///< Center line and widths; Track::kMinPoints or more.
   std::vector<double> banks;       ///< Bank at each point [rad], between -pi/4 and pi/4.
   std::vector<double> heights;     ///< Height at each point [m].
+  bool closed = true;              ///< Whether the last point is followed by the first one.
 };
+
+/// Returns whether points are a closed line: the gap between the last and the first point is at
+/// most twice the largest distance between neighboring points, and the directions of the first and
+/// the last chord differ by at most 30 degrees more than the line turns at its second and its last
+/// but one point. Files of tracks do not say whether they are closed.
+bool IsClosedLine(const std::vector<TrackPoint>& points);
+
+/// Returns why points cannot be an open line, for people; empty if they can.
+std::string OpenLineProblem(const std::vector<TrackPoint>& points);
+
+class GroundLine;
 
 /// Makes terrains along one center line, for any banks.
 ///
@@ -28,14 +41,20 @@ struct BankedTrack {
 /// interpolated from points every 0.5 m. Beyond, it blends into smooth ground within 8 m. Bank and
 /// height are smoothed as the center line is (Track). Where parts of the track are close to each
 /// other, each part keeps its height on the road, and the ground in between is their mean, weighted
-/// by proximity. On the inside of bends, the road ends at 0.9 of the bend's radius.
+/// by proximity. On the inside of bends, the road ends at 0.9 of the bend's radius. An open road
+/// continues straight beyond its ends, with the slope and the bank that it has there, and blends
+/// into smooth ground between 1.5 m and 9.5 m from them.
 class BankedGround {
  public:
-  /// Throws InputError if the track spreads over more than 4 km along x or y. Cost: 0.3 s per
-  /// kilometer.
-  explicit BankedGround(std::vector<TrackPoint> points);
+  /// Throws InputError if the track spreads over more than 4 km along x or y, or if it is open and
+  /// has an OpenLineProblem. Cost: 0.3 s per kilometer.
+  explicit BankedGround(std::vector<TrackPoint> points, bool closed = true);
 
-  [[nodiscard]] const Track& track() const { return track_; }
+  [[nodiscard]] const std::vector<TrackPoint>& points() const;
+  [[nodiscard]] bool closed() const;
+  /// Returns the length of the center line [m].
+  [[nodiscard]] double length() const;
+  [[nodiscard]] double StationOf(std::size_t point) const;
 
   /// Returns the terrain for the bank [rad] and the height [m] at each point of the center line.
   /// Throws PreconditionError unless there is a number for each point. Cost: 0.1 s per kilometer.
@@ -66,7 +85,7 @@ class BankedGround {
                                                        const std::vector<std::size_t>& near) const;
   [[nodiscard]] std::vector<double> Coarse(const std::vector<double>& heights, double base) const;
 
-  Track track_;
+  std::shared_ptr<const GroundLine> line_;
   Terrain::Size size_;
   std::vector<PathPoint> samples_;  // of the center line
   std::vector<double> stations_;    // of the samples
@@ -77,9 +96,23 @@ class BankedGround {
 /// Returns the terrain of a banked track. Throws the same errors as BankedGround.
 std::shared_ptr<const Terrain> MakeTerrain(const BankedTrack& track);
 
-/// Reads a track file (track/track_file.h) with the column `bank_rad`, `z_m`, or both; a missing
-/// column counts as 0. Throws InputError in the same cases as ReadTrackFile, and if both columns
-/// are missing or a number is out of range.
+/// The points of a center line, and whether it is closed.
+struct CenterPoints {
+  std::vector<TrackPoint> points;
+  bool closed = true;
+  std::vector<int> lines{};  ///< Line of each point in its file.
+};
+
+/// Reads the points of a track file (track/track_file.h), which may be open: if it has a column
+/// `closed` of zeros, or no such column and not the shape of a closed line (IsClosedLine). A file
+/// without columns of widths is the log of a drive: its path, with points 0.5 m or more apart, is
+/// the middle of an open road of 10 m. Throws InputError in the same cases as ReadTrackFile, and if
+/// the line is open and has an OpenLineProblem.
+CenterPoints ReadCenterPoints(const std::filesystem::path& file);
+
+/// Reads a track file with the column `bank_rad`, `z_m`, or both; a missing column counts as 0.
+/// Throws InputError in the same cases as ReadCenterPoints, and if both columns are missing or a
+/// number is out of range.
 BankedTrack ReadBankedTrack(const std::filesystem::path& file);
 
 /// The file name of a banked track in a run folder and in the folder of an identification.

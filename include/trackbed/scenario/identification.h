@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/recording/banked_track.h"
 #include "trackbed/scenario/scenario.h"
-#include "trackbed/track/track.h"
 
 /// The input of `trackbed identify`: the parameters of a car that are estimated, and the recorded
 /// drives from which they are estimated.
@@ -53,12 +53,12 @@ enum class RobustLoss {
   kSoftL1,   ///< Loss s^2 (sqrt(1 + (r/s)^2) - 1) with s = `loss_scale`.
 };
 
-/// The bank of a closed track on which all records were driven, as a function of the station: a
-/// closed spline (track/closed_spline.h).
+/// The bank of a track or an open road on which all records were driven, as a function of the
+/// station: a spline (track/closed_spline.h).
 struct BankEstimation {
-  /// File of the track; nullopt: the middle of the first lap of the first fitted record.
+  /// File of the track; nullopt: the path of the first fitted record, or its first lap.
   std::optional<std::string> track{};
-  /// Distance between two knots of the bank along the track [m]; nullopt: an eighth of a lap.
+  /// Distance between two knots of the bank along the track [m]; nullopt: an eighth of its length.
   std::optional<double> spacing{};
   /// Standard deviation of the bank at each knot before the fit, the deviation of a normal
   /// distribution about 0 [rad], > 0.
@@ -66,7 +66,7 @@ struct BankEstimation {
   double largest = 0.5;  ///< Bound of the magnitude of the bank at each knot [rad], > 0.
 
   // Center line of `track` with its widths; not a key of the study.
-  std::vector<TrackPoint> points{};
+  CenterPoints center{};
 };
 
 struct Identification {

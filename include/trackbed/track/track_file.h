@@ -44,6 +44,20 @@ struct TrackFile {
 /// narrowed to less than half. Throws RunError if the file cannot be read.
 TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& reading = {});
 
+/// The points of a track file, each with its line in the file.
+struct TrackFilePoints {
+  std::vector<TrackPoint> points;
+  std::vector<int> lines;
+  bool is_log = false;  ///< Whether the file has no columns of widths.
+};
+
+/// Reads the points of a track file whose line may be open. Throws the same errors as ReadTrackFile
+/// about single rows and the size of the file, but does not check the shape of the line. Without
+/// columns of widths, the file may be the log of a drive: rows nearer than `log_spacing` [m] to the
+/// last point are skipped, and the road is 2 `log_half_width` wide [m].
+TrackFilePoints ReadTrackPoints(const std::filesystem::path& file, double log_spacing,
+                                double log_half_width);
+
 /// Reads a track like ReadTrackFile, without the notes.
 Track ReadTrack(const std::filesystem::path& file, std::optional<double> smoothing = {});
 

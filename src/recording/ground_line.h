@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "trackbed/path/path.h"
+#include "trackbed/track/closed_spline.h"
+#include "trackbed/track/track.h"
+
+// The center line of a banked road, which is closed or open.
+namespace trackbed {
+
+/// A smoothing spline through samples of an open curve.
+///
+/// The spline is a closed one (closed_spline.h): the samples less the straight line from the first
+/// to the last one are continued as an odd function beyond both ends, which makes them periodic.
+/// The curve therefore passes through its first and last sample, and its second derivative is zero
+/// there. Beyond its ends, the curve continues straight.
+class OpenSpline {
+ public:
+  /// `t` are the increasing parameters of the samples, the first 0; a row of `values` is a sample.
+  OpenSpline(const std::vector<double>& t, const Eigen::MatrixXd& values, double wavelength);
+
+  /// Returns the curve or its derivative of `order` 0 to 2 at any parameter.
+  [[nodiscard]] Eigen::RowVectorXd At(double t, std::size_t order) const;
+
+ private:
+  double length_;
+  Eigen::RowVectorXd start_;
+  Eigen::RowVectorXd slope_;
+  ClosedSplineBasis basis_;
+  Eigen::MatrixXd coefficients_;
+};
+
+/// Bank and height along a center line.
+class GroundSurface {
+ public:
+  GroundSurface(std::vector<double> stations, double length, bool closed, double wavelength,
+                const Eigen::MatrixXd& values);
+
+  /// Returns the numbers of `values` at a station.
+  [[nodiscard]] Eigen::RowVectorXd At(double s) const;
+
+ private:
+  std::optional<ClosedSplineBasis> basis_;
+  Eigen::MatrixXd coefficients_;
+  std::optional<OpenSpline> open_;
+};
+
+class GroundLine {
+ public:
+  /// An open line needs Track::kMinPoints or more points that do not repeat.
+  GroundLine(std::vector<TrackPoint> points, bool closed);
+
+  [[nodiscard]] const std::vector<TrackPoint>& points() const { return points_; }
+  [[nodiscard]] bool closed() const { return track_.has_value(); }
+  [[nodiscard]] double length() const { return length_; }
+  /// Returns the station of a point. The station of an open line is the length of its chords.
+  [[nodiscard]] double StationOf(std::size_t point) const;
+  /// Returns the point at any station. A closed line repeats; an open line continues straight.
+  [[nodiscard]] PathPoint At(double s) const;
+  [[nodiscard]] TrackEdges EdgesAt(double s) const;
+  /// Returns the distance of a station beyond the ends of an open line [m], or 0.
+  [[nodiscard]] double BeyondEnds(double s) const;
+  /// Returns a smooth surface with the given values at the points: one row for each point.
+  [[nodiscard]] GroundSurface SurfaceThrough(const Eigen::MatrixXd& values) const;
+
+ private:
+  std::vector<TrackPoint> points_;
+  std::optional<Track> track_;
+  std::vector<double> stations_;
+  std::optional<OpenSpline> open_;
+  double length_ = 0.0;
+};
+
+}  // namespace trackbed
