@@ -17,7 +17,9 @@
 // the slope or the sign of the fit reveals a contradiction. A wrong unit or sign is recognized if
 // the corrected column agrees with the motion, or if the fitted factor is 3.6, 180/pi or -1. The
 // size of an error is measured by the upper quartile, because the upper quartile is robust against
-// outliers.
+// outliers. Noise of the positions makes the derivatives over short times useless: millimeters are
+// radians per second at 100 rows per second. A contradiction between rates must therefore exist for
+// polynomials of all widths, from that of the map to 0.8 s.
 namespace trackbed {
 namespace {
 
@@ -41,9 +43,11 @@ double UpperQuartile(std::vector<double> values) {
 }
 
 /// Returns moments of the drive at which the measured point moves with at least a fifth of its RMS
-/// speed. Before the computation, the logged yaw is multiplied by `scale`. Moments() returns fewer
-/// than 8000 moments, evenly distributed over the drive.
-std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale) {
+/// speed. Before the computation, the logged yaw is multiplied by `scale`. The polynomials reach
+/// `half_width` [s] to both sides. Moments() returns fewer than 8000 moments, evenly distributed
+/// over the drive.
+std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale,
+                            double half_width) {
   constexpr std::size_t kMaxMoments = 4000;
   std::vector<double> yaw = rows.yaw;
   for (double& angle : yaw) {
@@ -54,7 +58,7 @@ std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale
   for (std::size_t i = 0; i < yaw.size(); ++i) {
     values.row(static_cast<Eigen::Index>(i)) << rows.position[i].x(), rows.position[i].y(), yaw[i];
   }
-  const LocalPolynomial fits(rows.time, values, map.resample.half_width, map.resample.degree);
+  const LocalPolynomial fits(rows.time, values, half_width, map.resample.degree);
   std::vector<Moment> all;
   const std::size_t step = std::max<std::size_t>(1, rows.time.size() / kMaxMoments);
   double squares = 0.0;
@@ -94,6 +98,38 @@ std::optional<double> Misfit(const std::vector<Moment>& moments) {
   return UpperQuartile(apart) / UpperQuartile(course);
 }
 
+/// Returns the half-widths of the polynomials with which rates are compared [s].
+std::vector<double> HalfWidths(const LogMap& map) {
+  constexpr double kWidest = 0.8;  // [s]
+  std::vector<double> widths{map.resample.half_width};
+  while (2.0 * widths.back() <= kWidest * (1.0 + 1e-9)) {
+    widths.push_back(2.0 * widths.back());
+  }
+  return widths;
+}
+
+/// Returns the least misfit over all widths until one is below `enough`; none if the vehicle hardly
+/// turns. If only noise turns the course, the misfit of narrow polynomials is near 1, because the
+/// course turns much more than the yaw.
+std::optional<double> LeastMisfit(const LogRows& rows, const LogMap& map, double scale,
+                                  double enough) {
+  constexpr double kLikeNoise = 0.3;  // largest distance of such a misfit from 1
+  std::optional<double> least;
+  for (const double width : HalfWidths(map)) {
+    const std::optional<double> misfit = Misfit(Moments(rows, map, scale, width));
+    if (!misfit && (!least || std::abs(*least - 1.0) < kLikeNoise)) {
+      return std::nullopt;
+    }
+    if (misfit) {
+      least = std::min(*misfit, least.value_or(*misfit));
+    }
+    if (*least < enough) {
+      break;
+    }
+  }
+  return least;
+}
+
 using Found = std::vector<std::pair<std::string, std::string>>;
 
 const char* YawKey(const LogMap& map) {
@@ -103,7 +139,11 @@ const char* YawKey(const LogMap& map) {
 void CheckYawRateOfYaw(const LogRows& rows, const LogMap& map, Found& found) {
   constexpr double kContradictionLimit = 0.7;
   constexpr double kAgreementLimit = 0.35;
-  const std::optional<double> misfit = Misfit(Moments(rows, map, 1.0));
+  const auto [least, most] = std::minmax_element(rows.yaw.begin(), rows.yaw.end());
+  const bool is_constant = *most - *least < 1e-6;
+  const std::optional<double> misfit =
+      is_constant ? Misfit(Moments(rows, map, 1.0, map.resample.half_width))
+                  : LeastMisfit(rows, map, 1.0, kContradictionLimit);
   if (!misfit || *misfit < kContradictionLimit) {
     return;
   }
@@ -120,15 +160,15 @@ void CheckYawRateOfYaw(const LogRows& rows, const LogMap& map, Found& found) {
                   "the car turns the other way than its path does: look at frame, and at the order "
                   "of position.x and position.y, or set scale: -1"}};
   for (const Explanation& explanation : explanations) {
-    if (Misfit(Moments(rows, map, explanation.scale)).value_or(1.0) < kAgreementLimit) {
+    if (LeastMisfit(rows, map, explanation.scale, kAgreementLimit).value_or(1.0) <
+        kAgreementLimit) {
       found.emplace_back(YawKey(map), explanation.text);
       return;
     }
   }
-  const auto [least, most] = std::minmax_element(rows.yaw.begin(), rows.yaw.end());
   found.emplace_back(
       YawKey(map),
-      *most - *least < 1e-6
+      is_constant
           ? "the yaw is constant while the path turns"
           : fmt::format(
                 "the yaw does not turn as the path does: yaw rates differ from those of the "
@@ -219,18 +259,22 @@ void CheckSpeed(const LogRows& rows, const std::vector<Moment>& moments, Found& 
                 times));
 }
 
-void CheckYawRate(const LogRows& rows, const std::vector<Moment>& moments, Found& found) {
-  std::vector<double> rates;
-  for (const Moment& moment : moments) {
-    rates.push_back(std::abs(moment.yaw_rate));
-  }
-  if (rates.size() < 20 || UpperQuartile(rates) < kTurns) {
-    return;
-  }
-  const Ratio ratio = RatioTo(rows.signals[kYawRateSignal], moments,
-                              [](const Moment& moment) { return moment.yaw_rate; });
-  if (ratio.count < 20 || (ratio.slope > 0.67 && ratio.slope < 1.5)) {
-    return;
+void CheckYawRate(const LogRows& rows, const LogMap& map, Found& found) {
+  Ratio ratio;
+  for (const double width : HalfWidths(map)) {
+    const std::vector<Moment> moments = Moments(rows, map, 1.0, width);
+    std::vector<double> rates;
+    for (const Moment& moment : moments) {
+      rates.push_back(std::abs(moment.yaw_rate));
+    }
+    if (rates.size() < 20 || UpperQuartile(rates) < kTurns) {
+      return;
+    }
+    ratio = RatioTo(rows.signals[kYawRateSignal], moments,
+                    [](const Moment& moment) { return moment.yaw_rate; });
+    if (ratio.count < 20 || (ratio.slope > 0.67 && ratio.slope < 1.5)) {
+      return;
+    }
   }
   const double times = std::abs(ratio.slope);
   std::string text =
@@ -247,18 +291,23 @@ void CheckYawRate(const LogRows& rows, const std::vector<Moment>& moments, Found
   found.emplace_back("yaw_rate", text);
 }
 
-void CheckSteering(const LogRows& rows, const std::vector<Moment>& moments, LogSignal signal,
-                   Found& found) {
-  // Compare tan(delta) of the steering angle delta with the curvature of the path, because
-  // tan(delta) is proportional to the curvature, whatever the wheelbase is.
-  const Ratio ratio = RatioTo(rows.signals[signal], moments, [](const Moment& moment) {
-    return moment.course_rate / moment.speed;
-  });
-  constexpr double kMaxCorrelation = -0.7;
-  if (ratio.count >= 20 && ratio.correlation < kMaxCorrelation) {
-    found.emplace_back(
-        kLogSignalKeys[signal],
-        "the car turns the other way than it steers: set scale: -1, or look at frame");
+void CheckSteering(const LogRows& rows, const LogMap& map, LogSignal signal, Found& found) {
+  constexpr double kCertain = 0.7;  // smallest magnitude of a correlation that decides
+  for (const double width : HalfWidths(map)) {
+    // Compare tan(delta) of the steering angle delta with the curvature of the path, because
+    // tan(delta) is proportional to the curvature, whatever the wheelbase is.
+    const Ratio ratio =
+        RatioTo(rows.signals[signal], Moments(rows, map, 1.0, width),
+                [](const Moment& moment) { return moment.course_rate / moment.speed; });
+    if (ratio.count < 20 || ratio.correlation > kCertain) {
+      return;
+    }
+    if (ratio.correlation < -kCertain) {
+      found.emplace_back(
+          kLogSignalKeys[signal],
+          "the car turns the other way than it steers: set scale: -1, or look at frame");
+      return;
+    }
   }
 }
 
@@ -266,7 +315,7 @@ void CheckSteering(const LogRows& rows, const std::vector<Moment>& moments, LogS
 
 Found FindContradictions(const LogRows& rows, const LogMap& map) {
   Found found;
-  const std::vector<Moment> moments = Moments(rows, map, 1.0);
+  const std::vector<Moment> moments = Moments(rows, map, 1.0, map.resample.half_width);
   if (!map.heading_from_motion) {
     CheckYawRateOfYaw(rows, map, found);
   }
@@ -279,11 +328,11 @@ Found FindContradictions(const LogRows& rows, const LogMap& map) {
   // Check the logged yaw rate only if no problem was found so far, because the check uses the
   // logged yaw.
   if (rows.has[kYawRateSignal] && found.empty()) {
-    CheckYawRate(rows, moments, found);
+    CheckYawRate(rows, map, found);
   }
   for (const LogSignal signal : {kSteeringSignal, kSteeringCommandSignal}) {
     if (rows.has[signal]) {
-      CheckSteering(rows, moments, signal, found);
+      CheckSteering(rows, map, signal, found);
     }
   }
   return found;

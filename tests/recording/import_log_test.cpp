@@ -463,6 +463,45 @@ TEST_P(Contradiction, IsNoticed) {
   }
 }
 
+/// A drive at 1.5 m/s and 100 rows per second whose curvature varies by `bend` [1/m], with noise of
+/// 5 mm and 5 mrad; the logged yaw is `factor` times the true one.
+std::string NoisyCsv(double bend, double factor) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 5e-3);
+  constexpr double kStep = 0.01;
+  std::string csv = "t,x,y,yaw,v,r\n";
+  Pose2 pose{};
+  for (int i = 0; i < 3000; ++i) {
+    const double rate = kSpeed * bend * std::sin(2.0 * kPi * i * kStep / 8.0);
+    csv += fmt::format("{},{},{},{},{},{}\n", i * kStep, pose.x + noise(random),
+                       pose.y + noise(random), factor * (pose.yaw + noise(random)),
+                       kSpeed + noise(random), rate + noise(random));
+    pose.x += kStep * kSpeed * std::cos(pose.yaw);
+    pose.y += kStep * kSpeed * std::sin(pose.yaw);
+    pose.yaw += kStep * rate;
+  }
+  return csv;
+}
+
+TEST(ImportLog, TellsNoiseFromContradictions) {
+  // The local polynomials of 0.1 s to either side have accelerations with a deviation of
+  // 5 mm sqrt(720/21^5)/(0.01 s)^2 = 0.66 m/s^2, 0.44 rad/s of the course at 1.5 m/s. The drive
+  // turns by at most 0.3 rad/s, or by nothing.
+  LogMap map = PoseMap();
+  map.speed.emplace();
+  map.speed->column = "v";
+  map.yaw_rate.emplace();
+  map.yaw_rate->column = "r";
+  EXPECT_EQ(Problems(NoisyCsv(0.2, 1.0), map), "no problem");
+  EXPECT_EQ(Problems(NoisyCsv(0.0, 1.0), map), "no problem");
+  EXPECT_THAT(Problems(NoisyCsv(0.2, -1.0), map),
+              HasSubstr("yaw: the car turns the other way than its path does"));
+  EXPECT_THAT(Problems(NoisyCsv(0.2, 0.0), map),
+              HasSubstr("yaw: the yaw is constant while the path turns"));
+  EXPECT_THAT(Problems(NoisyCsv(0.2, kPi / 180.0), map),
+              HasSubstr("yaw: the numbers look like radians that are read as degrees"));
+}
+
 constexpr double kDegrees = 180.0 / kPi;
 
 INSTANTIATE_TEST_SUITE_P(
