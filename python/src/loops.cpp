@@ -6,6 +6,7 @@
 #include "python/src/bindings.h"
 #include "python/src/observation.h"
 #include "python/src/plugins.h"
+#include "trackbed/analysis/evaluate_run.h"
 #include "trackbed/analysis/parallel.h"
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
@@ -28,6 +29,32 @@ std::shared_ptr<Prepared> Prepare(const std::shared_ptr<Scenario>& scenario) {
     throw RunError("no plan: " + plan->reason);
   }
   return std::make_shared<Prepared>(Prepared{scenario, std::move(car), std::move(plan)});
+}
+
+/// Measures and judges the log of a loop, as a run with this plant alone.
+std::shared_ptr<RunResult> ResultOf(const Prepared& prepared, const std::string& plant,
+                                    RunLog log) {
+  auto result = std::make_shared<RunResult>();
+  result->scenario = *prepared.scenario;
+  result->scenario.drive.plants = {plant};
+  result->scene = prepared.car->scene();
+  result->vehicle = prepared.car->params();
+  result->plan = prepared.plan;
+  result->interrupted = log.status == DriveStatus::kInterrupted;
+  log.plant = plant;
+  AddLog(*result, *prepared.car, std::move(log));
+  JudgeRun(*result, *prepared.car);
+  return result;
+}
+
+/// Returns the log of a loop with a row for the present moment, which the loop itself logs in the
+/// next step.
+RunLog LogUntilNow(const SteppedLoop& loop) {
+  RunLog log = loop.log();
+  if (log.rows.empty() || log.rows.back().state.time < loop.row().state.time) {
+    log.rows.push_back(loop.row());
+  }
+  return log;
 }
 
 /// A loop that Python steps. A mutex lets only one thread use the loop at a time.
@@ -146,6 +173,25 @@ py::array_t<double> AdvanceAll(const VectorLoop& loops, const std::optional<Numb
   return seen.rows();
 }
 
+/// Returns the curvature of each loop's present plan at `distances` [m] ahead of the car, with one
+/// row for each loop.
+py::array_t<double> CurvatureAhead(const VectorLoop& loops, const Numbers& distances) {
+  const auto count = static_cast<std::size_t>(distances.size());
+  py::array_t<double> rows({loops.size(), count});
+  double* const cells = rows.mutable_data();
+  const double* const ahead = distances.data();
+  {
+    const WithoutGil release;
+    loops.ForEach([&](std::size_t i, const SteppedLoop& loop) {
+      const ControlInput input = loop.input();
+      for (std::size_t k = 0; k < count; ++k) {
+        cells[i * count + k] = input.reference.path.At(input.station + ahead[k]).curvature;
+      }
+    });
+  }
+  return rows;
+}
+
 }  // namespace
 
 void BindLoops(py::module_& module) {
@@ -206,6 +252,12 @@ void BindLoops(py::module_& module) {
                  },
                  stations);
            })
+      .def("result",
+           [](Loop& self, const Prepared& prepared, const std::string& plant) {
+             const WithoutGil release;
+             return ResultOf(prepared, plant,
+                             self.With([](const SteppedLoop& loop) { return LogUntilNow(loop); }));
+           })
       .def("log", [](Loop& self) {
         const WithoutGil release;
         return std::make_shared<Columns>(
@@ -216,6 +268,18 @@ void BindLoops(py::module_& module) {
       .def(py::init<std::vector<std::shared_ptr<Loop>>, int>())
       .def("observe", &ObserveAll)
       .def("step", &AdvanceAll)
+      .def("curvature_ahead", &CurvatureAhead)
+      .def_property_readonly("statuses",
+                             [](const VectorLoop& self) {
+                               std::vector<std::optional<std::string>> all(self.size());
+                               const WithoutGil release;
+                               self.ForEach([&](std::size_t i, const SteppedLoop& loop) {
+                                 if (loop.status()) {
+                                   all[i] = ToString(*loop.status());
+                                 }
+                               });
+                               return all;
+                             })
       .def_property_readonly("ended", [](const VectorLoop& self) {
         py::array_t<bool> ended(static_cast<py::ssize_t>(self.size()));
         bool* const cells = ended.mutable_data();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "python/src/bindings.h"
+#include "trackbed/analysis/metric_registry.h"
 #include "trackbed/analysis/plan_table.h"
 #include "trackbed/drive/car_cache.h"
 #include "trackbed/scenario/scenario.h"
@@ -89,6 +90,17 @@ std::shared_ptr<Columns> LogOf(const RunResult& run, const std::string& plant) {
   return found ? std::make_shared<Columns>(ToTable(found->log)) : nullptr;
 }
 
+/// Returns the metrics of a plant by their paths, such as "cross_track.max".
+py::dict MetricValuesOf(const RunResult& run, const std::string& plant) {
+  py::dict values;
+  if (const std::optional<PlantRun> found = run.Find(plant)) {
+    for (const Metric& metric : ListMetrics(found->metrics)) {
+      values[py::str(metric.path)] = python::ToPython(ToJson(metric.value));
+    }
+  }
+  return values;
+}
+
 void BindColumns(py::module_& module) {
   py::class_<Columns, std::shared_ptr<Columns>>(module, "Columns")
       .def_property_readonly("names", &Columns::names)
@@ -143,11 +155,19 @@ void BindRuns(py::module_& module) {
              return has_path ? std::make_shared<Columns>(PlanTable(*run.plan)) : nullptr;
            })
       .def("log", &LogOf)
+      .def("metric_values", &MetricValuesOf)
       .def("write", [](const RunResult& run, const fs::path& folder, bool mcap) {
         const WithoutGil release;
         WriteRunFolder(run, folder, {.mcap = mcap});
       });
   module.def("run", &Run);
+  module.def("metric_names", [] {
+    std::vector<std::string> names;
+    for (const MetricEntry& entry : Metrics()) {
+      names.push_back(entry.path);
+    }
+    return names;
+  });
 }
 
 }  // namespace trackbed::python

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import math
 import numbers
@@ -56,6 +57,28 @@ INT_MAX = 2**31 - 1
 """Largest whole number that C++ takes for sizes and counts."""
 
 
+def positive(name: str, value: object) -> float:
+    """Returns the finite number `value` of the argument `name`, which must be above 0."""
+    result = number(name, value)
+    if result <= 0.0:
+        raise ValueError(f"{name} is {value}; must be above 0")
+    return result
+
+
+def at_least_zero(name: str, value: object) -> float:
+    """Returns the finite number `value` of the argument `name`, which must be at least 0."""
+    result = number(name, value)
+    if result < 0.0:
+        raise ValueError(f"{name} is {value}; must be at least 0")
+    return result
+
+
+def similar(name: object, known: Iterable[str]) -> str:
+    """Returns a hint to the most similar of the known names, or an empty text."""
+    found = difflib.get_close_matches(str(name), list(known), 1)
+    return f"; did you mean {found[0]!r}?" if found else ""
+
+
 def flag(name: str, value: object) -> bool:
     if not isinstance(value, (bool, numpy.bool_)):
         raise TypeError(f"{name} must be a bool, not {type_name(value)}")
@@ -74,7 +97,7 @@ def text(name: str, value: object) -> str:
 
 def texts(name: str, value: object) -> list[str]:
     """Returns the texts in `value`, the argument `name`; a str counts as a text, not as a list."""
-    if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
+    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable):
         raise TypeError(f"{name} must be a list of str, not {type_name(value)}")
     return [text(f"a name in {name}", item) for item in items(name, value)]
 
@@ -168,6 +191,8 @@ def overrides(set: Overrides, plants: Plants = None, seed: Optional[int] = None)
         f"{text('a key in set', key)}={json.dumps(_plain(key, value))}"
         for key, value in (set or {}).items()
     ]
+    if isinstance(plants, Mapping):
+        raise TypeError("plants must be a list of str, not dict; give the keys as set={...}")
     if plants is not None:
         names = texts("plants", [plants] if isinstance(plants, str) else plants)
         result.append(f"drive.plants={json.dumps(names)}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Optional, Union
 
 from . import _trackbed
-from ._arguments import instance, number, text
+from ._arguments import at_least_zero, instance, text
 from ._runs import Comparison, Run
 
 
@@ -23,26 +23,26 @@ def _check(run: Run, check: Any) -> None:
 def tracks_within(run: Run, limit: float) -> None:
     """Asserts that the largest cross-track error of every plant is at most `limit` [m]."""
     __tracebackhide__ = True
-    _check(run, _trackbed.tracks_within(number("limit", limit)))
+    _check(run, _trackbed.tracks_within(at_least_zero("limit", limit)))
 
 
 def stays_within(run: Run, first: str, second: str, limit: float) -> None:
     """Asserts that two plants at equal stations are never further apart than `limit` [m]."""
     __tracebackhide__ = True
     names = text("first", first), text("second", second)
-    _check(run, _trackbed.stays_within(*names, number("limit", limit)))
+    _check(run, _trackbed.stays_within(*names, at_least_zero("limit", limit)))
 
 
 def keeps_clearance(run: Run, distance: float) -> None:
     """Asserts that every plant stays at least `distance` [m] from every obstacle."""
     __tracebackhide__ = True
-    _check(run, _trackbed.keeps_clearance(number("distance", distance)))
+    _check(run, _trackbed.keeps_clearance(at_least_zero("distance", distance)))
 
 
 def reaches_goal(run: Run, distance: float) -> None:
     """Asserts that every plant arrives, at most `distance` [m] from the end of the path."""
     __tracebackhide__ = True
-    _check(run, _trackbed.reaches_goal(number("distance", distance)))
+    _check(run, _trackbed.reaches_goal(at_least_zero("distance", distance)))
 
 
 def steers_calmly(run: Run) -> None:
@@ -90,7 +90,7 @@ def differs_by_at_most(
     __tracebackhide__ = True
     instance("comparison", comparison, Comparison)
     given = {"position": position, "heading": heading, "yaw_rate": yaw_rate, "steering": steering}
-    bounds = {key: number(key, bound) for key, bound in given.items() if bound is not None}
+    bounds = {key: at_least_zero(key, bound) for key, bound in given.items() if bound is not None}
     if not bounds:
         raise ValueError(f"no bound is given; give at least one of {', '.join(given)}")
     description, failures = comparison._core.exceeded(bounds)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Optional
+from typing import Any, NoReturn, Optional
 
 import numpy
 
@@ -22,7 +22,7 @@ from ._arguments import (
     type_name,
     whole,
 )
-from ._runs import Log
+from ._runs import Log, Run
 
 Observation = _trackbed.Observation
 
@@ -34,6 +34,15 @@ class LoopState:
         self._core = core
         self._prepared = prepared
         self._plant = plant
+
+    def __copy__(self) -> LoopState:
+        return self  # A state does not change.
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> LoopState:
+        return self
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a LoopState cannot be pickled; it belongs to a loop of this process")
 
 
 class Loop:
@@ -52,6 +61,8 @@ class Loop:
     set: keys of the scenario and their values.
     seed: the scenario's seed, at least 0.
     log: whether to keep all rows of the log; if false, the log only has its last row.
+
+    A copy (copy.copy, copy.deepcopy) is another loop in the same state.
 
     Raises RunError if the scenario has no plan.
     """
@@ -83,6 +94,19 @@ class Loop:
             self._core = _trackbed.Loop(prepared, plant, self._keeps_log)
         self._prepared = prepared
         self.plant = plant
+
+    def __copy__(self) -> Loop:
+        result = Loop.__new__(Loop)
+        result.__dict__.update({k: v for k, v in self.__dict__.items() if k != "_core"})
+        result._start(self._prepared, self.plant)
+        result._core.restore(self._core.save())
+        return result
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Loop:
+        return self.__copy__()
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Loop cannot be pickled; make a loop in each process")
 
     def reset(self, seed: Optional[int] = None, set: Overrides = None) -> Observation:
         """Returns the car to its start, and returns the first observation.
@@ -169,6 +193,14 @@ class Loop:
         """The log so far, with the columns of `run[plant]`."""
         return Log(self._core.log(), self.plant)
 
+    def result(self) -> Run:
+        """Returns the drive so far as a Run with one plant: measured, judged, and ready to draw.
+
+        If the drive has not ended, its status is "interrupted", and its log ends with the present
+        moment. With `log=False`, the run has only this moment, which its metrics describe.
+        """
+        return Run(self._core.result(self._prepared, self.plant))
+
 
 class VectorLoop:
     """Many cars that are stepped together on several threads, without the GIL.
@@ -253,6 +285,22 @@ class VectorLoop:
     def observations(self) -> numpy.ndarray:
         """The present observations, an array of float64 with the shape (count, len(columns))."""
         return self._core.observe()
+
+    def curvature_ahead(self, distances: Sequence[float]) -> numpy.ndarray:
+        """Returns the curvature [1/m] of each car's present plan ahead of the car.
+
+        distances: distances from station_m [m], an array with the shape (n,). Returns an array of
+        float64 with the shape (count, n). Beyond its ends, the path is straight.
+        """
+        shape = numpy.shape(distances)
+        return self._core.curvature_ahead(
+            array("distances", distances, (shape[0] if shape else 1,))
+        )
+
+    @property
+    def statuses(self) -> list[Optional[str]]:
+        """How each car's run ended, such as "arrived"; None while it continues."""
+        return self._core.statuses
 
     @property
     def ended(self) -> numpy.ndarray:

@@ -8,7 +8,7 @@ import shutil
 import tempfile
 import weakref
 from collections.abc import Iterator, Mapping
-from typing import Any, Optional, Union
+from typing import Any, NoReturn, Optional, TypeVar, Union
 
 import numpy
 
@@ -23,23 +23,49 @@ from ._arguments import (
     load,
     number,
     path,
+    similar,
     text,
     whole,
 )
 
 
+class _Arrays:
+    """The columns of an unpickled table, with the members of _trackbed.Columns."""
+
+    def __init__(self, columns: dict[str, numpy.ndarray]) -> None:
+        self._columns = columns
+        for column in columns.values():
+            column.setflags(write=False)
+        self.names = list(columns)
+        self.rows = max((len(column) for column in columns.values()), default=0)
+
+    def column(self, name: str) -> numpy.ndarray:
+        return self._columns[name]
+
+
+def _unpickled(kind: type, columns: dict[str, numpy.ndarray], *arguments: Any) -> Any:
+    return kind(_Arrays(columns), *arguments)
+
+
+_Table = TypeVar("_Table", bound="Columns")
+
+
 class Columns(Mapping[str, numpy.ndarray]):
     """Columns of a table: read-only arrays of float64 with the shape (rows,), by name.
 
-    The arrays refer to the memory of the table, without a copy, and keep it alive.
+    The arrays refer to the memory of the table, without a copy, and keep it alive. A copy shares
+    the memory, because the arrays are read-only. A pickled table contains the arrays.
     """
 
-    def __init__(self, core: _trackbed.Columns) -> None:
+    def __init__(self, core: Union[_trackbed.Columns, _Arrays]) -> None:
         self._core = core
 
     def __getitem__(self, name: str) -> numpy.ndarray:
         if not isinstance(name, str) or name not in self._core.names:
-            raise KeyError(f"no column {name!r}; the columns are {', '.join(self._core.names)}")
+            names = self._core.names
+            raise KeyError(
+                f"no column {name!r}{similar(name, names)}; the columns are {', '.join(names)}"
+            )
         return self._core.column(name)
 
     def __iter__(self) -> Iterator[str]:
@@ -57,6 +83,19 @@ class Columns(Mapping[str, numpy.ndarray]):
         """Returns a pandas.DataFrame with these columns. Needs pandas."""
         return _pandas().DataFrame({name: self[name] for name in self})
 
+    def __copy__(self: _Table) -> _Table:
+        return self
+
+    def __deepcopy__(self: _Table, memo: dict[int, Any]) -> _Table:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickled, (type(self), {name: self[name] for name in self}, *self._arguments())
+
+    def _arguments(self) -> tuple[Any, ...]:
+        """Returns the arguments of the constructor after the table."""
+        return ()
+
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {self.rows} rows of {', '.join(self)}>"
 
@@ -64,9 +103,12 @@ class Columns(Mapping[str, numpy.ndarray]):
 class Log(Columns):
     """The log of one plant: one row for each control period (docs/conventions.md)."""
 
-    def __init__(self, core: _trackbed.Columns, plant: str) -> None:
+    def __init__(self, core: Union[_trackbed.Columns, _Arrays], plant: str) -> None:
         super().__init__(core)
         self.plant = plant
+
+    def _arguments(self) -> tuple[Any, ...]:
+        return (self.plant,)
 
 
 class Path(Columns):
@@ -85,7 +127,7 @@ class Run(Mapping[str, Log]):
     def __getitem__(self, plant: str) -> Log:
         if not isinstance(plant, str) or plant not in self.plants:
             known = ", ".join(self.plants) or "none"
-            raise KeyError(f"no plant {plant!r}; the run has {known}")
+            raise KeyError(f"no plant {plant!r}{similar(plant, self.plants)}; the run has {known}")
         if plant not in self._logs:
             core = self._core.log(plant)
             assert core is not None
@@ -122,6 +164,15 @@ class Run(Mapping[str, Log]):
     def metrics(self) -> dict[str, dict[str, Any]]:
         """The metrics of each plant, as in metrics.json, in SI units and radians."""
         return self._all_metrics()["plants"]
+
+    def metric_values(self, plant: str) -> dict[str, Any]:
+        """Returns the metrics of a plant by their names in `expect.metrics`.
+
+        The names have dots, such as "cross_track.max". The values are numbers, bools, texts, or
+        None for an undefined value.
+        """
+        self[plant]  # Raises KeyError for an unknown plant.
+        return self._core.metric_values(plant)
 
     @property
     def verdict(self) -> dict[str, Any]:
@@ -169,8 +220,10 @@ class Run(Mapping[str, Log]):
 
     def _folder(self) -> str:
         if self._written is None:
-            folder = tempfile.mkdtemp(prefix="trackbed-")
-            weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+            parent = tempfile.mkdtemp(prefix="trackbed-")
+            weakref.finalize(self, shutil.rmtree, parent, ignore_errors=True)
+            # Pictures and reports show the name of the folder as the name of the run.
+            folder = os.path.join(parent, self.name.replace("/", "_").lstrip(".") or "run")
             self._core.write(folder, False)
             self._written = folder
         return self._written
@@ -180,6 +233,24 @@ class Run(Mapping[str, Log]):
             '<iframe sandbox="allow-scripts" style="width: 100%; height: 720px; border: 0" '
             f'srcdoc="{html.escape(self.report())}"></iframe>'
         )
+
+    def __copy__(self) -> Run:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Run:
+        return self
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError(
+            "a Run cannot be pickled, for example to return it from another process; return "
+            "run[plant], run.metrics or run.to_pandas(), or the folder of run.write(folder)"
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __hash__(self) -> int:
+        return id(self)
 
     def __repr__(self) -> str:
         return f"<Run {_trackbed.describe(self._core)}>"
@@ -191,6 +262,9 @@ class Comparison(Mapping[str, Any]):
     def __init__(self, core: _trackbed.PlantComparison) -> None:
         self._core = core
         self._values = core.values
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Comparison cannot be pickled; use dict(comparison)")
 
     def __getitem__(self, key: str) -> Any:
         return self._values[key]
@@ -212,7 +286,8 @@ def run(
 
     scenario: a YAML file, or the name of a scenario that comes with the package.
     plants: names of the plants, instead of those of the scenario.
-    set: keys of the scenario and their values, such as {"mission.speed": 2}.
+    set: keys of the scenario and their values, such as {"mission.speed": 2}. A key that names a
+        section, such as {"plan": {...}}, replaces the whole section.
     seed: the scenario's seed, at least 0.
 
     Raises InputError (a ValueError) for a wrong scenario, and RunError (a RuntimeError) if the
@@ -222,10 +297,13 @@ def run(
     return Run(_trackbed.run(load(scenario, set, plants, seed)))
 
 
-def _size(size: object) -> tuple[int, int]:
-    if not isinstance(size, (tuple, list)) or len(size) != 2:
-        raise TypeError("size must be (width, height) in pixels")
-    return whole("size[0]", size[0], 1, INT_MAX), whole("size[1]", size[1], 1, INT_MAX)
+def pixels(name: str, value: object) -> tuple[int, int]:
+    """Returns the width and the height [px] of the argument `name`."""
+    if isinstance(value, numpy.ndarray):
+        value = value.tolist()
+    if not isinstance(value, (tuple, list)) or len(value) != 2:
+        raise TypeError(f"{name} must be (width, height) in pixels")
+    return whole(f"{name}[0]", value[0], 1, INT_MAX), whole(f"{name}[1]", value[1], 1, INT_MAX)
 
 
 def frame(
@@ -242,7 +320,7 @@ def frame(
     left. `size` is (width, height). `camera` and `quality` are those of `trackbed render`.
     """
     instance("run", run, Run)
-    width, height = _size(size)
+    width, height = pixels("size", size)
     return _trackbed.frame(
         run._folder(), number("t", t), width, height, text("camera", camera), text("quality", quality)
     )
@@ -259,7 +337,7 @@ def film(
 ) -> None:
     """Films the run; the extension of `file` is .mp4, .webp, .apng or .png (one file per frame)."""
     instance("run", run, Run)
-    width, height = _size(size)
+    width, height = pixels("size", size)
     _trackbed.film(
         run._folder(),
         path("file", file),

@@ -1,19 +1,22 @@
-"""Environment for Gymnasium: a car that follows a path.
+"""Environments for Gymnasium: a car that follows a path.
 
     import gymnasium
-    import trackbed.gym                      # registers the environment
+    import trackbed.gym                      # registers the environments
 
     env = gymnasium.make("trackbed/PathTracking-v0", scenario="three_turns", plant="mujoco")
+    envs = gymnasium.make_vec("trackbed/PathTracking-v0", num_envs=64, plant="kinematic")
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 import gymnasium
 import numpy
+from gymnasium.vector.utils import batch_space
 
+from . import _trackbed
 from ._arguments import (
     Overrides,
     Scenario,
@@ -21,12 +24,15 @@ from ._arguments import (
     items,
     mapping,
     number,
+    positive,
+    similar,
     text,
     texts,
     type_name,
     whole,
 )
 from ._loops import Loop, Observation, VectorLoop
+from ._runs import frame, pixels
 
 OBSERVED = (
     "speed_mps",
@@ -37,7 +43,59 @@ OBSERVED = (
     "curvature_radpm",
     "planned_speed_mps",
 )
-"""Columns of VectorLoop.columns that the environment observes by default."""
+"""Columns of VectorLoop.columns that the environments observe by default."""
+
+COSTS: Mapping[str, float] = {"cross_track_m": 1.0, "heading_error_rad": 1.0}
+"""Weights of squared columns that the environments subtract from the reward by default."""
+
+
+class _Task:
+    """Observations, rewards and pictures of both environments, from their arguments."""
+
+    def __init__(self, arguments: Mapping[str, Any]) -> None:
+        columns = texts("observed", arguments["observed"])
+        self.observed = [_column("observed", name) for name in columns]
+        ahead = arguments["ahead"]
+        if isinstance(ahead, (str, bytes)) or not isinstance(ahead, Iterable):
+            raise TypeError(f"ahead must be a list of numbers, not {type_name(ahead)}")
+        self.ahead = numpy.array([number("ahead", d) for d in items("ahead", ahead)], dtype=float)
+        weights = mapping("costs", arguments["costs"], "columns and weights")
+        self.costs = {_column("costs", c): number(f"costs[{c!r}]", w) for c, w in weights.items()}
+        weights = mapping("rewards", arguments["rewards"], "metrics and weights")
+        self.rewards = {_metric(m): number(f"rewards[{m!r}]", w) for m, w in weights.items()}
+        self.max_cross_track = positive("max_cross_track", arguments["max_cross_track"])
+        acceleration = arguments["max_acceleration"]
+        self.max_acceleration = (
+            None if acceleration is None else positive("max_acceleration", acceleration)
+        )
+        self.render_mode = arguments["render_mode"]
+        if self.render_mode not in (None, "rgb_array"):
+            raise ValueError(f"render_mode is {self.render_mode!r}; must be None or 'rgb_array'")
+        self.size = pixels("size", arguments["size"])
+        self.camera = text("camera", arguments["camera"])
+        self.keeps_log = bool(self.rewards) or self.render_mode is not None
+        actions = 1 if self.max_acceleration is None else 2
+        width = len(self.observed) + len(self.ahead)
+        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (actions,), numpy.float32)
+        self.observation_space = gymnasium.spaces.Box(-numpy.inf, numpy.inf, (width,), numpy.float32)
+
+    def metadata(self, loop: Loop) -> dict[str, Any]:
+        """Returns the properties of an environment with this loop."""
+        if loop.path_length == 0.0:
+            raise ValueError("scenario has no path to follow; it must have a plan section")
+        return {"render_modes": ["rgb_array"], "render_fps": max(1, round(1.0 / loop.period))}
+
+    def reward_at_end(self, loop: Loop) -> float:
+        """Returns the weighted sum of the metrics of a finished episode."""
+        if not self.rewards:
+            return 0.0
+        values = loop.result().metric_values(loop.plant)
+        return sum(w * _value(name, values.get(name)) for name, w in self.rewards.items())
+
+    def draw(self, loop: Loop) -> numpy.ndarray:
+        """Draws the car of a loop at the present moment."""
+        run = loop.result()
+        return frame(run, float(run[loop.plant]["t_s"][-1]), self.size, camera=self.camera)
 
 
 class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
@@ -50,7 +108,10 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
     Observation: an array of float32 with the columns `observed` of VectorLoop.columns, in SI units,
         followed by the curvature [1/m] of the path at the distances `ahead` [m] before the car. NaN
         is observed as 0.
-    Reward: minus the sum over `costs` of weight times squared column, after the step.
+    Reward: minus the sum over `costs` of weight times squared column, after the step. The last step
+        of an episode adds the sum over `rewards` of weight times metric, for the episode so far. The
+        metrics have the names of `expect.metrics`, such as "cross_track.max"; an undefined metric
+        counts as 0.
     Terminated: the run has ended other than by its time limit, or the cross-track error exceeds
         `max_cross_track` [m]. Truncated: the run has reached its time limit (drive.time_limit).
     Info: "status", how the run ended, such as "arrived"; None while it continues; and "t_s" [s].
@@ -59,10 +120,14 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
     reset(options={"set": {...}}) reads the scenario with other values. Both plan again. Without them,
     the car returns to its start.
 
+    With render_mode="rgb_array", render() draws the car off-screen: an array of uint8 with the shape
+    (height, width, 3). `size` is (width, height) [px], `camera` one of `trackbed render`. A picture
+    takes about 0.3 s; `trackbed.film(env.unwrapped.loop.result(), FILE)` films a whole episode faster.
+
     scenario, plant, set: those of trackbed.Loop. The scenario must have a path.
     """
 
-    metadata: dict[str, Any] = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 50}
 
     def __init__(
         self,
@@ -72,32 +137,30 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
         *,
         observed: Sequence[str] = OBSERVED,
         ahead: Sequence[float] = (2.0, 5.0, 10.0),
-        costs: Mapping[str, float] = {"cross_track_m": 1.0, "heading_error_rad": 1.0},
+        costs: Mapping[str, float] = COSTS,
+        rewards: Mapping[str, float] = {},
         max_cross_track: float = 5.0,
         max_acceleration: Optional[float] = None,
+        render_mode: Optional[str] = None,
+        size: tuple[int, int] = (640, 360),
+        camera: str = "chase",
     ) -> None:
-        self._observed = [_column("observed", name) for name in texts("observed", observed)]
-        if isinstance(ahead, (str, bytes)) or not isinstance(ahead, Iterable):
-            raise TypeError(f"ahead must be a list of numbers, not {type_name(ahead)}")
-        self._ahead = numpy.array([number("ahead", d) for d in items("ahead", ahead)], dtype=float)
-        weights = mapping("costs", costs, "columns and weights")
-        self._costs = {_column("costs", c): number(f"costs[{c!r}]", w) for c, w in weights.items()}
-        self._max_cross_track = _positive("max_cross_track", max_cross_track)
-        self._max_acceleration = (
-            None if max_acceleration is None else _positive("max_acceleration", max_acceleration)
-        )
+        self._task = task = _Task(locals())
         self._set = {} if set is None else dict(mapping("set", set, "keys and values"))
-        self._loop = Loop(scenario, plant, set, log=False)
-        if self._loop.path_length == 0.0:
-            raise ValueError("scenario has no path to follow; it must have a plan section")
-        actions = 1 if self._max_acceleration is None else 2
-        size = len(self._observed) + len(self._ahead)
-        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (actions,), numpy.float32)
-        self.observation_space = gymnasium.spaces.Box(-numpy.inf, numpy.inf, (size,), numpy.float32)
+        self._loop = Loop(scenario, plant, set, log=task.keeps_log)
+        self.metadata = task.metadata(self._loop)
+        self.render_mode = task.render_mode
+        self.action_space = task.action_space
+        self.observation_space = task.observation_space
+
+    @property
+    def loop(self) -> Loop:
+        """The loop that the environment steps."""
+        return self._loop
 
     def _observe(self, seen: Observation) -> numpy.ndarray:
-        own = [getattr(seen, name) for name in self._observed]
-        points = self._loop.reference(seen.station_m + self._ahead)
+        own = [getattr(seen, name) for name in self._task.observed]
+        points = self._loop.reference(seen.station_m + self._task.ahead)
         values = numpy.concatenate([own, points["curvature_radpm"]])
         return numpy.nan_to_num(values, nan=0.0).astype(numpy.float32)
 
@@ -109,12 +172,7 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
         self, *, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None
     ) -> tuple[numpy.ndarray, dict[str, Any]]:
         super().reset(seed=None if seed is None else whole("seed", seed, 0))
-        changed = {} if options is None else dict(mapping("options", options, "names and values"))
-        own = changed.pop("set", None)
-        if own is not None:
-            mapping("options['set']", own, "keys and values")
-        if changed:
-            raise ValueError(f"options has the unknown key {next(iter(changed))!r}; allowed: 'set'")
+        own = _changes(options)
         if seed is None and own is None:
             seen = self._loop.reset()
         else:
@@ -124,16 +182,165 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
     def step(
         self, action: numpy.ndarray
     ) -> tuple[numpy.ndarray, float, bool, bool, dict[str, Any]]:
-        command = numpy.clip(array("action", action, self.action_space.shape), -1.0, 1.0)
+        task = self._task
+        command = numpy.clip(array("action", action, self.action_space.shape or ()), -1.0, 1.0)
         acceleration = None
-        if self._max_acceleration is not None:
-            acceleration = float(command[1]) * self._max_acceleration
+        if task.max_acceleration is not None:
+            acceleration = float(command[1]) * task.max_acceleration
         seen = self._loop.step(float(command[0]) * self._loop.steering_limit, acceleration)
-        cost = sum(w * numpy.nan_to_num(getattr(seen, c)) ** 2 for c, w in self._costs.items())
+        cost = sum(w * _square(getattr(seen, c)) for c, w in task.costs.items())
         truncated = seen.status == "time_limit"
-        left_path = abs(seen.cross_track_m) > self._max_cross_track
-        terminated = left_path or (seen.ended and not truncated)
-        return self._observe(seen), -float(cost), bool(terminated), truncated, self._info(seen)
+        left_path = abs(seen.cross_track_m) > task.max_cross_track
+        terminated = bool(left_path or (seen.ended and not truncated))
+        reward = -float(cost)
+        if terminated or truncated:
+            reward += task.reward_at_end(self._loop)
+        return self._observe(seen), reward, terminated, truncated, self._info(seen)
+
+    def render(self) -> Any:
+        if self.render_mode is None:
+            gymnasium.logger.warn('render() needs gymnasium.make(..., render_mode="rgb_array")')
+            return None
+        return self._task.draw(self._loop)
+
+
+class VectorPathTracking(gymnasium.vector.VectorEnv[numpy.ndarray, numpy.ndarray, numpy.ndarray]):
+    """Many cars of PathTracking, which are stepped together on several threads without the GIL.
+
+    gymnasium.make_vec makes this class. Every car has the observations, rewards and ends that
+    PathTracking gives it. A car whose episode has ended returns to its start in the next step,
+    whose reward is 0 (AutoresetMode.NEXT_STEP).
+
+    num_envs: number of cars. threads: number of threads; by default, the number of processors. The
+    other arguments are those of PathTracking. reset(seed=n) gives car i the seed n + i; a list has
+    one seed for each car. render() returns a tuple with a picture of each car.
+    """
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        scenario: Scenario = "three_turns",
+        plant: Optional[str] = None,
+        set: Overrides = None,
+        *,
+        observed: Sequence[str] = OBSERVED,
+        ahead: Sequence[float] = (2.0, 5.0, 10.0),
+        costs: Mapping[str, float] = COSTS,
+        rewards: Mapping[str, float] = {},
+        max_cross_track: float = 5.0,
+        max_acceleration: Optional[float] = None,
+        threads: Optional[int] = None,
+        render_mode: Optional[str] = None,
+        size: tuple[int, int] = (640, 360),
+        camera: str = "chase",
+    ) -> None:
+        self._task = task = _Task(locals())
+        self._set = {} if set is None else dict(mapping("set", set, "keys and values"))
+        self.num_envs = whole("num_envs", num_envs, 1)
+        self._cars = VectorLoop(
+            scenario, plant, self.num_envs, set=set, threads=threads, log=task.keeps_log
+        )
+        self.metadata = task.metadata(self._cars.loops[0])
+        modes = getattr(gymnasium.vector, "AutoresetMode", None)  # Since Gymnasium 1.1.
+        if modes is not None:
+            self.metadata["autoreset_mode"] = modes.NEXT_STEP
+        self.render_mode = task.render_mode
+        self.single_action_space = task.action_space
+        self.single_observation_space = task.observation_space
+        self.action_space = batch_space(task.action_space, self.num_envs)
+        self.observation_space = batch_space(task.observation_space, self.num_envs)
+        self._column = {name: i for i, name in enumerate(VectorLoop.columns)}
+        self._observed = [self._column[name] for name in task.observed]
+        self._done = numpy.zeros(self.num_envs, dtype=bool)
+
+    @property
+    def loops(self) -> list[Loop]:
+        """The loops that the environment steps."""
+        return self._cars.loops
+
+    def _observe(self, seen: numpy.ndarray) -> numpy.ndarray:
+        ahead = self._cars.curvature_ahead(self._task.ahead)
+        values = numpy.concatenate([seen[:, self._observed], ahead], axis=1)
+        return numpy.nan_to_num(values, nan=0.0).astype(numpy.float32)
+
+    def _info(self, seen: numpy.ndarray, statuses: list[Optional[str]]) -> dict[str, Any]:
+        every = numpy.ones(self.num_envs, dtype=bool)
+        return {
+            "status": numpy.array(statuses, dtype=object),
+            "_status": every,
+            "t_s": seen[:, self._column["t_s"]].copy(),
+            "_t_s": every.copy(),
+        }
+
+    def reset(
+        self,
+        *,
+        seed: Union[int, Sequence[Optional[int]], None] = None,
+        options: Optional[dict[str, Any]] = None,
+    ) -> tuple[numpy.ndarray, dict[str, Any]]:
+        own = _changes(options)
+        if seed is None:
+            seeds: list[Optional[int]] = [None] * self.num_envs
+        elif isinstance(seed, (Sequence, numpy.ndarray)) and not isinstance(seed, (str, bytes)):
+            if len(seed) != self.num_envs:
+                raise ValueError(f"seed has {len(seed)} values; must have {self.num_envs}")
+            named = enumerate(seed)
+            seeds = [None if s is None else whole(f"seed[{i}]", s, 0) for i, s in named]
+        else:
+            first = whole("seed", seed, 0)
+            super().reset(seed=first)
+            seeds = [first + i for i in range(self.num_envs)]
+        for loop, one in zip(self._cars.loops, seeds):
+            if one is None and own is None:
+                loop.reset()
+            else:
+                loop.reset(one, {**self._set, **(own or {})})
+        self._done[:] = False
+        seen = self._cars.observations
+        return self._observe(seen), self._info(seen, self._cars.statuses)
+
+    def step(
+        self, actions: numpy.ndarray
+    ) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray, numpy.ndarray, dict[str, Any]]:
+        task, cars = self._task, self._cars
+        commands = numpy.clip(array("actions", actions, self.action_space.shape or ()), -1.0, 1.0)
+        limits = numpy.array([loop.steering_limit for loop in cars.loops])
+        rates = None if task.max_acceleration is None else commands[:, 1] * task.max_acceleration
+        seen = cars.step(commands[:, 0] * limits, rates)
+        restarted = self._done
+        if restarted.any():
+            for i in numpy.flatnonzero(restarted):
+                cars.loops[i].reset()
+            seen = cars.observations
+        statuses = cars.statuses
+        truncated = numpy.array([status == "time_limit" for status in statuses])
+        ended = numpy.array([status is not None for status in statuses])
+        left_path = numpy.abs(seen[:, self._column["cross_track_m"]]) > task.max_cross_track
+        terminated = (left_path | (ended & ~truncated)) & ~restarted
+        truncated &= ~restarted
+        cost = numpy.zeros(self.num_envs)
+        for name, weight in task.costs.items():
+            cost = cost + weight * _square(seen[:, self._column[name]])
+        rewards = numpy.where(restarted, 0.0, -cost)
+        self._done = terminated | truncated
+        for i in numpy.flatnonzero(self._done):
+            rewards[i] += task.reward_at_end(cars.loops[i])
+        return self._observe(seen), rewards, terminated, truncated, self._info(seen, statuses)
+
+    def render(self) -> Any:
+        if self.render_mode is None:
+            gymnasium.logger.warn('render() needs gymnasium.make_vec(..., render_mode="rgb_array")')
+            return None
+        return tuple(self._task.draw(loop) for loop in self._cars.loops)
+
+
+def _changes(options: Optional[dict[str, Any]]) -> Optional[Mapping[str, Any]]:
+    """Returns the keys and values that the options of reset() set in the scenario."""
+    changed = {} if options is None else dict(mapping("options", options, "names and values"))
+    own = changed.pop("set", None)
+    if changed:
+        raise ValueError(f"options has the unknown key {next(iter(changed))!r}; allowed: 'set'")
+    return None if own is None else mapping("options['set']", own, "keys and values")
 
 
 def _column(argument: str, name: object) -> str:
@@ -143,11 +350,28 @@ def _column(argument: str, name: object) -> str:
     return str(name)
 
 
-def _positive(name: str, value: object) -> float:
-    result = number(name, value)
-    if result <= 0.0:
-        raise ValueError(f"{name} is {value}; must be above 0")
-    return result
+def _metric(name: object) -> str:
+    known = _trackbed.metric_names()
+    if text("a name in rewards", name) not in known:
+        hint = similar(name, known) or f"; allowed: {', '.join(known)}"
+        raise ValueError(f"rewards has the unknown metric {name!r}{hint}")
+    return str(name)
 
 
-gymnasium.register("trackbed/PathTracking-v0", entry_point=PathTracking)
+def _square(values: Any) -> Any:
+    """Returns the squares; those of NaN are 0. `**` would round numbers and arrays differently."""
+    known = numpy.nan_to_num(values, nan=0.0)
+    return known * known
+
+
+def _value(name: str, value: Any) -> float:
+    if isinstance(value, str):
+        raise ValueError(f"rewards has the metric {name!r}, which is a text; must be a number")
+    return 0.0 if value is None else float(value)
+
+
+gymnasium.register(
+    "trackbed/PathTracking-v0",
+    entry_point=PathTracking,
+    vector_entry_point=VectorPathTracking,
+)

@@ -1,23 +1,16 @@
 #include "trackbed/analysis/run.h"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "src/analysis/aid_metrics.h"
 #include "src/analysis/origin_statement.h"
-#include "src/analysis/overspeed.h"
 #include "src/analysis/simulate_plants.h"
+#include "trackbed/analysis/evaluate_run.h"
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/mcap.h"
 #include "trackbed/analysis/path_properties.h"
 #include "trackbed/analysis/plan_table.h"
-#include "trackbed/analysis/record_metrics.h"
-#include "trackbed/analysis/requirement_metrics.h"
 #include "trackbed/analysis/run_folder.h"
-#include "trackbed/control/controllers.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/stopwatch.h"
 #include "trackbed/core/version.h"
@@ -25,15 +18,13 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
-#include "trackbed/planning/replan/replan.h"
 #include "trackbed/scenario/input_files.h"
 #include "trackbed/sim/scene.h"
 
 // Plans and runs a scenario, then writes its run folder. PlanRun computes the plan. SimulateRun
-// simulates all plants (simulate_plants.cpp) and computes the metrics of each plant (metrics.cpp).
-// SimulateRun also compares each pair of plants (compare.cpp) and computes the verdict
-// (verdict.cpp). WriteRunFolder writes the results together with all inputs: resolved scenario,
-// model, map, track and recordings. A run can therefore be repeated from its folder.
+// simulates all plants (simulate_plants.cpp), then measures, compares and judges them
+// (evaluate_run.cpp). WriteRunFolder writes the results together with all inputs: resolved
+// scenario, model, map, track and recordings. A run can therefore be repeated from its folder.
 namespace trackbed {
 namespace {
 
@@ -103,68 +94,6 @@ void AddUnlessEmpty(const Table& table, const std::string& name, ResultWriter& w
   }
 }
 
-/// Returns the fraction of the log rows in which at least one loaded tyre slides.
-double SlidingShare(const RunLog& log) {
-  constexpr double kSlip = 0.1;  // Slip ratio or slip angle above which a tyre slides.
-  // Speed below which rounding errors dominate the computed slip [m/s].
-  constexpr double kAtLeast = 1.0;
-  const auto slides = [&](const LogRow& row) {
-    return std::abs(row.state.speed) > kAtLeast && row.state.wheels &&
-           std::any_of(
-               row.state.wheels->begin(), row.state.wheels->end(), [&](const WheelState& wheel) {
-                 return wheel.normal_force > 0.0 &&
-                        (std::abs(wheel.slip_ratio) > kSlip || std::abs(wheel.slip_angle) > kSlip);
-               });
-  };
-  return static_cast<double>(std::count_if(log.rows.begin(), log.rows.end(), slides)) /
-         static_cast<double>(log.rows.size());
-}
-
-/// Adds a note to the verdict if the tyres slid on MuJoCo's contacts. MuJoCo's friction cone lifts
-/// sliding contacts, so the wheel loads of such a run are not realistic.
-void NoteSlidingContacts(RunResult& result, const CarModel& car) {
-  constexpr double kNotedFraction = 0.01;
-  for (const RunLog& log : result.logs) {
-    const bool contact = log.plant == "mujoco:contact" ||
-                         (log.plant == "mujoco" &&
-                          SelectTyreLaw(car, result.scenario.vehicle.tyre) == TyreLaw::kContact);
-    const double share = contact ? SlidingShare(log) : 0.0;
-    if (share > kNotedFraction) {
-      result.verdict.notes.push_back(fmt::format(
-          "{}: the tyres slid on MuJoCo contacts for {:.0f} % of the time and bounced; forces and "
-          "accelerations are not realistic there (use vehicle.tyre: magic_formula)",
-          log.plant, 100.0 * share));
-    }
-  }
-}
-
-/// Adds a note to the verdict for each plant whose car followed a slower obstacle: for how long,
-/// and the reason for not passing that held longest.
-void NoteFollowing(RunResult& result) {
-  for (const RunLog& log : result.logs) {
-    std::map<std::string, double> times;  // Time for which each reason held [s].
-    double total = 0.0;
-    for (std::size_t i = 0; i < log.changes.size(); ++i) {
-      const auto* found = log.changes[i].plan.diagnostics.replan.As<ReplanDiagnostics>();
-      if (found == nullptr || !found->along || found->along->kind != ManeuverType::kFollow) {
-        continue;
-      }
-      const double end =
-          i + 1 < log.changes.size() ? log.changes[i + 1].time : log.rows.back().state.time;
-      times[found->along->why] += end - log.changes[i].time;
-      total += end - log.changes[i].time;
-    }
-    if (total > 0.0) {
-      const auto longest =
-          std::max_element(times.begin(), times.end(),
-                           [](const auto& a, const auto& b) { return a.second < b.second; });
-      result.verdict.notes.push_back(
-          fmt::format("{}: followed a slower obstacle for {:.3g} s instead of passing it: {}",
-                      log.plant, total, longest->first));
-    }
-  }
-}
-
 }  // namespace
 
 ordered_json Versions() {
@@ -203,77 +132,17 @@ RunResult PlanRun(const Scenario& scenario, const CarModel& car) {
   return result;
 }
 
-namespace {
-
-PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarModel& car) {
-  const Scenario& scenario = result.scenario;
-  PlantMetrics metrics = Measure(log, result.plan, car.params(), scenario.drive.control_period,
-                                 ControllerFor(scenario.control.steering).station);
-  metrics.steering_is_prescribed = scenario.drive.steering == SteeringInput::kPrescribed;
-  if (metrics.tracking) {
-    metrics.tracking->overspeed_limit = OverspeedLimit(log, scenario, car.unladen());
-  }
-  if (log.plant == kRecordedPlant) {
-    // Clear the steering limits, because the limits of the car model do not apply to the real
-    // vehicle that was recorded.
-    metrics.steering_rate_limit = 0.0;
-    metrics.steering_limit = 0.0;
-    metrics.steering_activity.reset();
-    metrics.steering_saturated_fraction = 0.0;
-  }
-  if (scenario.maneuver) {
-    metrics.maneuver = EvaluateManeuver(*scenario.maneuver, log, result.plan, car.params());
-  }
-  metrics.recovery = MeasureRecovery(log, scenario.disturb, scenario.world.wind);
-  metrics.requirements = MeasureRequirements(scenario.expect, log);
-  return metrics;
-}
-
-}  // namespace
-
 RunResult SimulateRun(RunResult planned, const CarModel& car, const RunHooks& hooks) {
   RunResult result = std::move(planned);
   if (!result.plan.ok()) {
     return result;
   }
-  const Scenario& scenario = result.scenario;
   for (SimulatedPlant& simulated : SimulatePlants(result, car, hooks)) {
-    result.logs.push_back(std::move(simulated.log));
-    result.logs.back().origin = OriginOf(scenario);
-    const RunLog& log = result.logs.back();
-    PlantMetrics& metrics = result.metrics.emplace_back(MeasurePlant(result, log, car));
-    if (scenario.record && log.plant != kRecordedPlant) {
-      metrics.recorded = MeasureAgainstRecord(log, *scenario.record->data, car.params(),
-                                              scenario.record->min_speed);
-      metrics.windows = std::move(simulated.windows);
-    }
+    AddLog(result, car, std::move(simulated.log), std::move(simulated.windows));
     result.timing.push_back(simulated.timing);
     result.interrupted = result.interrupted || simulated.interrupted;
   }
-  for (std::size_t i = 0; i < result.logs.size(); ++i) {
-    for (std::size_t j = i + 1; j < result.logs.size(); ++j) {
-      result.comparisons.push_back(ComparePlants(result.logs[i], result.logs[j]));
-    }
-  }
-  result.verdict = Judge(scenario.expect, result.metrics, result.comparisons);
-  for (const std::string& note : result.plan->notes) {
-    result.verdict.notes.push_back("plan: " + note);
-  }
-  NoteOrigin(result.scenario, result.verdict);
-  if (const auto& rate = scenario.vehicle.steering_rate) {
-    result.verdict.notes.push_back(fmt::format("steering rate set to {:.4g} rad/s", *rate));
-  }
-  for (std::string& note : TyreFileNotes(scenario)) {
-    result.verdict.notes.push_back(std::move(note));
-  }
-  NoteSlidingContacts(result, car);
-  NoteIgnoredAids(result.scenario, result.logs, result.verdict.notes);
-  NoteFollowing(result);
-  if (scenario.record) {
-    for (const std::string& note : scenario.record->data->notes) {
-      result.verdict.notes.push_back("record: " + note);
-    }
-  }
+  JudgeRun(result, car);
   return result;
 }
 

@@ -23,7 +23,7 @@ def test_passes_the_check_of_gymnasium(plant, max_acceleration):
         # The bounds of the observations are infinite on purpose, because observations are in SI
         # units.
         warnings.filterwarnings("ignore", message=".*Box observation space m.*")
-        check_env(env.unwrapped, skip_render_check=True)
+        check_env(env.unwrapped)
 
 
 def test_drives_the_path_of_the_loop():
@@ -38,7 +38,7 @@ def test_drives_the_path_of_the_loop():
         seen = loop.step(float(angle) * loop.steering_limit)
         expected = numpy.array([getattr(seen, name) for name in columns], dtype=numpy.float32)
         numpy.testing.assert_array_equal(observation[: len(columns)], expected)
-        assert reward == -2.0 * seen.cross_track_m**2
+        assert reward == -2.0 * (seen.cross_track_m * seen.cross_track_m)
         assert info == {"status": seen.status, "t_s": seen.t_s}
         if terminated or truncated:
             break
@@ -77,12 +77,106 @@ def test_seeds_repeat_and_options_change_the_scenario():
     assert changed[0] == 1.0
 
 
-def test_vector_form():
-    envs = gymnasium.make_vec(NAME, num_envs=3, plant="kinematic")
-    observations, _ = envs.reset(seed=3)
-    assert observations.shape == (3, envs.single_observation_space.shape[0])
-    observations, rewards, *_ = envs.step(numpy.zeros((3, 1), numpy.float32))
-    assert rewards.shape == (3,)
+class OneByOne:
+    """The vector environment's oracle: PathTracking, reset in the step after an episode's end."""
+
+    def __init__(self, count, **arguments):
+        self.envs = [gymnasium.make(NAME, **arguments) for _ in range(count)]
+        self.done = [False] * count
+
+    def reset(self, seed):
+        self.done = [False] * len(self.envs)
+        return [env.reset(seed=seed + i)[0] for i, env in enumerate(self.envs)]
+
+    def step(self, actions):
+        rows = []
+        for env, action, done in zip(self.envs, actions, self.done):
+            row = (env.reset()[0], 0.0, False, False) if done else env.step(action)[:4]
+            rows.append(row)
+        self.done = [row[2] or row[3] for row in rows]
+        return [numpy.array(column) for column in zip(*rows)]
+
+
+@pytest.mark.parametrize("max_acceleration", [None, 2.0])
+def test_vector_form_is_many_single_ones(max_acceleration):
+    # Short episodes: noise moves some cars off the path, others reach the time limit.
+    arguments = dict(
+        plant="kinematic",
+        max_cross_track=0.15,
+        max_acceleration=max_acceleration,
+        rewards={"cross_track.max": -3.0},
+        set={"drive.time_limit": 1.0, "disturb.noise": {"position": 0.05}, "mission.start.speed": 3},
+    )
+    envs = gymnasium.make_vec(NAME, num_envs=5, **arguments)
+    assert isinstance(envs.unwrapped, trackbed.gym.VectorPathTracking)
+    single = OneByOne(5, **arguments)
+    observations, infos = envs.reset(seed=3)
+    numpy.testing.assert_array_equal(observations, single.reset(3))
+    assert observations in envs.observation_space
+    random = numpy.random.default_rng(7)
+    ends = {"terminated": 0, "truncated": 0}
+    for _ in range(110):
+        actions = random.uniform(-1.0, 1.0, envs.action_space.shape).astype(numpy.float32)
+        actions[:3] *= 0.1
+        *found, infos = envs.step(actions)
+        for own, expected in zip(found, single.step(actions)):
+            numpy.testing.assert_array_equal(own, expected)
+        ends["terminated"] += found[2].sum()
+        ends["truncated"] += found[3].sum()
+        assert infos["t_s"].shape == infos["status"].shape == (5,)
+    assert min(ends.values()) > 0, ends
+
+
+def test_vector_form_takes_the_seeds_of_a_list():
+    envs = gymnasium.make_vec(
+        NAME, num_envs=3, plant="kinematic", set={"disturb.noise": {"position": 0.1}}
+    )
+    observations, _ = envs.reset(seed=[4, 5, 4])
+    numpy.testing.assert_array_equal(observations[0], observations[2])
+    assert (observations[0] != observations[1]).any()
+    with pytest.raises(ValueError, match=r"seed has 2 values; must have 3"):
+        envs.reset(seed=[1, 2])
+    with pytest.raises(ValueError, match=r"actions has the shape \(2, 1\); must be \(3, 1\)"):
+        envs.step(numpy.zeros((2, 1)))
+
+
+def test_rewards_are_metrics_of_the_run():
+    weights = {"cross_track.rms": -10.0, "steering_rate_max": -1.0}
+    env = gymnasium.make(NAME, plant="kinematic", costs={}, rewards=weights)
+    env.reset()
+    total = 0.0
+    while True:
+        loop = env.unwrapped.loop
+        angle = -0.3 * loop.observation.cross_track_m + 1.5 * loop.observation.curvature_radpm
+        _, reward, terminated, truncated, _ = env.step(numpy.array([angle], numpy.float32))
+        total += reward
+        if terminated or truncated:
+            break
+        assert reward == 0.0
+    run = loop.result()
+    values = run.metric_values("kinematic")
+    assert total == sum(weight * values[name] for name, weight in weights.items())
+    rms = numpy.sqrt(numpy.mean(run["kinematic"]["cross_track_m"] ** 2))
+    assert values["cross_track.rms"] == pytest.approx(rms, rel=0.05)  # The metric weights by time.
+
+
+def test_renders_the_moment():
+    env = gymnasium.make(NAME, plant="kinematic", render_mode="rgb_array", size=(96, 64))
+    env.reset()
+    first = env.render()
+    assert first.shape == (64, 96, 3) and first.dtype == numpy.uint8
+    for _ in range(100):
+        env.step(numpy.zeros(1, numpy.float32))
+    later = env.render()
+    assert (first != later).any()
+    loop = env.unwrapped.loop
+    again = trackbed.frame(loop.result(), loop.observation.t_s, (96, 64))
+    numpy.testing.assert_array_equal(later, again)
+    envs = gymnasium.make_vec(
+        NAME, num_envs=2, plant="kinematic", render_mode="rgb_array", size=(96, 64)
+    )
+    envs.reset()
+    numpy.testing.assert_array_equal(envs.render()[1], first)
 
 
 @pytest.mark.parametrize(
@@ -93,6 +187,10 @@ def test_vector_form():
         (dict(costs=3), TypeError, "costs must be a dict"),
         (dict(costs={"cross_track_m": "a"}), TypeError, "must be a number"),
         (dict(ahead=["a"]), TypeError, "ahead must be a number"),
+        (dict(rewards={"cross_track": 1.0}), ValueError, "rewards has the unknown metric 'cross_track'; did"),
+        (dict(rewards=["cross_track.max"]), TypeError, "rewards must be a dict of metrics and weights"),
+        (dict(render_mode="human"), ValueError, "render_mode is 'human'; must be None or 'rgb_array'"),
+        (dict(size=(96,)), TypeError, r"size must be \(width, height\) in pixels"),
         (dict(max_cross_track=0), ValueError, "max_cross_track is 0; must be above 0"),
         (dict(max_acceleration=-1.0), ValueError, "max_acceleration is -1.0"),
         (dict(scenario="steering_circle"), ValueError, "scenario has no path to follow"),
