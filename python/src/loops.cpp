@@ -197,6 +197,7 @@ py::array_t<double> CurvatureAhead(const VectorLoop& loops, const Numbers& dista
 void BindLoops(py::module_& module) {
   BindObservation(module);
   py::class_<Prepared, std::shared_ptr<Prepared>>(module, "Prepared")
+      .def_property_readonly("name", [](const Prepared& p) { return p.scenario->name; })
       .def_property_readonly("period",
                              [](const Prepared& p) { return p.scenario->drive.control_period; })
       .def_property_readonly("steering_limit",

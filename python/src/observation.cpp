@@ -1,6 +1,7 @@
 #include "python/src/observation.h"
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 namespace trackbed::python {
@@ -122,6 +123,24 @@ py::dict ReferenceAt(const std::function<void(const std::function<void(const Ref
   return result;
 }
 
+namespace {
+
+std::optional<std::string> StatusOf(const Observation& seen) {
+  return seen.status ? std::optional<std::string>(ToString(*seen.status)) : std::nullopt;
+}
+
+py::dict AsDict(const Observation& seen) {
+  py::dict fields;
+  for (const Field& field : kFields) {
+    fields[field.name] = field.value(seen);
+  }
+  fields["status"] = StatusOf(seen);
+  fields["ended"] = seen.status.has_value();
+  return fields;
+}
+
+}  // namespace
+
 void BindObservation(py::module_& module) {
   py::class_<Observation, std::shared_ptr<Observation>> observation(module, "Observation");
   py::list names;
@@ -129,10 +148,12 @@ void BindObservation(py::module_& module) {
     observation.def_property_readonly(field.name, field.value, field.doc);
     names.append(field.name);
   }
-  observation.def_property_readonly(
-      "status", [](const Observation& o) -> std::optional<std::string> {
-        return o.status ? std::optional<std::string>(ToString(*o.status)) : std::nullopt;
-      });
+  observation.def_property_readonly("status", &StatusOf,
+                                    "How the run ended, such as \"arrived\"; None while it continues.");
+  observation.def("asdict", &AsDict, "Returns all fields by their names, with status and ended.");
+  observation.def("__repr__", [](const Observation& o) {
+    return "<Observation " + py::repr(AsDict(o)).cast<std::string>() + ">";
+  });
   observation.def_property_readonly("ended",
                                     [](const Observation& o) { return o.status.has_value(); });
   module.attr("observation_columns") = names;

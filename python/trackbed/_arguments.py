@@ -164,6 +164,14 @@ def array(name: str, value: object, shape: tuple[int, ...], finite: bool = True)
     return result
 
 
+def row(name: str, value: object) -> numpy.ndarray:
+    """Returns the argument `name` as an array of finite float64 with one dimension."""
+    result = doubles(name, value)
+    if result.ndim != 1:
+        raise ValueError(f"{name} has the shape {result.shape}; must be (n,)")
+    return array(name, result, result.shape)
+
+
 def _plain(key: str, value: Any) -> Any:
     """Returns an override's value as JSON has it; arrays and scalars of NumPy become plain."""
     if isinstance(value, (numpy.ndarray, numpy.generic)):

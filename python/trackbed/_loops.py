@@ -18,6 +18,7 @@ from ._arguments import (
     instance,
     load,
     number,
+    row,
     text,
     type_name,
     whole,
@@ -25,6 +26,10 @@ from ._arguments import (
 from ._runs import Log, Run
 
 Observation = _trackbed.Observation
+
+
+def _moment(seen: Observation) -> str:
+    return f"{seen.status or 'driving'} at {seen.t_s:.6g} s"
 
 
 class LoopState:
@@ -108,6 +113,9 @@ class Loop:
     def __reduce__(self) -> NoReturn:
         raise TypeError("a Loop cannot be pickled; make a loop in each process")
 
+    def __repr__(self) -> str:
+        return f"<Loop {self._prepared.name} on {self.plant}: {_moment(self.observation)}>"
+
     def reset(self, seed: Optional[int] = None, set: Overrides = None) -> Observation:
         """Returns the car to its start, and returns the first observation.
 
@@ -185,8 +193,7 @@ class Loop:
         stretch between two stops. Returns arrays with the shape (n,): x_m, y_m, yaw_rad,
         curvature_radpm, speed_mps, direction. Beyond its ends, the path is straight.
         """
-        shape = numpy.shape(stations)
-        return self._core.reference(array("stations", stations, (shape[0] if shape else 1,)))
+        return self._core.reference(row("stations", stations))
 
     @property
     def log(self) -> Log:
@@ -253,6 +260,14 @@ class VectorLoop:
             self.loops.append(loop)
         self._core = _trackbed.VectorLoop([loop._core for loop in self.loops], self._threads)
 
+    def __len__(self) -> int:
+        return self.count
+
+    def __repr__(self) -> str:
+        first = self.loops[0]
+        ended = int(self.ended.sum())
+        return f"<VectorLoop {first._prepared.name} on {first.plant}: {ended} of {self.count} ended>"
+
     def reset(self) -> numpy.ndarray:
         """Returns all cars to their starts, and returns the first observations."""
         for loop in self.loops:
@@ -292,10 +307,7 @@ class VectorLoop:
         distances: distances from station_m [m], an array with the shape (n,). Returns an array of
         float64 with the shape (count, n). Beyond its ends, the path is straight.
         """
-        shape = numpy.shape(distances)
-        return self._core.curvature_ahead(
-            array("distances", distances, (shape[0] if shape else 1,))
-        )
+        return self._core.curvature_ahead(row("distances", distances))
 
     @property
     def statuses(self) -> list[Optional[str]]:

@@ -102,7 +102,7 @@ def test_vector_form_is_many_single_ones(max_acceleration):
     # Short episodes: noise moves some cars off the path, others reach the time limit.
     arguments = dict(
         plant="kinematic",
-        max_cross_track=0.15,
+        max_cross_track=0.12,
         max_acceleration=max_acceleration,
         rewards={"cross_track.max": -3.0},
         set={"drive.time_limit": 1.0, "disturb.noise": {"position": 0.05}, "mission.start.speed": 3},
