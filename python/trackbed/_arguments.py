@@ -7,7 +7,7 @@ import json
 import math
 import numbers
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Optional, Union
 
 import numpy
@@ -23,6 +23,8 @@ version: str = _trackbed.version
 Scenario = Union[str, "os.PathLike[str]"]
 Plants = Union[str, Iterable[str], None]
 Overrides = Optional[Mapping[str, Any]]
+Floats = Union[Sequence[float], numpy.ndarray]
+"""Numbers in one row."""
 
 
 def type_name(value: object) -> str:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any, NoReturn, Optional
+from typing import Any, NoReturn, Optional, Union
 
 import numpy
 
 from . import _trackbed
 from ._arguments import (
     INT_MAX,
+    Floats,
     Overrides,
     Scenario,
     array,
@@ -186,7 +187,7 @@ class Loop:
             raise ValueError("state is the state of a loop with another scenario or plant")
         self._core.restore(state._core)
 
-    def reference(self, stations: Sequence[float]) -> dict[str, numpy.ndarray]:
+    def reference(self, stations: Floats) -> dict[str, numpy.ndarray]:
         """Returns points of the present plan at `stations` [m], an array with the shape (n,).
 
         Stations count as Observation.station_m; a plan that stops on the way has one part for each
@@ -230,7 +231,7 @@ class VectorLoop:
         plant: Optional[str] = None,
         count: int = 1,
         *,
-        seeds: Optional[Sequence[int]] = None,
+        seeds: Union[Sequence[int], numpy.ndarray, None] = None,
         set: Overrides = None,
         threads: Optional[int] = None,
         log: bool = False,
@@ -276,8 +277,8 @@ class VectorLoop:
 
     def step(
         self,
-        steering: Optional[Sequence[float]] = None,
-        acceleration: Optional[Sequence[float]] = None,
+        steering: Optional[Floats] = None,
+        acceleration: Optional[Floats] = None,
     ) -> numpy.ndarray:
         """Simulates one control period of every car that has not ended.
 
@@ -301,7 +302,7 @@ class VectorLoop:
         """The present observations, an array of float64 with the shape (count, len(columns))."""
         return self._core.observe()
 
-    def curvature_ahead(self, distances: Sequence[float]) -> numpy.ndarray:
+    def curvature_ahead(self, distances: Floats) -> numpy.ndarray:
         """Returns the curvature [1/m] of each car's present plan ahead of the car.
 
         distances: distances from station_m [m], an array with the shape (n,). Returns an array of

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Optional, TypeVar
 
 import numpy
 
@@ -11,6 +11,9 @@ from . import _trackbed
 from ._arguments import flag, text, type_name
 from ._runs import Log, Path
 from ._signatures import METRIC_NAME, name_of, register_plugin, returned
+
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 class _MetricAdapter:
@@ -22,7 +25,7 @@ class _MetricAdapter:
     def measure(
         self, core: _trackbed.Columns, plant: str, path: Optional[_trackbed.Columns]
     ) -> Optional[tuple[float, Optional[float], Optional[float]]]:
-        own = [Log(core, plant)]
+        own: list[Any] = [Log(core, plant)]
         if self._takes_path:
             own.append(None if path is None else Path(path))
         value = self._function(*own)
@@ -47,7 +50,7 @@ def metric(
     located: bool = False,
     headline: bool = False,
     replace: bool = False,
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+) -> Callable[[_Function], _Function]:
     """Registers a function as a metric, for metrics.json, `expect.metrics`, studies and reports.
 
         @trackbed.metric("roll_max", unit="rad", label="Largest roll angle")
@@ -60,11 +63,15 @@ def metric(
     """
     own = name_of("metric", name, METRIC_NAME)
 
-    def register(function: Callable[..., Any]) -> Callable[..., Any]:
+    def register(function: _Function) -> _Function:
         what = f"metric {own!r}"
-        if not callable(function):
+        if not callable(function) or isinstance(function, type):
             raise TypeError(f"{what} must be a function, not {type_name(function)}")
-        parameters = list(inspect.signature(function).parameters.values())
+        parameters = [
+            p
+            for p in inspect.signature(function).parameters.values()
+            if p.kind is not p.KEYWORD_ONLY or p.default is p.empty
+        ]
         if len(parameters) not in (1, 2) or any(
             p.kind not in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) for p in parameters
         ):
@@ -91,15 +98,15 @@ class _Labeled:
     """A function whose documentation is the label of a metric."""
 
     def __init__(self, function: Callable[..., Any], label: Optional[str]) -> None:
-        self.__module__ = function.__module__
-        self.__qualname__ = function.__qualname__
-        words = function.__name__.replace("_", " ").capitalize()
+        self.func = function
+        name = getattr(getattr(function, "func", function), "__name__", type(function).__name__)
+        words = name.replace("_", " ").capitalize()
         self.__doc__ = words if label is None else text("label", label)
 
 
 def requirement(
     name: str, *, unit: str = "", replace: bool = False
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+) -> Callable[[_Function], _Function]:
     """Registers a function as a requirement: a metric that must be at least 0.
 
         @trackbed.requirement("calm", unit="m/s^2")

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import copy
 import inspect
-from collections.abc import Mapping, Sequence
-from typing import Any, Callable, Optional
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Callable, Optional, TypeVar
 
 import numpy
 
 from . import _trackbed
-from ._arguments import INT_MAX, array, doubles, flag, number, text, texts, type_name, whole
+from ._arguments import INT_MAX, Floats, array, doubles, flag, number, text, texts, type_name, whole
 from ._signatures import (
     NAME,
     Key,
@@ -36,6 +36,10 @@ class NoPath(Exception):
     """Raised by a planner if the mission has no path; the text is the reason in plan.json."""
 
 
+_F = TypeVar("_F", bound=Callable[..., Any])
+_Class = TypeVar("_Class", bound=type)
+
+
 class PlannedPath:
     """The result of a planner.
 
@@ -52,10 +56,12 @@ class PlannedPath:
         self,
         points: Any,
         *,
-        speed: Optional[Sequence[float]] = None,
+        speed: Optional[Floats] = None,
         notes: Sequence[str] = (),
         max_deviation: float = 0.05,
     ) -> None:
+        if isinstance(points, Iterator):
+            points = list(points)
         self.points = doubles("points", points).copy()
         shape = self.points.shape
         if len(shape) != 2 or shape[1] not in (2, 3):
@@ -143,7 +149,7 @@ def planner(
     goes_backwards: bool = False,
     is_random: bool = False,
     replace: bool = False,
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+) -> Callable[[_F], _F]:
     """Registers a function as a planner, for `plan: {method: NAME}`.
 
         @trackbed.planner("sidestep")
@@ -160,8 +166,10 @@ def planner(
     """
     own = name_of("planner", name)
 
-    def register(function: Callable[..., Any]) -> Callable[..., Any]:
+    def register(function: _F) -> _F:
         what = f"planner {own!r}"
+        if isinstance(function, type):
+            raise TypeError(f"{what} must be a function, not the class {function.__name__}")
         specs = keys_of(what, parameters_of(what, function, ["request"]), keys, "plan")
         register_plugin(
             "planner",
@@ -245,7 +253,7 @@ def controller(
     needs_plan: bool = True,
     station: str = "projection",
     replace: bool = False,
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+) -> Callable[[_F], _F]:
     """Registers a class or a function as a controller, for `control: {method: NAME}`.
 
         @trackbed.controller("proportional")
@@ -271,7 +279,7 @@ def controller(
     if text("station", station) not in ("projection", "odometer"):
         raise ValueError(f"station is {station!r}; must be 'projection' or 'odometer'")
 
-    def register(function: Callable[..., Any]) -> Callable[..., Any]:
+    def register(function: _F) -> _F:
         what = f"controller {own!r}"
         is_class = isinstance(function, type)
         if is_class:
@@ -349,7 +357,7 @@ class _PlantAdapter:
         return _PlantObject(self._own(setup))
 
 
-def plant(name: str, *, replace: bool = False) -> Callable[[type], type]:
+def plant(name: str, *, replace: bool = False) -> Callable[[_Class], _Class]:
     """Registers a class as a plant, for `drive: {plants: [NAME]}`.
 
         @trackbed.plant("my_car")
@@ -370,7 +378,7 @@ def plant(name: str, *, replace: bool = False) -> Callable[[type], type]:
     """
     own = name_of("plant", name)
 
-    def register(function: type) -> type:
+    def register(function: _Class) -> _Class:
         what = f"plant {own!r}"
         if not isinstance(function, type):
             raise TypeError(f"{what} must be a class, not {type_name(function)}")

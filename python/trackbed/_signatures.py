@@ -82,7 +82,10 @@ def parameters_of(what: str, function: Callable[..., Any], leading: Sequence[str
         parameters = list(inspect.signature(function).parameters.values())
     except (TypeError, ValueError):
         raise TypeError(f"{what} must be a function or a class with a signature") from None
-    keywords = [p for p in parameters if p.kind is inspect.Parameter.KEYWORD_ONLY]
+    bound = getattr(function, "keywords", {})  # Those of a functools.partial are no keys.
+    keywords = [
+        p for p in parameters if p.kind is inspect.Parameter.KEYWORD_ONLY and p.name not in bound
+    ]
     others = [p for p in parameters if p.kind is not inspect.Parameter.KEYWORD_ONLY]
     if [p for p in others if p.kind not in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]:
         raise TypeError(f"{what} must not have *args or **kwargs, because its keys must be known")
@@ -129,6 +132,13 @@ def keys_of(what: str, parameters: Iterable[Any], given: Mapping[str, Key], sect
     return result
 
 
+def _place(function: Any) -> str:
+    """Returns module and name of a function or class; of other callables, those of the class."""
+    named = getattr(function, "func", function)  # The function of a functools.partial.
+    named = named if hasattr(named, "__qualname__") else type(named)
+    return f"{named.__module__}.{named.__qualname__}"
+
+
 def register_plugin(
     kind: str,
     name: str,
@@ -139,9 +149,11 @@ def register_plugin(
     register: Callable[[dict[str, Any]], None],
     **properties: Any,
 ) -> None:
-    place = f"{function.__module__}.{function.__qualname__}"
+    place = _place(function)
     before = _registered.get((kind, name))
     replaces = flag("replace", replace)
+    if before is not None and before["place"] == place and "<" not in place:
+        replaces = True  # The same definition again: a reloaded module, or a repeated notebook cell.
     if before is not None and not replaces:
         raise ValueError(
             f"{kind} {name!r} is already registered, by {before['place']}; give {place} another "

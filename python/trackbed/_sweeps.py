@@ -8,12 +8,12 @@ import sys
 import time
 import weakref
 from collections.abc import Iterator, Mapping
-from typing import Any, Optional, Union
+from typing import Any, NoReturn, Optional, Union
 
 import numpy
 
 from . import _trackbed
-from ._arguments import INT_MAX, Overrides, Scenario, flag, number, overrides, path, whole
+from ._arguments import INT_MAX, Overrides, Scenario, flag, number, overrides, path, similar, whole
 from ._runs import _pandas
 
 
@@ -63,7 +63,10 @@ class Sweep(Mapping[str, numpy.ndarray]):
 
     def __getitem__(self, name: str) -> numpy.ndarray:
         if not isinstance(name, str) or name not in self.columns:
-            raise KeyError(f"no column {name!r}; the columns are {', '.join(self.columns)}")
+            names = self.columns
+            raise KeyError(
+                f"no column {name!r}{similar(name, names)}; the columns are {', '.join(names)}"
+            )
         column = self.columns.index(name)
         return _column([cells[column] for cells in self._job.rows.values()])
 
@@ -98,6 +101,9 @@ class Sweep(Mapping[str, numpy.ndarray]):
             return self.to_pandas()._repr_html_()
         except ImportError:
             return None
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Sweep cannot be pickled; use sweep.to_pandas() or dict(sweep)")
 
     def __repr__(self) -> str:
         return f"<Sweep {self.name}: {self.rows} of {self.rows_expected} rows>"

@@ -18,6 +18,7 @@ from gymnasium.vector.utils import batch_space
 
 from . import _trackbed
 from ._arguments import (
+    Floats,
     Overrides,
     Scenario,
     array,
@@ -136,7 +137,7 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
         set: Overrides = None,
         *,
         observed: Sequence[str] = OBSERVED,
-        ahead: Sequence[float] = (2.0, 5.0, 10.0),
+        ahead: Floats = (2.0, 5.0, 10.0),
         costs: Mapping[str, float] = COSTS,
         rewards: Mapping[str, float] = {},
         max_cross_track: float = 5.0,
@@ -224,7 +225,7 @@ class VectorPathTracking(gymnasium.vector.VectorEnv[numpy.ndarray, numpy.ndarray
         set: Overrides = None,
         *,
         observed: Sequence[str] = OBSERVED,
-        ahead: Sequence[float] = (2.0, 5.0, 10.0),
+        ahead: Floats = (2.0, 5.0, 10.0),
         costs: Mapping[str, float] = COSTS,
         rewards: Mapping[str, float] = {},
         max_cross_track: float = 5.0,
@@ -372,6 +373,6 @@ def _value(name: str, value: Any) -> float:
 
 gymnasium.register(
     "trackbed/PathTracking-v0",
-    entry_point=PathTracking,
-    vector_entry_point=VectorPathTracking,
+    entry_point="trackbed.gym:PathTracking",
+    vector_entry_point="trackbed.gym:VectorPathTracking",
 )

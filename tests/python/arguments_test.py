@@ -75,6 +75,7 @@ FUNCTIONS = [
     (trackbed.VectorLoop.step, [CARS], {"steering": "array", "acceleration": "array"}),
     (trackbed.Loop.reset, [LOOP], {"set": "dict", "seed": "whole"}),
     (trackbed.Loop.reference, [LOOP], {"stations": "array"}),
+    (trackbed.VectorLoop.curvature_ahead, [CARS], {"distances": "array"}),
     (trackbed.Run.write, [RUN, "out"], {"folder": "path", "mcap": "flag"}),
     (trackbed.frame, [RUN, 1.0], {**DRAWN, "t": "number"}),
     (trackbed.film, [RUN, "a.png"], {**DRAWN, "file": "path", "fps": "number"}),

@@ -1,8 +1,10 @@
 """Loops that Python steps."""
 
+import copy
 import gc
 import math
 import os
+import pickle
 import threading
 
 import numpy
@@ -269,3 +271,67 @@ def test_steps_in_a_forked_process():
         finally:
             os._exit(1)
     assert os.waitpid(child, 0)[1] == 0
+
+
+def test_the_result_of_a_loop_is_the_run():
+    set = {"mission.waypoints": [[0, 0], [20, 0]], "expect": {"max_cross_track": 0.2}}
+    run = trackbed.run("three_turns", plants=["kinematic"], set=set)
+    loop = trackbed.Loop("three_turns", "kinematic", set)
+    assert loop.result().metrics["kinematic"]["status"] == "interrupted"
+    while not loop.observation.ended:
+        loop.step()
+    result = loop.result()
+    assert result.metrics == run.metrics and result.verdict == run.verdict and result.passed
+    for column in run["kinematic"]:
+        numpy.testing.assert_array_equal(result["kinematic"][column], run["kinematic"][column])
+
+
+def test_a_result_ends_with_the_present_moment():
+    loop = trackbed.Loop("three_turns", "kinematic")
+    for steps in range(3):
+        log = loop.result()["kinematic"]
+        seen = loop.observation
+        assert (log.rows, log["t_s"][-1], log["x_m"][-1]) == (steps + 1, seen.t_s, seen.x_m)
+        loop.step(0.1)
+    last = trackbed.Loop("three_turns", "kinematic", log=False)
+    last.step()
+    last.step()
+    assert last.result()["kinematic"]["t_s"].tolist()[-1] == last.observation.t_s
+
+
+def test_a_copy_goes_its_own_way():
+    loop = trackbed.Loop("three_turns", "kinematic")
+    loop.step(0.1)
+    other = copy.deepcopy(loop)
+    assert repr(other.observation) == repr(loop.observation)
+    other.step(0.3)
+    assert loop.observation.t_s == loop.period and other.observation.t_s == 2 * loop.period
+    loop.step(0.3)
+    assert repr(other.observation) == repr(loop.observation)
+    with pytest.raises(TypeError, match="a Loop cannot be pickled; make a loop in each process"):
+        pickle.dumps(loop)
+    with pytest.raises(TypeError, match="a LoopState cannot be pickled"):
+        pickle.dumps(loop.state)
+
+
+def test_texts_say_where_the_car_is():
+    cars = trackbed.VectorLoop("three_turns", "kinematic", 2)
+    cars.step()
+    assert repr(cars.loops[0]) == "<Loop three_turns on kinematic: driving at 0.02 s>"
+    assert repr(cars) == "<VectorLoop three_turns on kinematic: 0 of 2 ended>"
+    assert repr(cars.loops[0].observation).startswith("<Observation {'t_s': 0.02, 'x_m': ")
+    assert len(cars) == 2 and cars.statuses == [None, None]
+
+
+def test_curvature_ahead_is_that_of_the_references():
+    cars = trackbed.VectorLoop("three_turns", "kinematic", 2, seeds=[1, 2])
+    for angle in numpy.linspace(0, 0.2, 50):
+        cars.step([angle, -angle])
+    ahead = numpy.array([0.0, 5.0, 35.0])
+    found = cars.curvature_ahead(ahead)
+    for row, loop in zip(found, cars.loops):
+        points = loop.reference(loop.observation.station_m + ahead)
+        numpy.testing.assert_array_equal(row, points["curvature_radpm"])
+    assert (found != 0.0).any()
+    with pytest.raises(ValueError, match=r"distances has the shape \(\); must be \(n,\)"):
+        cars.curvature_ahead(2.0)

@@ -1,5 +1,6 @@
 """Planners, controllers, plants, metrics and requirements that are written in Python."""
 
+import functools
 import gc
 import math
 import threading
@@ -357,7 +358,7 @@ def test_interrupts_are_raised_unchanged():
     [
         (lambda: trackbed.planner("preview"), None, ""),
         (lambda: trackbed.planner("straight")(line), ValueError, "already registered"),
-        (lambda: trackbed.planner("test_line")(line), ValueError, "already registered, by .*line"),
+        (lambda: trackbed.planner("test_line")(lambda r: 1), ValueError, "already registered, by .*line"),
         (lambda: trackbed.planner("Ärger")(line), ValueError, "name is 'Ärger'"),
         (lambda: trackbed.planner(3)(line), TypeError, "name must be a str"),
         (lambda: trackbed.planner(line), TypeError, "planner needs a name"),
@@ -491,3 +492,46 @@ def test_plugins_run_on_threads():
         thread.join()
     for run in runs[1:]:
         numpy.testing.assert_array_equal(run["test_bicycle"]["x_m"], runs[0]["test_bicycle"]["x_m"])
+
+
+def again(request):
+    return [[0.0, 0.0], [20.0, 0.0]]
+
+
+def test_the_same_definition_replaces_itself():
+    for _ in range(2):  # As a reloaded module, or a notebook's cell that is run again.
+        trackbed.planner("test_again")(again)
+    with pytest.raises(ValueError, match="already registered, by .*again"):
+        trackbed.planner("test_again")(lambda request: again(request))
+
+
+class Straight:
+    def __call__(self, request):
+        x, y, _ = request.start
+        return ((x + i, y) for i in range(40))
+
+
+@pytest.mark.parametrize(
+    "name, planner",
+    [
+        ("test_object", Straight()),
+        ("test_partial", functools.partial(lambda request, own: own(request), own=Straight())),
+    ],
+)
+def test_any_callable_is_a_planner(name, planner):
+    trackbed.planner(name)(planner)
+    run = trackbed.run("three_turns", plants="kinematic", set={"plan": {"method": name}})
+    assert run.path["x_m"][-1] == pytest.approx(39.0, abs=0.1)
+
+
+def test_a_metric_may_have_parameters_of_its_own():
+    trackbed.metric("test_bound")(functools.partial(lambda log, *, least: least, least=2.0))
+    run = trackbed.run("three_turns", plants="kinematic", set={"drive.time_limit": 1, "expect": {}})
+    assert run.metric_values("kinematic")["test_bound"] == 2.0
+
+
+def test_a_class_is_no_planner_and_no_metric():
+    with pytest.raises(TypeError, match="planner 'test_x' must be a function, not the class Straight"):
+        trackbed.planner("test_x")(Straight)
+    with pytest.raises(TypeError, match="metric 'test_x' must be a function"):
+        trackbed.metric("test_x")(Straight)

@@ -1,10 +1,12 @@
 """Runs, and what they leave."""
 
+import copy
 import csv
 import gc
 import json
 import os
 import pathlib
+import pickle
 import re
 import signal
 import subprocess
@@ -306,3 +308,36 @@ def test_version_is_that_of_the_program():
     told = subprocess.run([program, "--version"], capture_output=True, text=True).stdout
     assert re.match(r"\d+\.\d+\.\d+", trackbed.__version__)
     assert trackbed.__version__.split()[0] in told
+
+
+def test_logs_and_paths_can_be_pickled():
+    run = trackbed.run("three_turns", plants=["kinematic"])
+    for table in (run["kinematic"], run.path):
+        again = pickle.loads(pickle.dumps(table))
+        assert type(again) is type(table) and list(again) == list(table) and again.rows == table.rows
+        for name in table:
+            numpy.testing.assert_array_equal(again[name], table[name])
+            assert not again[name].flags.writeable
+    assert pickle.loads(pickle.dumps(run["kinematic"])).plant == "kinematic"
+    with pytest.raises(TypeError, match="a Run cannot be pickled.*return run.plant., run.metrics"):
+        pickle.dumps(run)
+    assert copy.deepcopy(run) is run and copy.deepcopy(run.path)["x_m"][0] == run.path["x_m"][0]
+
+
+def test_metric_values_are_those_of_the_file():
+    run = trackbed.run("three_turns", plants=["kinematic"])
+    values, metrics = run.metric_values("kinematic"), run.metrics["kinematic"]
+    assert values["cross_track.max"] == metrics["cross_track"]["max"]
+    assert values["turns[1].lateral_offset"] == metrics["turns"][1]["lateral_offset"]
+    with pytest.raises(KeyError, match="no plant 'kinematik'; did you mean 'kinematic'"):
+        run.metric_values("kinematik")
+    with pytest.raises(KeyError, match="no column 'cross_track'; did you mean 'cross_track_m'"):
+        run["kinematic"]["cross_track"]
+
+
+def test_pictures_bear_the_name_of_the_run():
+    run = trackbed.run("three_turns", plants=["kinematic"], set={"drive.time_limit": 1, "expect": {}})
+    other = trackbed.run("three_turns", plants=["kinematic"], set={"drive.time_limit": 1, "expect": {}})
+    numpy.testing.assert_array_equal(
+        trackbed.frame(run, 0.5, (160, 90)), trackbed.frame(other, 0.5, numpy.array([160, 90]))
+    )
