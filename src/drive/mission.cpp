@@ -89,6 +89,17 @@ void NoteMissedWaypoint(FeasiblePlan& plan, const VehicleParams& vehicle) {
   }
 }
 
+/// Adds a note to the plan if the run ends before the plan does.
+void NoteTimeLimit(FeasiblePlan& plan, double time_limit) {
+  const double duration = plan->Duration();
+  if (duration >= time_limit) {
+    plan.AddNote(fmt::format(
+        "the plan takes {:.5g} s, but drive.time_limit ends the run after {:.5g} s; set "
+        "drive.time_limit: {:.0f}",
+        duration, time_limit, std::ceil(1.1 * duration)));
+  }
+}
+
 /// Returns the path of a car that turns round at full lock to the shorter side until it faces along
 /// `to`, while its wheels turn at their full rate from straight ahead.
 Path TurnRoundPath(const VehicleParams& vehicle, const StartState& start, const PathPoint& to,
@@ -268,6 +279,7 @@ FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle,
       NoteObstacle(plan, vehicle, known);
     }
     NoteMissedWaypoint(plan, vehicle);
+    NoteTimeLimit(plan, scenario.drive.time_limit);
     NoteInputs(plan, scenario);
     return plan;
   }
@@ -290,6 +302,7 @@ FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle,
                     *scenario.plan->avoid);
   if (plan.ok()) {
     NoteMissedWaypoint(plan, vehicle);
+    NoteTimeLimit(plan, scenario.drive.time_limit);
     NoteInputs(plan, scenario);
   }
   return plan;
