@@ -160,10 +160,11 @@ inline void Visit(KeyVisitor& a, MissionSpec& mission) {
   mission.speed = speed.value_or(0.0);
   a.Field({"waypoints", "m", "route; at least two points"}, mission.waypoints, Need::kOptional,
           kPlaces);
-  a.Field({"headings", "rad",
-           "heading of the car at each waypoint; default: along the last leg at the goal, from the "
-           "previous to the next stop at stops in between"},
-          mission.headings, Need::kOptional, kDirection);
+  a.Field(
+      {"headings", "rad",
+       "heading of the car at each waypoint; default: along the last leg at the goal, at stops in "
+       "between that of the circle through the previous, this and the next stop"},
+      mission.headings, Need::kOptional, kDirection);
   a.List({"route", "",
           "places on lanes of world.road_network that the route leads over, at least two; for the "
           "planner lane_route"},

@@ -33,6 +33,17 @@ std::string FirstCorner(const std::vector<Vec2>& points) {
   return "";
 }
 
+/// Returns the direction at `at` of the circle from `before` through `at` to `after`, of any
+/// length. An inversion about `at` maps the circle to a line, so the direction is that of the line
+/// through the images of the other points. If the points are there and back on one line, the
+/// direction is the left normal of the way there.
+Vec2 CircleTangent(const Vec2& before, const Vec2& at, const Vec2& after) {
+  const Vec2 in = at - before;
+  const Vec2 out = after - at;
+  const Vec2 tangent = in * out.squaredNorm() + out * in.squaredNorm();
+  return tangent == Vec2::Zero() ? LeftNormal(in) : tangent;
+}
+
 }  // namespace
 
 namespace route {
@@ -230,8 +241,10 @@ std::vector<Pose2> PlannedStops(const PlanRequest& request) {
   const std::vector<Vec2>& points = request.waypoints;
   std::vector<Pose2> stops{request.start};
   for (std::size_t i = 1; i < points.size(); ++i) {
+    const bool is_goal = i + 1 == points.size();
     const Vec2 before = stops.back().position();
-    const Vec2 along = points[std::min(i + 1, points.size() - 1)] - before;
+    const Vec2 along =
+        is_goal ? Vec2(points[i] - before) : CircleTangent(before, points[i], points[i + 1]);
     stops.push_back(
         {points[i].x(), points[i].y(),
          request.headings.empty() ? std::atan2(along.y(), along.x()) : request.headings[i]});

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/geometry/random.h"
 #include "tests/planning/poses.h"
 #include "tests/planning/print_planner.h"
 #include "tests/tolerance.h"
@@ -518,6 +519,40 @@ TEST(PlannedStops, TakesHeadingsFromTheLegsIfThereAreNone) {
   EXPECT_EQ(PlannedStops(request)[1].yaw, 1.0);
   request.headings.pop_back();
   EXPECT_THROW(MakePlan(request, DubinsOptions{}), InternalError);
+}
+
+TEST(PlannedStops, HeadAlongTheCircleThroughThreeStops) {
+  // Random points on a circle about (3, -2), counterclockwise from the start.
+  const Vec2 center(3.0, -2.0);
+  const auto at = [&](double angle, double radius) {
+    return Vec2(center + radius * Vec2(std::cos(angle), std::sin(angle)));
+  };
+  Random random(5);
+  for (int i = 0; i < 100; ++i) {
+    const double radius = random.Uniform(5.0, 100.0);
+    const double first = random.Uniform(-kPi, kPi);
+    const double second = first + random.Uniform(0.1, 3.0);
+    const double third = second + random.Uniform(0.1, 3.0);
+    PlanRequest request;
+    request.waypoints = {at(first, radius), at(second, radius), at(third, radius)};
+    request.start = {request.waypoints[0].x(), request.waypoints[0].y(), 0.0};
+    // The angle of rounding is below 1e-15 x 100 m / (0.1 x 5 m).
+    EXPECT_NEAR(AngleDifference(PlannedStops(request)[1].yaw, second + 0.5 * kPi), 0.0, 1e-12);
+  }
+}
+
+TEST(PlannedStops, TurnOnTheLongerLeg) {
+  PlanRequest request;
+  const auto heading_between = [&](const Vec2& at, const Vec2& goal) {
+    request.waypoints = {{0.0, 0.0}, at, goal};
+    return PlannedStops(request)[1].yaw;
+  };
+  EXPECT_EQ(heading_between({60.0, 0.0}, {90.0, 0.0}), 0.0);
+  EXPECT_NEAR(heading_between({60.0, 0.0}, {60.0, 10.0}), std::atan2(6.0, 1.0), 1e-15);
+  // Turns by half a turn on the longer leg; by a quarter on each of two equal ones.
+  EXPECT_EQ(heading_between({60.0, 0.0}, {30.0, 0.0}), kPi);
+  EXPECT_EQ(heading_between({60.0, 0.0}, {-30.0, 0.0}), 0.0);
+  EXPECT_EQ(heading_between({0.0, 40.0}, {0.0, 0.0}), kPi);
 }
 
 TEST(AStarPlanner, RefusesCornersWhenAsked) {
