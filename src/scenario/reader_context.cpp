@@ -29,7 +29,14 @@ bool ReaderContext::Read(std::string_view dotted) const {
   });
 }
 
-std::string ReaderContext::MethodHint(const std::string& section, const YAML::Node& node) const {
+std::string ReaderContext::MethodHint(const std::string& section, const YAML::Node& node,
+                                      const std::string& unknown) const {
+  if (section == "plan" && (unknown == "avoid" || unknown == "replan")) {
+    return fmt::format(
+        "; beside plan.{}, the planner has its own section: plan: {{global: "
+        "{{method: {}}}, {}: ...}}",
+        unknown, node["method"].as<std::string>(""), unknown);
+  }
   const std::string key = section + ".method";
   if (std::find(overridden.begin(), overridden.end(), key) == overridden.end()) {
     return "";

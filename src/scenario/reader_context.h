@@ -31,10 +31,11 @@ struct ReaderContext {
   /// Returns whether the key was read; for a list, whether every element was read.
   [[nodiscard]] bool Read(std::string_view dotted) const;
 
-  /// If the option --set has set the method of the section `node`, returns a hint for problems of
-  /// its other keys: they may belong to the method that the file names. Otherwise returns an empty
-  /// text.
-  [[nodiscard]] std::string MethodHint(const std::string& section, const YAML::Node& node) const;
+  /// Returns a hint for the key `unknown` of the section `node`. If the option --set has set the
+  /// method of the section, the key may belong to the method that the file names. A local planner
+  /// or replanner needs the section of the planner beside it. Otherwise returns an empty text.
+  [[nodiscard]] std::string MethodHint(const std::string& section, const YAML::Node& node,
+                                       const std::string& unknown) const;
 
   /// Sorts the problems by their positions in the file.
   void SortProblems();

@@ -367,7 +367,7 @@ void YamlReader::Finish() {
       AddError(entry.first, Dotted(name.c_str()), "duplicate key");
     } else if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
       AddError(entry.first, Dotted(name.c_str()),
-               "unknown key " + UnknownName(name, known_) + context_.MethodHint(key_, node_));
+               "unknown key " + UnknownName(name, known_) + context_.MethodHint(key_, node_, name));
       if (const std::string meant = NearestSpelling(name, known_); !meant.empty()) {
         context_.unread.push_back(Dotted(meant.c_str()));
       }
