@@ -12,6 +12,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Cost assigned to a corner that the car cannot drive [m].
 constexpr double kTooTight = 1e6;
+/// Largest number of corners that a new corner replaces.
+constexpr std::size_t kSpan = 8;
 
 /// Returns the cost of the corner at the waypoint `at`. With `all_in`, the corner may use the whole
 /// incoming leg instead of half of it; `all_out` does the same for the outgoing leg.
@@ -33,15 +35,18 @@ struct Line {
 };
 
 /// Finds the best points of a way, as described at PruneWaypoints, in O(n^3) of its n points.
-std::vector<Vec2> PruneWindow(const std::vector<Vec2>& way, const PruningProblem& problem) {
+/// `is_free` tells for two indices of points whether the car may drive straight from one to the
+/// other.
+template <typename IsFree>
+std::vector<Vec2> PruneWindow(const std::vector<Vec2>& way, const PruningProblem& problem,
+                              const IsFree& is_free) {
   const std::size_t n = way.size();
   const bool windy = problem.wind.weight != 0.0 && !IsCalm(problem.wind.wind);
-  const BoxIndex obstacles(problem.obstacles);
   std::vector<Line> lines(n * n);
   for (std::size_t i = 1; i < n; ++i) {
     const bool ends = problem.last_leg && i + 1 == n;
     for (std::size_t k = 0; k < i; ++k) {
-      if (k + 1 < i && !obstacles.KeepsFrom(way[k], way[i], problem.inflation)) {
+      if (!is_free(k, i)) {
         continue;
       }
       Line best;
@@ -83,9 +88,76 @@ std::vector<Vec2> PruneWindow(const std::vector<Vec2>& way, const PruningProblem
   return few;
 }
 
+/// Returns whether every corner of a path fits on its lines.
+bool CornersFit(const std::vector<Vec2>& way, const PruningProblem& problem) {
+  for (std::size_t i = problem.before ? 0 : 1; i + 1 < way.size(); ++i) {
+    const bool begins = problem.first_leg && i == (problem.before ? 0 : 1);
+    const bool ends = problem.last_leg && i + 2 == way.size();
+    const Vec2& from = i == 0 ? *problem.before : way[i - 1];
+    if (CornerCost(problem, from, way[i], way[i + 1], begins, ends) > 0.0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// A corner that may replace some successive points of a path.
+struct OuterCorner {
+  Vec2 at;
+  /// Index of the point of the path that the corner is; none for a new corner.
+  std::optional<std::size_t> point{};
+};
+
+/// Returns the point at which two lines meet if both are extended toward each other: the line from
+/// `a` through `b` beyond `b`, and the line from `d` through `c` beyond `c`.
+std::optional<Vec2> Meeting(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const Vec2 in = b - a;
+  const Vec2 out = d - c;
+  const double area = Cross(in, out);
+  const double ahead = Cross(c - b, out) / area;  // in lengths of the first line
+  const double behind = Cross(c - b, in) / area;  // in lengths of the second line, forward
+  if (!std::isfinite(ahead) || !std::isfinite(behind) || ahead < 0.0 || behind > 0.0) {
+    return std::nullopt;
+  }
+  return Vec2(b + ahead * in);
+}
+
+/// Returns the points of a path with the corners at which up to kSpan successive lines meet that
+/// are not neighbors, in the order of the first line of each corner.
+std::vector<OuterCorner> WithOuterCorners(const std::vector<Vec2>& way) {
+  std::vector<OuterCorner> corners{{way.front(), 0}};
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    corners.push_back({way[i + 1], i + 1});
+    for (std::size_t j = i + 2; j + 1 < way.size() && j <= i + kSpan; ++j) {
+      if (const auto meeting = Meeting(way[i], way[i + 1], way[j], way[j + 1])) {
+        corners.push_back({*meeting});
+      }
+    }
+  }
+  return corners;
+}
+
 }  // namespace
 
+std::vector<Vec2> JoinCloseCorners(const std::vector<Vec2>& way, const PruningProblem& problem) {
+  if (way.size() < 4 || way.size() > kJoinedPoints || CornersFit(way, problem)) {
+    return way;
+  }
+  const std::vector<OuterCorner> corners = WithOuterCorners(way);
+  std::vector<Vec2> points;
+  for (const OuterCorner& corner : corners) {
+    points.push_back(corner.at);
+  }
+  const BoxIndex obstacles(problem.obstacles);
+  return PruneWindow(points, problem, [&](std::size_t k, std::size_t i) {
+    const bool is_given =
+        corners[k].point && corners[i].point && *corners[i].point == *corners[k].point + 1;
+    return is_given || obstacles.KeepsFrom(points[k], points[i], problem.inflation);
+  });
+}
+
 std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProblem& problem) {
+  const BoxIndex obstacles(problem.obstacles);
   std::vector<Vec2> few{way.front()};
   for (std::size_t begin = 0; begin + 1 < way.size();) {
     const std::size_t end = std::min(begin + kPruningWindow, way.size() - 1);
@@ -96,7 +168,11 @@ std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProb
       own.first_leg = problem.first_leg && !problem.before && few.size() == 2;
     }
     own.last_leg = problem.last_leg && end + 1 == way.size();
-    const std::vector<Vec2> pruned = PruneWindow({at(begin), at(end) + 1}, own);
+    const std::vector<Vec2> pruned =
+        PruneWindow({at(begin), at(end) + 1}, own, [&](std::size_t k, std::size_t i) {
+          return k + 1 == i ||
+                 obstacles.KeepsFrom(way[begin + k], way[begin + i], problem.inflation);
+        });
     few.insert(few.end(), pruned.begin() + 1, pruned.end());
     begin = end;
   }

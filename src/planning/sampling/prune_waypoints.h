@@ -44,6 +44,17 @@ inline constexpr std::size_t kPruningWindow = 300;
 /// within each window. The computing time per window of n points is O(n^3) plus O(n^2 x obstacles).
 std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProblem& problem);
 
+/// The number of points of a path up to which JoinCloseCorners changes it.
+inline constexpr std::size_t kJoinedPoints = kPruningWindow / 8;
+
+/// Replaces successive corners that do not fit on the lines between them. New corners are the
+/// points at which lines of the path meet if they are extended: two sharp corners around the end of
+/// a wall become one corner farther outside. Returns the cheapest path, as in PruneWaypoints, among
+/// the given points and the new corners. Returns the path unchanged if all of its corners fit, or
+/// if it has more than kJoinedPoints points. Cost: that of PruneWaypoints for eight times as many
+/// points.
+std::vector<Vec2> JoinCloseCorners(const std::vector<Vec2>& way, const PruningProblem& problem);
+
 /// Splits a path into pieces that are so short that the wind is nearly uniform along each piece.
 std::vector<Vec2> InPieces(const std::vector<Vec2>& way);
 

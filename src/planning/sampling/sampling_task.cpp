@@ -126,15 +126,16 @@ double CornerTangents::operator()(double turn) const {
 void AddPruned(const SamplingTask& task, const CornerTangents& tangents, double corner_cost,
                const std::vector<Vec2>& path, bool is_last, std::vector<Vec2>& points) {
   const std::size_t before = points.size();
-  const std::vector<Vec2> few =
-      PruneWaypoints(path, {.before = before > 1 ? std::optional(points[before - 2]) : std::nullopt,
-                            .first_leg = before <= 2,
-                            .last_leg = is_last,
-                            .obstacles = task.obstacles,
-                            .inflation = task.inflation,
-                            .wind = task.wind,
-                            .corner_cost = corner_cost,
-                            .tangent = tangents});
+  const PruningProblem problem{
+      .before = before > 1 ? std::optional(points[before - 2]) : std::nullopt,
+      .first_leg = before <= 2,
+      .last_leg = is_last,
+      .obstacles = task.obstacles,
+      .inflation = task.inflation,
+      .wind = task.wind,
+      .corner_cost = corner_cost,
+      .tangent = tangents};
+  const std::vector<Vec2> few = JoinCloseCorners(PruneWaypoints(path, problem), problem);
   points.insert(points.end(), few.begin() + 1, few.end());
 }
 

@@ -13,6 +13,7 @@
 #include "trackbed/planning/common/lead_in.h"
 #include "trackbed/planning/common/occupancy_grid.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/route.h"
 #include "trackbed/planning/sampling/smoothing.h"
 
 /// Functions that the sampling planners share. The planners draw their random samples in the car's
@@ -106,10 +107,11 @@ inline bool IsTooNear(const Plan& plan) {
          plan.status == PlanStatus::kUTurn || plan.status == PlanStatus::kWaypointMissed;
 }
 
-/// Plans with `plan_trees`. If the plan of a rolling car fails because its first corner is too
-/// near, PlanWithLeadIn retries with up to `tries` longer initial straights. The first retry uses
+/// Plans with `plan_trees`. If the plan fails because its first corner is too near,
+/// PlanWithLeadIn retries with up to `tries` longer initial straights. The first retry uses
 /// the longest initial straight, on which the car can stop. If an obstacle blocks the longest
-/// straight, the next retries add only a half or a quarter of the additional length. The last
+/// straight, the next retries add only a half or a quarter of the additional length. A car at rest
+/// that an obstacle ahead keeps from the initial straight then tries a half of it. The last
 /// retries begin with DeparturesToNearWaypoint, unless the options have no initial straight, or
 /// allow only one retry. All retries but the first grow only one tree each, because many refused
 /// missions have no plan at all. A rejection of the first plan is explained (Refusal::kExplained).
@@ -119,7 +121,9 @@ Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const Pl
   PlanRequest left = request;
   TreesPlan first = plan_trees(options, left, std::vector<Vec2>{});
   Plan plan = std::move(first.plan);
-  if (!IsTooNear(plan) || options.corners == Corners::kRefuse) {
+  const bool is_lead_in_blocked = plan.status == PlanStatus::kStartBlocked &&
+                                  route::CheckStart(request, options.safe_distance).ok();
+  if (!(IsTooNear(plan) || is_lead_in_blocked) || options.corners == Corners::kRefuse) {
     return plan;
   }
   long samples = plan.diagnostics.samples;
@@ -137,16 +141,24 @@ Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const Pl
   // Skip lengths that were tried before, because the same initial straight would give the same
   // trees.
   std::vector<double> tried{StraightStart(options.lead_in, request)};
-  for (int i = 0; i < tries && !plan.ok() && request.start_speed > 0.0; ++i, more *= 0.5) {
-    Options longer = options;
-    longer.lead_in += more;
-    longer.trees = i == 0 ? options.trees : 1;
-    const double straight = StraightStart(longer.lead_in, request);
+  const auto retry_straight = [&](double lead_in, int trees) {
+    Options changed = options;
+    changed.lead_in = lead_in;
+    changed.trees = trees;
+    const double straight = StraightStart(lead_in, request);
     if (samples < request.max_samples &&
         std::find(tried.begin(), tried.end(), straight) == tried.end()) {
       tried.push_back(straight);
-      retry(longer, {});
+      retry(changed, {});
     }
+  };
+  const bool lengthens =
+      (request.start_speed > 0.0 || options.lead_in > 0.0) && !is_lead_in_blocked;
+  for (int i = 0; i < tries && !plan.ok() && lengthens; ++i, more *= 0.5) {
+    retry_straight(options.lead_in + more, i == 0 ? options.trees : 1);
+  }
+  if (!plan.ok() && request.start_speed <= 0.0 && tries > 1) {
+    retry_straight(0.5 * options.lead_in, 1);
   }
   if (!plan.ok() && options.lead_in > 0.0 && tries >= kLeadIns) {
     Options once = options;

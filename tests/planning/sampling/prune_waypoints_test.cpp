@@ -155,6 +155,75 @@ TEST(FewCorners, OfALongWayAreFoundInWindows) {
   EXPECT_EQ(PruneWaypoints(one.way, one.problem()), expected);
 }
 
+TEST(CloseCorners, BecomeOneCornerWhereTheirLegsMeet) {
+  // Two corners of 0.46 rad need 1.4 m each, but are 1 m apart. Their legs meet at (10.5, 5.25).
+  Case one{.way = {{0, 0}, {10, 5}, {11, 5}, {21, 0}},
+           .obstacles = {{{10.5, 2.15, 0.0}, 1.0, 4.3}}};
+  EXPECT_EQ(JoinCloseCorners(one.way, one.problem()),
+            (std::vector<Vec2>{{0, 0}, {10.5, 5.25}, {21, 0}}));
+  // An obstacle there leaves the corners as they are.
+  one.obstacles.push_back({{10.5, 5.5, 0.0}, 0.2, 0.2});
+  EXPECT_EQ(JoinCloseCorners(one.way, one.problem()), one.way);
+}
+
+TEST(CloseCorners, StayIfTheyFit) {
+  const Case one{.way = {{0, 0}, {10, 5}, {20, 5}, {30, 0}}, .corner_cost = 5.0};
+  EXPECT_EQ(JoinCloseCorners(one.way, one.problem()), one.way);
+}
+
+/// Returns a path around the round end of a wall, with corners on a circle of radius 2 m about the
+/// wall's end. The path comes from one side of the wall and goes on to the other side.
+Case RoundAWallEnd(Random& random) {
+  Case one;
+  one.obstacles = {{{0.0, -10.0, 0.0}, 0.4, 20.0}};
+  const double half = random.Uniform(0.3, 1.2);  // half of the turn [rad]
+  const int corners = 2 + random.Below(4);
+  const auto tangent_to = [&](double angle, double length) {
+    const Vec2 radial(std::sin(angle), std::cos(angle));
+    return Vec2(2.01 * radial + length * Vec2(radial.y(), -radial.x()));
+  };
+  one.way.push_back(tangent_to(-half, -random.Uniform(10.0, 20.0)));
+  for (int i = 0; i < corners; ++i) {
+    const double share = static_cast<double>(i) / (corners - 1);
+    one.way.push_back(tangent_to(std::lerp(-half, half, share), 0.0));
+  }
+  one.way.push_back(tangent_to(half, random.Uniform(10.0, 20.0)));
+  return one;
+}
+
+TEST(CloseCorners, FitAroundTheEndsOfWalls) {
+  // The tangents at both ends of the arc meet at 2.01 tan(half) <= 5.2 m from it. A corner there
+  // turns by at most 2.4 rad and needs 7.2 m of legs that are at least 10 m long.
+  Random random(7);
+  int joined = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Case one = RoundAWallEnd(random);
+    const std::vector<Vec2> few = JoinCloseCorners(one.way, one.problem());
+    EXPECT_LT(PathCost(one, few), 1e6) << "case " << i;
+    EXPECT_EQ(few.front(), one.way.front());
+    EXPECT_EQ(few.back(), one.way.back());
+    for (std::size_t k = 1; k < few.size(); ++k) {
+      EXPECT_GT(Distance(few[k - 1], few[k], one.obstacles[0]), 0.5) << "case " << i;
+    }
+    joined += few == one.way ? 0 : 1;
+  }
+  EXPECT_GT(joined, 150);
+}
+
+TEST(CloseCorners, NeverCostMoreThanBefore) {
+  Random random(12);
+  int cheaper = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Case one = RandomCase(random);
+    const std::vector<Vec2> few = PruneWaypoints(one.way, one.problem());
+    const std::vector<Vec2> joined = JoinCloseCorners(few, one.problem());
+    // The tolerance allows for rounding in sums of up to 1e7 m that are added in another order.
+    EXPECT_LE(PathCost(one, joined), PathCost(one, few) + Tolerance(1e-7)) << "case " << i;
+    cheaper += PathCost(one, joined) < PathCost(one, few) - 1e5 ? 1 : 0;
+  }
+  EXPECT_GT(cheaper, 10);
+}
+
 TEST(InPieces, AreShortAndTheSameWay) {
   const std::vector<Vec2> way{{0.0, 0.0}, {2.5, 0.0}, {2.5, 0.5}};
   const std::vector<Vec2> pieces = InPieces(way);

@@ -55,6 +55,19 @@ double TreeLength(const Plan& plan) {
   return length;
 }
 
+TEST(RrtStarPlanner, DrivesRoundTheEndsOfThinWalls) {
+  // A shortest path has many short edges around the end of a wall.
+  for (const double end : {-5.0, 0.0, 2.5, 5.0, 10.0, 20.0}) {
+    for (const double start_speed : {0.0, 3.0}) {
+      PlanRequest request = AroundAWall();
+      request.obstacles = {{{30.0, end - 50.0, 0.0}, 0.3, 100.0}};
+      request.start_speed = start_speed;
+      const Plan plan = MakePlan(request, RrtStarPlannerOptions{});
+      EXPECT_TRUE(plan.ok()) << "end " << end << ", " << start_speed << " m/s: " << plan.reason;
+    }
+  }
+}
+
 TEST(RrtStarPlanner, MoreSamplesNeverLengthenTheTreesPathAndComeNearTheShortest) {
   PlanRequest request = AroundAWall();
   const RrtStarPlannerOptions defaults;
