@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/planning/sampling/prune_waypoints.h"
+#include "src/planning/sampling/sampling_task.h"
 #include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/lead_in.h"
@@ -55,6 +57,24 @@ std::vector<Vec2> WaypointsOnGrid(const OccupancyGrid& grid, const GridPath& way
   return points;
 }
 
+/// Makes the leg to the waypoint `i` shorter, with corners that the car can drive where there is
+/// room. The leg follows the polyline `points`.
+std::vector<Vec2> Shorten(const std::vector<Vec2>& leg, const AStarOptions& options,
+                          const PlanRequest& request, const Inflation& inflation, std::size_t i,
+                          const std::vector<Vec2>& points) {
+  const CornerTangents tangents(request.vehicle, std::min(options.min_speed, request.speed.speed));
+  const WindScoring calm{};
+  return JoinCloseCorners(
+      Shortcut(leg, request.obstacles, inflation),
+      {.before = points.size() > 1 ? std::optional(points[points.size() - 2]) : std::nullopt,
+       .first_leg = points.size() <= 2,
+       .last_leg = i + 1 == request.waypoints.size(),
+       .obstacles = request.obstacles,
+       .inflation = inflation,
+       .wind = calm,
+       .tangent = tangents});
+}
+
 /// Plans a path that begins with the polyline `points` and continues by A* from the last of these
 /// points through all waypoints after the first.
 Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const OccupancyGrid& grid,
@@ -82,7 +102,7 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
                           .cells = grid.size(),
                           .path = WithoutCollinearPoints(leg)});
     if (round) {
-      leg = Shortcut(leg, request.obstacles, inflation);
+      leg = Shorten(leg, options, request, inflation, i, points);
     }
     points.insert(points.end(), leg.begin() + 1, leg.end());
   }
