@@ -242,13 +242,17 @@ std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongReques
   return variants;
 }
 
-std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
-                       const AlongSettings& settings, const FrenetLimits& limits,
-                       const Leader& leader, const FrenetMotion& motion) {
+namespace {
+
+/// Returns why a car cannot finish passing that accelerates to `passing_speed` [m/s] after the
+/// motion; empty if it can.
+std::string WhyNotPastAt(double passing_speed, const RouteFrame& frame, const AlongRequest& request,
+                         const AlongSettings& settings, const FrenetLimits& limits,
+                         const Leader& leader, const FrenetMotion& motion) {
   const double began = motion.duration();
   Continuation past(motion.At(began));
-  if (past.end().s_rate < request.wanted) {
-    past.ChangeSpeed(request.wanted, request.speed.acceleration);
+  if (past.end().s_rate < passing_speed) {
+    past.ChangeSpeed(passing_speed, request.speed.acceleration);
   }
   const double speed = past.end().s_rate;
   const double behind = leader.front + leader.speed * (began + past.motion().duration()) +
@@ -296,6 +300,26 @@ std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
     return "an obstacle would be in the way before the car could be past";
   }
   return "";
+}
+
+}  // namespace
+
+std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
+                       const AlongSettings& settings, const FrenetLimits& limits,
+                       const Leader& leader, const FrenetMotion& motion) {
+  // A slower car is past later, but pulls in and stops on a shorter distance.
+  constexpr std::array kSpeedShares{1.0, 0.75, 0.5, 0.25, 0.0};
+  const double slowest = std::min(motion.At(motion.duration()).s_rate, request.wanted);
+  std::string why;
+  for (const double share : kSpeedShares) {
+    const double speed = std::lerp(slowest, request.wanted, share);
+    const std::string own = WhyNotPastAt(speed, frame, request, settings, limits, leader, motion);
+    if (own.empty()) {
+      return "";
+    }
+    why = why.empty() ? own : why;
+  }
+  return why;
 }
 
 std::string WhyNoPullOut(const RejectionCounts& rejected) {

@@ -68,7 +68,8 @@ std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongReques
                                          const std::vector<double>& offsets, double speed);
 
 /// Returns why the car could not finish passing the leader after `motion`; empty if it could. To
-/// pass, the car accelerates to the desired speed at the last offset of the motion, drives until
+/// pass, the car accelerates to the desired speed, or to a lower one, at the last offset of the
+/// motion, drives until
 /// its rear is the safe distance ahead of the leader's front, and returns to the route. The whole
 /// maneuver must keep the safe distance from all obstacles, which are extrapolated at constant
 /// velocity, and must leave the distance in which the car brakes to a stop at the end of the route.

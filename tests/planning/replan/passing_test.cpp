@@ -210,6 +210,25 @@ TEST_P(Passing, GetsPastFromManyStarts) {
   }
 }
 
+TEST_P(Passing, GetsPastOnShortRoutes) {
+  // The route ends 90 m ahead. At the desired speed of 8 m/s, the car would need most of it for
+  // speeding up (1.5 x 6 m/s / 1.5 m/s^2 x 5 m/s = 30 m), pulling in (25 m) and stopping
+  // (1.5 x (8 m/s)^2 / (2 x 2 m/s^2) = 24 m). At 4 m/s, each takes less than 15 m.
+  for (const double lead : {0.5, 1.0}) {
+    for (const double gap : {6.0, 10.0}) {
+      for (const double speed : {1.0, 2.0}) {
+        SCOPED_TRACE(fmt::format("lead {} m/s, gap {} m, start {} m/s", lead, gap, speed));
+        Road road(speed, lead, gap);
+        road.request.obstacles[0].box.center.x += road.frame.goal - 90.0 - road.request.start.s;
+        road.request.start.s = road.frame.goal - 90.0;
+        double nearest = 1e9;
+        EXPECT_LT(TimeToPass(road, GetParam().defaults, 40.0, nearest), 40.0);
+        EXPECT_GE(nearest, AlongSettings{}.safe_distance - 0.01);
+      }
+    }
+  }
+}
+
 // A car that has slowed down to its leader's speed. Each new plan must continue to pull out, not
 // begin a longer maneuver.
 TEST_P(Passing, PullsOutAtTheSpeedOfAVerySlowLeader) {
