@@ -258,8 +258,9 @@ std::string ReversalRemedy(const FittedPath& fitted, const std::string& noise_ke
           : fmt::format("; the file's {} say that the car keeps its direction of motion there",
                         given.direction.empty() ? "headings" : "directions of motion");
   if (fitted.noise_deviation) {
-    text += fmt::format("; if this is noise of the positions, {} {:.2g}", noise_key,
-                        *fitted.noise_deviation);
+    // A spline that is nearer to the points than the default bends with the noise.
+    const double deviation = std::max(*fitted.noise_deviation, PathFitOptions{}.max_deviation);
+    text += fmt::format("; if this is noise of the positions, {} {:.2g}", noise_key, deviation);
   }
   return text;
 }
