@@ -118,9 +118,8 @@ class CornerChoice {
       return std::nullopt;
     }
     for (std::size_t i = from + 1; i < to; ++i) {
-      const double distance = std::min(
-          DistanceFromLeg(points_[i], points_[from], points_[to]),
-          is_waypoint_[i] ? DistanceFromLeg(points_[i], points_[0], points_[1]) : kInfinity);
+      const double distance = std::min(DistanceFromLeg(points_[i], points_[from], points_[to]),
+                                       DistanceFromLeg(points_[i], points_[0], points_[1]));
       constexpr double kOnLeg = 1e-9;  // [m]
       if (distance > (is_waypoint_[i] ? limits_.max_gap : kOnLeg)) {
         return std::nullopt;

@@ -17,8 +17,11 @@
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/common/route_start.h"
 #include "trackbed/planning/curves/curve_planners.h"
+#include "trackbed/planning/grid/astar_planner.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/planning/sampling/rrt_planner.h"
+#include "trackbed/planning/sampling/rrt_star_planner.h"
 
 // Tests routes along a straight line whose waypoints and headings are rounded, as in files that
 // people write.
@@ -164,6 +167,41 @@ TEST(NearlyStraightRoutes, SlowDownWhereLegsAreShort) {
     for (const NamedPlanner& planner : CurvePlanners()) {
       SCOPED_TRACE(fmt::format("{}, route {}: {}", planner.name, i, Described(request)));
       ExpectNoStop(request, MakePlan(request, planner.options));
+    }
+  }
+}
+
+// Routes of 3 to 30 m with waypoints at any distances, rounded to at most a millimeter. The
+// planners that round corners leave out waypoints that are too close to each other, instead of
+// turning behind them.
+TEST(NearlyStraightRoutes, AreNotLongerBecauseWaypointsAreClose) {
+  Random random(49);
+  for (int i = 0; i < 60; ++i) {
+    const double unit = std::pow(10.0, random.Uniform(-6.0, -3.0));
+    const double length = random.Uniform(3.0, 30.0);
+    const Vec2 along = length * Direction(random.Uniform(-kPi, kPi));
+    std::vector<double> shares{0.0, 1.0};
+    for (int left = random.Below(8); left > 0; --left) {
+      shares.push_back(random.Uniform(0.01, 0.99));
+    }
+    std::sort(shares.begin(), shares.end());
+    std::vector<Vec2> waypoints;
+    for (const double share : shares) {
+      const Vec2 at(Rounded(share * along.x(), unit), Rounded(share * along.y(), unit));
+      if (waypoints.empty() || at != waypoints.back()) {
+        waypoints.push_back(at);
+      }
+    }
+    const PlanRequest request = Route(waypoints, {}, 2.0, 0.0);
+    for (const NamedPlanner& planner :
+         {NamedPlanner{"astar", AStarOptions{}}, NamedPlanner{"rrt", RrtPlannerOptions{}},
+          NamedPlanner{"rrt_star", RrtStarPlannerOptions{}}}) {
+      SCOPED_TRACE(fmt::format("{}, route {}: {}", planner.name, i, Described(request)));
+      const Plan plan = MakePlan(request, planner.options);
+      ASSERT_TRUE(plan.ok()) << plan.reason;
+      // The first leg may be 0.01 x 3 m long, so it is off by up to 1e-3 x sqrt(2)/0.03 = 0.05 rad.
+      // A path that begins so and ends at the goal is longer by 0.05^2 at most.
+      EXPECT_LT(plan.reference.path.length(), length * (1.0 + 0.05 * 0.05) + 0.01);
     }
   }
 }
