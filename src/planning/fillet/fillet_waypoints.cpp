@@ -7,15 +7,17 @@
 #include "trackbed/planning/common/fewer_corners.h"
 
 // Leaves out waypoints between which no turn fits, such as points on a line that were rounded to
-// millimeters. The search of LeaveOutCloseWaypoints chooses the points. If the first waypoint is
-// too close to the start for a turn, the path continues straight beyond the waypoint, because the
-// car begins in the direction of the first leg; the turn follows there.
+// millimeters. The search of LeaveOutCloseWaypoints chooses the points. A first pass leaves out
+// waypoints very near to a line, at which the car would slow down for rounding. A second pass
+// leaves out waypoints at which no turn fits at all. If the first waypoint is too close to the
+// start for a turn, the path continues straight beyond the waypoint, because the car begins in the
+// direction of the first leg; the turn follows there.
 
 namespace trackbed::fillet {
 namespace {
 
-/// Returns the part of each leg that a turn needs, for the best radius and the lowest speed that
-/// LimitRadius permits [m].
+/// Returns the part of each leg that a turn needs at `speed`, for the best radius that LimitRadius
+/// permits [m].
 double LeastLeg(const VehicleParams& vehicle, double speed, const FilletOptions& options,
                 double heading_change) {
   const double smallest = options.radius.value_or(vehicle.min_turning_radius());
@@ -24,23 +26,22 @@ double LeastLeg(const VehicleParams& vehicle, double speed, const FilletOptions&
       options.without_room == InfeasibleTurnPolicy::kHalfLeg) {
     return tangent;
   }
-  const bool slows_down = options.without_room == InfeasibleTurnPolicy::kSlowDown;
   const double largest = options.radius ? smallest : std::numeric_limits<double>::infinity();
-  return LeastSteeringRoom(vehicle, slows_down ? 0.5 * std::min(options.min_speed, speed) : speed,
-                           kPi - heading_change, {smallest, largest});
+  return LeastSteeringRoom(vehicle, speed, kPi - heading_change, {smallest, largest});
 }
 
-/// Whether every corner of a polyline has the room that it needs.
-bool HasRoom(const std::vector<Vec2>& points, const WaypointChoice& choice) {
+/// Returns the number of corners of a polyline without the room that they need.
+int TightCorners(const std::vector<Vec2>& points, const WaypointChoice& choice) {
+  int tight = 0;
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
     const Vec2 in = points[i] - points[i - 1];
     const Vec2 out = points[i + 1] - points[i];
     const CornerRoom corner = choice.room(std::abs(std::atan2(Cross(in, out), in.dot(out))));
-    if (corner.tangent > 0.5 * std::min(in.norm(), out.norm()) || corner.gap > choice.max_gap) {
-      return false;
-    }
+    const bool fits =
+        corner.tangent <= 0.5 * std::min(in.norm(), out.norm()) && corner.gap <= choice.max_gap;
+    tight += fits ? 0 : 1;
   }
-  return true;
+  return tight;
 }
 
 /// Whether a polyline passes all waypoints within `distance` [m].
@@ -79,41 +80,71 @@ std::vector<int> NumbersOf(const std::vector<Vec2>& points, const std::vector<Ve
   return numbers;
 }
 
-}  // namespace
-
-Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, double speed,
-                            const FilletOptions& options) {
-  const double smallest = options.radius.value_or(vehicle.min_turning_radius());
-  // An arc that passes its waypoint too far away does not fit.
-  const auto room = [&](double turn) -> CornerRoom {
-    const double miss = smallest * (1.0 / std::cos(0.5 * turn) - 1.0);
-    return {LeastLeg(vehicle, speed, options, turn),
-            miss <= options.max_waypoint_miss ? 0.0 : std::numeric_limits<double>::infinity()};
-  };
-  const WaypointChoice choice{
-      .waypoints = route.waypoints,
-      .max_gap = std::min(options.max_waypoint_miss, kShareOfWidth * vehicle.width),
-      .room = room,
-      .end_share = 0.5};
-  if (options.constraint == RadiusConstraint::kNone || HasRoom(route.waypoints, choice)) {
-    return route;
-  }
-  std::vector<Vec2> points = route.waypoints;
+/// Returns the polyline of some of the route's waypoints that has the fewest tight corners, and
+/// passes the other waypoints within `choice.max_gap`; the waypoints themselves if none has fewer.
+std::vector<Vec2> WithFewestTightCorners(const VehicleParams& vehicle, const Route& route,
+                                         const std::vector<Vec2>& given,
+                                         const WaypointChoice& choice) {
+  std::vector<Vec2> best = given;
+  int fewest = TightCorners(given, choice);
+  std::vector<Vec2> points = given;
   const Leg& first = route.legs.front();
   const double longest = std::max(first.length, 2.0 * vehicle.min_turning_radius());
   // Not a factor of two, so that added points do not coincide with evenly spaced waypoints.
   constexpr double kLonger = 1.9;
-  for (double length = first.length; length <= longest; length *= kLonger) {
+  for (double length = first.length; length <= longest && fewest > 0; length *= kLonger) {
     std::vector<Vec2> fewer = LeaveOutCloseWaypoints(points, choice);
-    if (HasRoom(fewer, choice) && PassesNear(fewer, route.waypoints, choice.max_gap)) {
-      Route shorter = MakeRoute(fewer);
-      shorter.numbers = NumbersOf(fewer, route.waypoints);
-      return shorter;
+    const int tight = TightCorners(fewer, choice);
+    if (tight < fewest && PassesNear(fewer, route.waypoints, choice.max_gap)) {
+      best = std::move(fewer);
+      fewest = tight;
     }
-    points = route.waypoints;
+    points = given;
     points.insert(points.begin() + 1, points[0] + kLonger * length * first.direction);
   }
-  return route;
+  return best;
+}
+
+}  // namespace
+
+Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, double speed,
+                            const FilletOptions& options) {
+  if (options.constraint == RadiusConstraint::kNone) {
+    return route;
+  }
+  const double smallest = options.radius.value_or(vehicle.min_turning_radius());
+  // An arc that passes its waypoint too far away does not fit.
+  const auto choice_at = [&](double turn_speed, double share_of_width) {
+    return WaypointChoice{
+        .waypoints = route.waypoints,
+        .max_gap = std::min(options.max_waypoint_miss, share_of_width * vehicle.width),
+        .room = [&, turn_speed](double turn) -> CornerRoom {
+          const double miss = smallest * (1.0 / std::cos(0.5 * turn) - 1.0);
+          return {
+              LeastLeg(vehicle, turn_speed, options, turn),
+              miss <= options.max_waypoint_miss ? 0.0 : std::numeric_limits<double>::infinity()};
+        },
+        .end_share = 0.5};
+  };
+  std::vector<Vec2> points = route.waypoints;
+  double lowest = speed;
+  if (options.without_room == InfeasibleTurnPolicy::kSlowDown) {
+    // About the rounding of coordinates to a decimeter.
+    constexpr double kRounding = 0.25 * kShareOfWidth;
+    points = WithFewestTightCorners(vehicle, route, points, choice_at(speed, kRounding));
+    lowest = 0.5 * std::min(options.min_speed, speed);
+  }
+  const WaypointChoice choice = choice_at(lowest, kShareOfWidth);
+  std::vector<Vec2> fewer = WithFewestTightCorners(vehicle, route, points, choice);
+  if (TightCorners(fewer, choice) == 0) {
+    points = std::move(fewer);
+  }
+  if (points == route.waypoints) {
+    return route;
+  }
+  Route shorter = MakeRoute(points);
+  shorter.numbers = NumbersOf(points, route.waypoints);
+  return shorter;
 }
 
 }  // namespace trackbed::fillet

@@ -119,8 +119,10 @@ std::vector<Vec2> RoundedLine(Random& random, double digit) {
   return route;
 }
 
-/// Whether a single turn fits that begins in the direction of the first leg, halfway to the goal.
-bool FitsOneTurn(const std::vector<Vec2>& route) {
+/// Whether a single turn fits at a speed [m/s] that begins in the direction of the first leg,
+/// halfway to the goal, if half of a leg has at most `most` [m] of room and waypoints are at most
+/// `aside` [m] beside the legs.
+bool FitsOneTurn(const std::vector<Vec2>& route, double speed, double most, double aside) {
   const Vec2 first = (route[1] - route[0]).normalized();
   const Vec2 corner = route[0] + 0.5 * (route.back() - route[0]).norm() * first;
   const Vec2 out = route.back() - corner;
@@ -132,30 +134,40 @@ bool FitsOneTurn(const std::vector<Vec2>& route) {
     return (at - from - share * along).norm();
   };
   for (const Vec2& at : route) {
-    if (std::min(distance(at, route[0], corner - route[0]), distance(at, corner, out)) > 0.1) {
+    if (std::min(distance(at, route[0], corner - route[0]), distance(at, corner, out)) > aside) {
       return false;
     }
   }
   // The path may have to turn up to four times as sharply, on legs half as long, because it tries
   // lengths of the first leg that differ by a factor of 1.9.
-  return ScannedRoom(4.0 * turn, 0.25) < 0.25 * room;
+  return ScannedRoom(4.0 * turn, speed) < std::min(0.25 * room, most);
 }
 
 TEST(NearlyStraight, IsPlannedAtAnyDistanceOfThePoints) {
   Random random(20261126);
   int planned = 0;
   int left_out = 0;
+  int fast = 0;
   for (int trial = 0; trial < 1000; ++trial) {
     const double digit = std::pow(10.0, random.Uniform(-6.0, -1.0));
     const std::vector<Vec2> route = RoundedLine(random, digit);
     if (route.size() < 2 || (route.back() - route.front()).norm() < 20.0 * digit) {
       continue;
     }
-    const FilletPlan plan =
-        PlanFillets(ReferenceCar(), route, random.Below(2) == 0 ? 3.0 : 0.5, {});
+    const double speed = random.Below(2) == 0 ? 0.5 : random.Uniform(2.0, 10.0);
+    const FilletPlan plan = PlanFillets(ReferenceCar(), route, speed, {});
     if (plan.status != PlanStatus::kOk) {
-      EXPECT_FALSE(FitsOneTurn(route)) << "trial " << trial << ": " << plan.reason;
+      EXPECT_FALSE(FitsOneTurn(route, 0.25, 1e9, 0.1)) << "trial " << trial << ": " << plan.reason;
       continue;
+    }
+    // The planner tries first legs of up to two turning radii, so a turn has at least a quarter of
+    // this. It slows down for no turn that it can avoid by leaving out waypoints within a sixteenth
+    // of the car's width.
+    if (FitsOneTurn(route, speed, 0.5 * 5.1, 0.9 / 16.0 * ReferenceCar().width)) {
+      ++fast;
+      for (const FilletTurn& turn : plan.turns) {
+        EXPECT_GE(turn.speed, speed - 1e-9) << "trial " << trial << ", waypoint " << turn.waypoint;
+      }
     }
     ++planned;
     left_out += plan.left_out.empty() ? 0 : 1;
@@ -175,6 +187,18 @@ TEST(NearlyStraight, IsPlannedAtAnyDistanceOfThePoints) {
   }
   EXPECT_GT(planned, 600);
   EXPECT_GT(left_out, 30);
+  EXPECT_GT(fast, 200);
+}
+
+// At 10 m/s, the turns at waypoints 2 and 3 have room for 0.5 m/s.
+TEST(NearlyStraight, DoesNotSlowDownForRoundingToCentimeters) {
+  const FilletPlan plan = PlanFillets(
+      ReferenceCar(), {{0, 0}, {8.02, 0}, {9.87, 0}, {10.35, -0.01}, {39.7, 0.02}}, 10.0, {});
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  for (const FilletTurn& turn : plan.turns) {
+    EXPECT_EQ(turn.speed, 10.0) << "waypoint " << turn.waypoint;
+  }
+  EXPECT_THAT(plan.left_out, ::testing::Not(IsEmpty()));
 }
 
 }  // namespace nearly_straight_test
