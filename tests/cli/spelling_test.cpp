@@ -223,7 +223,7 @@ TEST(SpellingsTest, OfALogGiveTheSameImport) {
   }
 }
 
-// A study also goes on where it was if its path leads through a link.
+// A link in the path of a study makes no difference.
 TEST(SpellingsTest, OfAStudyGiveTheSameBytes) {
   const TempFolder folder;
   folder.Write("real/s.yaml", ReadFile(kSourceTree / "scenarios/winding.yaml"));
