@@ -56,6 +56,16 @@ namespace {
       fmt::format("cannot read {}: it has more than {} MiB", file.string(), max_bytes >> 20U));
 }
 
+/// Refuses a pointer of Git LFS, which a checkout without Git LFS has in place of large files.
+void RequireContent(const fs::path& file, std::string_view begin) {
+  if (begin.starts_with("version https://git-lfs.github.com/spec/")) {
+    throw RunError(fmt::format(
+        "cannot read {}: it is a pointer of Git LFS, not the content of the file; fetch the "
+        "content by `git lfs pull` in its repository",
+        file.string()));
+  }
+}
+
 /// Returns a description of a special file for error messages, for example "a pipe" or "a device".
 const char* KindOf(mode_t mode) {
   return S_ISFIFO(mode)                   ? "a pipe"
@@ -129,6 +139,9 @@ void ReadBlocks(const fs::path& file, const std::function<bool(std::string_view 
     // checked, and files in /proc have a nominal size of 0.
     if (bytes > max_bytes) {
       FailAsTooLarge(file, max_bytes);
+    }
+    if (bytes == size) {
+      RequireContent(file, {block.data(), size});
     }
     if (size == 0 || !take({block.data(), size})) {
       return;

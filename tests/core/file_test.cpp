@@ -233,5 +233,16 @@ TEST(OpenInput, RefusesWhatIsNoRegularFileWithoutWaiting) {
             "cannot read " + folder.path().string() + ": Is a directory");
 }
 
+// A checkout without Git LFS has such a file in place of each large file.
+TEST(ReadFile, RefusesPointersOfGitLfs) {
+  const TempFolder folder;
+  const fs::path file = folder.Write(
+      "mesh.obj", "version https://git-lfs.github.com/spec/v1\noid sha256:0123\nsize 141935\n");
+  EXPECT_THAT(RunErrorMessage([&] { ReadFile(file); }),
+              AllOf(HasSubstr("mesh.obj: it is a pointer of Git LFS"), HasSubstr("git lfs pull")));
+  const fs::path other = folder.Write("a.txt", "# version https://git-lfs.github.com/spec/v1\n");
+  EXPECT_EQ(ReadFile(other).size(), 45U);
+}
+
 }  // namespace
 }  // namespace trackbed
