@@ -130,6 +130,70 @@ class CommentFilter {
   std::string comment_;
 };
 
+/// Replaces runs of spaces and tabs by a tab, and drops them at the ends of lines. The text may be
+/// passed in parts.
+class BlankRuns {
+ public:
+  std::string Replace(std::string_view part) {
+    std::string text;
+    for (const char c : part) {
+      if (c == ' ' || c == '\t') {
+        is_pending_ = !is_line_start_;
+        continue;
+      }
+      const bool is_end = c == '\r' || c == '\n';
+      if (std::exchange(is_pending_, false) && !is_end) {
+        text += '\t';
+      }
+      text += c;
+      is_line_start_ = is_end;
+    }
+    return text;
+  }
+
+ private:
+  bool is_line_start_ = true;
+  bool is_pending_ = false;
+};
+
+/// Returns the next line that is neither empty nor a comment, and removes it from `rest`.
+std::string_view NextLine(std::string_view& rest) {
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (!line.empty() && line.front() != '#') {
+      return line;
+    }
+  }
+  return {};
+}
+
+/// Splits a line at blanks; `numbers` is the number of cells that are numbers.
+std::size_t CountCells(std::string_view line, std::size_t& numbers) {
+  std::size_t count = 0;
+  numbers = 0;
+  std::string rest = BlankRuns().Replace(line);
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\t'), rest.size());
+    ++count;
+    numbers += CellNumber(rest.substr(0, end)) ? 1U : 0U;
+    rest.erase(0, end + 1);
+  }
+  return count;
+}
+
+/// Whether blanks separate numbers in the line or, behind names, as many in the next line.
+bool HasBlanks(std::string_view line, std::string_view rest) {
+  std::size_t numbers = 0;
+  const std::size_t count = CountCells(line, numbers);
+  if (count < 2 || numbers == count) {
+    return count > 1;
+  }
+  std::size_t below = 0;
+  return CountCells(NextLine(rest), below) == count && below == count;
+}
+
 char FindDelimiter(const std::filesystem::path& file) {
   std::string begin;
   ReadBlocks(file, [&](std::string_view block) {
@@ -140,25 +204,17 @@ char FindDelimiter(const std::filesystem::path& file) {
   if (rest.starts_with(kByteOrderMark)) {
     rest.remove_prefix(kByteOrderMark.size());
   }
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
-    const std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (line.empty() || line.front() == '#') {
-      continue;
+  const std::string_view line = NextLine(rest);
+  char delimiter = ',';
+  std::ptrdiff_t most = 0;
+  for (const char candidate : {',', ';', '\t'}) {
+    const auto count = std::count(line.begin(), line.end(), candidate);
+    if (count > most) {
+      most = count;
+      delimiter = candidate;
     }
-    char delimiter = ',';
-    std::ptrdiff_t most = 0;
-    for (const char candidate : {',', ';', '\t'}) {
-      const auto count = std::count(line.begin(), line.end(), candidate);
-      if (count > most) {
-        most = count;
-        delimiter = candidate;
-      }
-    }
-    return delimiter;
   }
-  return ',';
+  return most == 0 && HasBlanks(line, rest) ? kBlanks : delimiter;
 }
 
 }  // namespace
@@ -184,7 +240,8 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
   const std::unique_ptr<csv_parser, void (*)(csv_parser*)> guard(&parser, csv_free);
   const char delimiter =
       limits.delimiter == kFindDelimiter ? FindDelimiter(file) : limits.delimiter;
-  csv_set_delim(&parser, static_cast<unsigned char>(delimiter));
+  const bool has_blanks = delimiter == kBlanks;
+  csv_set_delim(&parser, static_cast<unsigned char>(has_blanks ? '\t' : delimiter));
   const auto cell = [](void* data, std::size_t size, void* self) {
     static_cast<RowReader*>(self)->Cell({static_cast<const char*>(data), size});
   };
@@ -192,7 +249,13 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
   bool at_begin = true;
   // Parse the file in blocks, so that reading can stop between blocks. libcsv itself cannot be
   // stopped, and buffers a cell until the cell ends.
+  BlankRuns blanks;
+  std::string replaced;
   const auto parse = [&](std::string_view part) {
+    if (has_blanks) {
+      replaced = blanks.Replace(part);
+      part = replaced;
+    }
     if (csv_parse(&parser, part.data(), part.size(), cell, row, &reader) != part.size()) {
       reader.Stop(ParserError(parser));
     } else if (parser.entry_pos > kMaxCellLength) {
@@ -229,6 +292,12 @@ void DropEmptyEnd(std::vector<std::string>& cells, std::size_t least) {
 std::vector<std::string> CommentCells(std::string_view comment, char delimiter) {
   std::vector<std::string> cells;
   comment.remove_prefix(std::min(comment.find_first_not_of('#'), comment.size()));
+  std::string replaced;
+  if (delimiter == kBlanks) {
+    replaced = BlankRuns().Replace(comment);
+    comment = replaced;
+    delimiter = '\t';
+  }
   for (bool more = true; more;) {
     const std::size_t end = comment.find(delimiter);
     more = end != std::string_view::npos;
@@ -245,10 +314,11 @@ std::vector<std::string> CommentCells(std::string_view comment, char delimiter) 
 /// Finds the names of a table's columns, and passes names and rows on.
 class NamedRows {
  public:
-  NamedRows(const std::filesystem::path& file, char delimiter, ProblemList& problems,
+  NamedRows(const std::filesystem::path& file, const CsvLimits& limits, ProblemList& problems,
             const TakeCsvNames& take_names, const TakeCsvRow& take)
       : file_(file),
-        delimiter_(delimiter),
+        delimiter_(limits.delimiter),
+        numbers_columns_(limits.numbers_columns),
         problems_(problems),
         take_names_(take_names),
         take_(take) {}
@@ -300,6 +370,15 @@ class NamedRows {
         std::find_if(comments_.rbegin(), comments_.rend(), [&](const Comment& comment) {
           return comment.cells.size() == used.size() || comment.cells.size() == row.size();
         });
+    if (found == comments_.rend() && numbers_columns_) {
+      std::vector<std::string> numbers;
+      for (std::size_t i = 1; i <= used.size(); ++i) {
+        numbers.push_back(std::to_string(i));
+      }
+      columns_ = numbers.size();
+      take_names_(numbers, line);
+      return false;
+    }
     if (found == comments_.rend()) {
       problems_.Add({.file = file_.string(),
                      .line = line,
@@ -315,6 +394,7 @@ class NamedRows {
 
   const std::filesystem::path& file_;
   char delimiter_;
+  bool numbers_columns_;
   ProblemList& problems_;
   const TakeCsvNames& take_names_;
   const TakeCsvRow& take_;
@@ -331,7 +411,7 @@ bool ReadCsvTable(const std::filesystem::path& file, CsvLimits limits, ProblemLi
   if (limits.delimiter == kFindDelimiter) {
     limits.delimiter = FindDelimiter(file);
   }
-  NamedRows rows(file, limits.delimiter, problems, take_names, take);
+  NamedRows rows(file, limits, problems, take_names, take);
   ReadCsvRows(file, limits, problems,
               [&](std::vector<std::string>& cells, int line) { rows.Take(cells, line); });
   return !rows.is_empty();

@@ -18,15 +18,16 @@ namespace {
 using ::testing::HasSubstr;
 
 /// The names and rows of a table, one a line, each after the number of its line.
-std::string TableText(const std::string& text, char delimiter = kFindDelimiter) {
+std::string TableText(const std::string& text, char delimiter = kFindDelimiter,
+                      bool numbers_columns = false) {
   const TempFolder folder;
   std::string read;
   const auto take = [&](const std::vector<std::string>& cells, int line) {
     read += fmt::format("{}:{}\n", line, fmt::join(cells, "|"));
   };
   ProblemList problems;
-  const bool has_names =
-      ReadCsvTable(folder.Write("t.csv", text), {.delimiter = delimiter}, problems, take, take);
+  const CsvLimits limits{.delimiter = delimiter, .numbers_columns = numbers_columns};
+  const bool has_names = ReadCsvTable(folder.Write("t.csv", text), limits, problems, take, take);
   try {
     problems.ThrowIfAny();
   } catch (const InputError& error) {
@@ -41,6 +42,33 @@ TEST(ReadCsvTable, FindsTheDelimiterInTheFirstLine) {
   EXPECT_EQ(TableText("a\tb\r\n1\t2\r\n"), "1:a|b\n2:1|2\n");
   EXPECT_EQ(TableText("# x, y, z\na; b\n1; 2"), "2:a|b\n3:1|2\n");
   EXPECT_EQ(TableText("a;b\n1;2\n", ','), "1:a;b\n2:1;2\n");
+}
+
+TEST(ReadCsvTable, TakesBlanksBetweenNumbersAsDelimiters) {
+  EXPECT_EQ(TableText("a  b c\n 1 2   3 \r\n4\t5 6"), "1:a|b|c\n2:1|2|3\n3:4|5|6\n");
+  EXPECT_EQ(TableText("#  a  b\n1   2\n3\t 4\n"), "1:a|b\n2:1|2\n3:3|4\n");
+  // Names may contain blanks, if the rows below have other delimiters or fewer numbers.
+  EXPECT_EQ(TableText("a b\n1\n2\n"), "1:a b\n2:1\n3:2\n");
+  EXPECT_EQ(TableText("a b\n1,2\n"), "1:a b\n2:1|2\n");
+  EXPECT_EQ(TableText("my a,my b\n1 ,2\n"), "1:my a|my b\n2:1|2\n");
+}
+
+// The file is read in blocks; a run of blanks may lie in two of them.
+TEST(ReadCsvTable, ReplacesBlanksAcrossTheBlocksOfAFile) {
+  std::string text = "a b\n";
+  std::string read = "1:a|b\n";
+  for (int row = 0; row < 4000; ++row) {
+    text += fmt::format("{}{}{}\n", row, std::string(1 + static_cast<std::size_t>(row % 60), ' '),
+                        -row);
+    read += fmt::format("{}:{}|{}\n", row + 2, row, -row);
+  }
+  EXPECT_EQ(TableText(text), read);
+}
+
+TEST(ReadCsvTable, NumbersTheColumnsOfATableWithoutNames) {
+  EXPECT_EQ(TableText("7,8\n9,10\n", kFindDelimiter, true), "1:1|2\n1:7|8\n2:9|10\n");
+  EXPECT_EQ(TableText("7 8 9\n", kFindDelimiter, true), "1:1|2|3\n1:7|8|9\n");
+  EXPECT_EQ(TableText("# a,b\n7,8\n", kFindDelimiter, true), "1:a|b\n2:7|8\n");
 }
 
 TEST(ReadCsvTable, TakesNamesFromACommentBeforeNumbers) {

@@ -19,8 +19,12 @@ using TakeCsvRow = std::function<void(std::vector<std::string>& cells, int line)
 using TakeCsvNames = std::function<void(std::vector<std::string>& names, int line)>;
 
 /// Value of CsvLimits::delimiter that stands for the most frequent of comma, semicolon and tab in
-/// the first line that is neither empty nor a comment.
+/// the first line that is neither empty nor a comment. If this line has none of them, kBlanks if
+/// blanks separate as many numbers in this line or, behind a line of names, in the next line.
 inline constexpr char kFindDelimiter = '\0';
+
+/// Value of CsvLimits::delimiter for cells that are separated by any number of spaces and tabs.
+inline constexpr char kBlanks = ' ';
 
 /// The delimiter of a CSV file, and limits on the size of the file.
 struct CsvLimits {
@@ -30,6 +34,9 @@ struct CsvLimits {
   /// Whether lines that begin with '#' are comments. The text of a comment, with the '#', is passed
   /// on as a row of a single cell, whatever characters it contains.
   bool comments = false;
+  /// Whether ReadCsvTable calls the columns of a table without names "1", "2", ... Without, such a
+  /// table is a problem.
+  bool numbers_columns = false;
 };
 
 /// Reads a CSV file (RFC 4180, with libcsv) and calls `take` for each row, beginning with the
@@ -51,7 +58,7 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
 /// Calls `take_names` once, and then `take` for each row. Drops empty cells at the end of a row
 /// that exceed the number of names, because some programs end each line with a delimiter. Returns
 /// false, without a problem, if the file has no line but comments. Adds a problem if there are no
-/// names. Other problems and errors are those of ReadCsvRows.
+/// names, unless limits.numbers_columns. Other problems and errors are those of ReadCsvRows.
 bool ReadCsvTable(const std::filesystem::path& file, CsvLimits limits, ProblemList& problems,
                   const TakeCsvNames& take_names, const TakeCsvRow& take);
 
