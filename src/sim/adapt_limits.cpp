@@ -146,11 +146,16 @@ void FindSteering(const FoundModel& found, const FoundVehicle& vehicle, const Ad
     limits.steering_limit = range.limit;
     findings.Guess("steering limit", fmt::format("{:.4g} rad", range.limit), range.evidence);
   }
-  // From lock to lock in a second.
-  limits.steering_rate = options.steering_rate.value_or(2.0 * limits.steering_limit);
-  findings.Guess("steering rate", fmt::format("{:.4g} rad/s", limits.steering_rate),
-                 options.steering_rate ? "--steering-rate"
-                                       : "assumed: from lock to lock in 1 s; --steering-rate");
+  // From lock to lock in a second for the wheelbase of a car on roads. Times of models scale with
+  // the root of their length, as for all motions under gravity (Froude).
+  constexpr double kCarWheelbase = 2.7;  // [m]
+  const double lock_to_lock = std::min(std::sqrt(vehicle.wheelbase / kCarWheelbase), 1.0);
+  limits.steering_rate = options.steering_rate.value_or(2.0 * limits.steering_limit / lock_to_lock);
+  findings.Guess(
+      "steering rate", fmt::format("{:.4g} rad/s", limits.steering_rate),
+      options.steering_rate
+          ? "--steering-rate"
+          : fmt::format("assumed: from lock to lock in {:.2g} s; --steering-rate", lock_to_lock));
 }
 
 /// Returns the largest force of an actuator, in the unit of its gear; nullopt if it is unlimited.
