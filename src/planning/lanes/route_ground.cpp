@@ -394,7 +394,8 @@ RouteGround GroundOf(const RoadNetwork& network, const std::vector<LaneStretch>&
   if (!(deviation.distance <= kMaxDeviation)) {
     ground.failure = fmt::format(
         "the surface of road {} has a step or a kink at s = {:.4g} m, x = {:.4g} m, y = {:.4g} m: "
-        "smooth ground is {:.3g} m away from it; must be at most {} m",
+        "smooth ground is {:.3g} m away from it; must be at most {} m: choose a route around this "
+        "place, or correct the elevation in the file there",
         deviation.road, deviation.s, deviation.place.x(), deviation.place.y(), deviation.distance,
         kMaxDeviation);
     return ground;
