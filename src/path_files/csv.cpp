@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "src/path_files/csv_columns.h"
 #include "src/path_files/csv_globe.h"
 #include "src/path_files/formats.h"
 #include "trackbed/core/angle.h"
@@ -67,9 +68,13 @@ class CsvPath {
 
   PathFile Read() {
     const bool has_names = ReadCsvTable(
-        file_, {.delimiter = kFindDelimiter}, problems_,
+        file_, {.delimiter = kFindDelimiter, .numbers_columns = true}, problems_,
         [&](std::vector<std::string>& names, int line) { SetHeader(std::move(names), line); },
         [&](std::vector<std::string>& cells, int line) {
+          if (is_unnamed_ && !is_broken_) {
+            AddError(line, "", UnnamedColumns(cells));
+            is_broken_ = true;
+          }
           if (!is_broken_) {
             TakeRow(cells, line);
           }
@@ -213,11 +218,14 @@ class CsvPath {
                     {"time", &requested_.time},
                     {"direction", &requested_.direction}}};
     FindGlobe(line);
+    if (!is_globe_ && !requested_.x && !requested_.y) {
+      FindPose(line);
+    }
     for (std::size_t i = is_globe_ ? kYaw : kX; i < kQuantities; ++i) {
       Find(static_cast<Quantity>(i), quantities[i].first, *quantities[i].second, line);
     }
-    is_broken_ = is_broken_ || !columns_[kX] || !columns_[kY];
-    if (is_broken_) {
+    is_broken_ = is_broken_ || (!is_unnamed_ && (!columns_[kX] || !columns_[kY]));
+    if (is_broken_ || is_unnamed_) {
       return;
     }
     // A table of a run with a local origin states the origin in two columns (log_columns.h).
@@ -239,7 +247,8 @@ class CsvPath {
 
   /// Finds columns of latitude and longitude, unless the file has columns of x and y.
   void FindGlobe(int line) {
-    const bool has_plane = requested_.x || requested_.y || (HasUsual("x") && HasUsual("y"));
+    const bool has_plane = requested_.x || requested_.y ||
+                           (FindUsualColumn(names_, "x") && FindUsualColumn(names_, "y"));
     const CsvGlobe found = FindCsvGlobe(names_, requested_, has_plane);
     for (const auto& [column, message] : found.problems) {
       AddError(line, column, message);
@@ -254,45 +263,60 @@ class CsvPath {
     }
   }
 
-  [[nodiscard]] bool HasUsual(const char* quantity) const {
-    const std::vector<PathColumnName>& usual = PathColumnNames(quantity);
-    return std::any_of(names_.begin(), names_.end(), [&](const std::string& name) {
-      return std::any_of(usual.begin(), usual.end(),
-                         [&](const PathColumnName& own) { return boost::iequals(name, own.name); });
-    });
+  /// Finds columns of x, y and yaw whose names are not usual (FindPoseColumns). The two columns of
+  /// a file without names are x and y.
+  void FindPose(int line) {
+    if (AreNumbered(names_)) {
+      is_unnamed_ = names_.size() != 2;
+      pose_ = {.x = UsualColumn{0, "m"}, .y = UsualColumn{1, "m"}, .yaw = {}, .choices = {}};
+      return;
+    }
+    if (FindUsualColumn(names_, "x") || FindUsualColumn(names_, "y")) {
+      return;
+    }
+    pose_ = FindPoseColumns(names_);
+    if (!pose_.choices.empty()) {
+      AddError(line, "x",
+               fmt::format("several columns for x: {}; name one of them by columns.x, and its y by "
+                           "columns.y",
+                           fmt::join(pose_.choices, ", ")));
+      is_broken_ = true;
+    }
+  }
+
+  /// Returns the column that the quantity is read from unless the caller names one.
+  [[nodiscard]] std::optional<UsualColumn> Usual(Quantity quantity, const char* name) const {
+    const std::optional<UsualColumn>& pose = quantity == kX     ? pose_.x
+                                             : quantity == kY   ? pose_.y
+                                             : quantity == kYaw ? pose_.yaw
+                                                                : std::nullopt;
+    return pose ? pose : FindUsualColumn(names_, name);
   }
 
   void Find(Quantity quantity, const char* name, const std::optional<std::string>& requested,
             int line) {
     std::string unit;
     std::optional<std::size_t> index;
-    const auto position = [&](const std::string& wanted) -> std::optional<std::size_t> {
-      for (std::size_t i = 0; i < names_.size(); ++i) {
-        if (requested ? names_[i] == wanted : boost::iequals(names_[i], wanted)) {
-          return i;
-        }
-      }
-      return std::nullopt;
-    };
-    if (requested) {
-      index = position(*requested);
-    }
     std::vector<std::string> usual;
     for (const PathColumnName& own : PathColumnNames(name)) {
       usual.emplace_back(own.name);
-      if (!requested && !index) {
-        index = position(own.name);
-      }
-      if (unit.empty() && index && boost::iequals(names_[*index], own.name)) {
+      if (requested && unit.empty() && boost::iequals(*requested, own.name)) {
         unit = own.unit;
       }
+    }
+    if (requested) {
+      const auto own = std::find(names_.begin(), names_.end(), *requested);
+      index = own == names_.end() ? std::nullopt : std::optional<std::size_t>(own - names_.begin());
+    } else if (const std::optional<UsualColumn> own = Usual(quantity, name)) {
+      index = own->index;
+      unit = own->unit;
     }
     if (!index) {
       if (requested) {
         AddError(line, *requested,
                  fmt::format("no such column {}", UnknownName(*requested, names_)));
         is_broken_ = true;
-      } else if (quantity == kX || quantity == kY) {
+      } else if ((quantity == kX || quantity == kY) && !is_unnamed_ && !is_broken_) {
         AddError(line, name,
                  fmt::format("no column for {}: none is called {}; the file has {}; {}", name,
                              fmt::join(usual, ", "), fmt::join(names_, ", "),
@@ -400,7 +424,9 @@ class CsvPath {
   const fs::path& file_;
   const PathColumns& requested_;
   std::optional<GlobePosition> origin_;
-  bool is_globe_ = false;  // whether kX and kY are longitudes and latitudes [deg]
+  PoseColumns pose_;
+  bool is_unnamed_ = false;  // whether the columns have numbers that nobody has given
+  bool is_globe_ = false;    // whether kX and kY are longitudes and latitudes [deg]
   ProblemList problems_;
   bool is_broken_ = false;
   std::vector<std::string> names_;
