@@ -42,7 +42,7 @@ TrackRows::TrackRows(const std::filesystem::path& file, const TrackReading& read
                      std::optional<LogReading> log)
     : name_(file.string()), reading_(reading), log_(log) {
   ReadCsvTable(
-      file, {.delimiter = kFindDelimiter}, problems,
+      file, {.delimiter = kFindDelimiter, .numbers_columns = true}, problems,
       [&](const std::vector<std::string>& names, int line) { TakeNames(names, line); },
       [&](const std::vector<std::string>& cells, int line) { TakeRow(cells, line); });
   problems.ThrowIfAny();
@@ -57,6 +57,10 @@ void TrackRows::TakeNames(const std::vector<std::string>& names, int line) {
     problems.Add({.file = name_, .line = line, .message = std::move(message)});
     is_broken_ = true;
   };
+  if (names.front() == "1") {
+    TakeNumbers(line);
+    return;
+  }
   std::string others;
   for (std::size_t quantity = 0; quantity < kTrackQuantities; ++quantity) {
     for (const char* usual : UsualNames()[quantity]) {
@@ -106,6 +110,28 @@ void TrackRows::TakeNames(const std::vector<std::string>& names, int line) {
   if (!others.empty()) {
     notes.push_back("columns taken by their names: " + others);
   }
+}
+
+/// Takes the columns of a file without names in the order of TUM.
+void TrackRows::TakeNumbers(int line) {
+  constexpr std::size_t kWithWidths = 4;
+  if (names_.size() != (reading_.width ? 2 : kWithWidths)) {
+    problems.Add({.file = name_,
+                  .line = line,
+                  .message = fmt::format(
+                      "no column names before the first row of {} cells; a track without names has "
+                      "the columns x, y and the widths to the right and to the left, or x and y "
+                      "with mission.track.width; else add the header "
+                      "'# x_m,y_m,w_tr_right_m,w_tr_left_m'",
+                      names_.size())});
+    is_broken_ = true;
+    return;
+  }
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    columns_[i] = i;
+  }
+  notes.push_back(fmt::format("no column names; columns taken in the order x, y{}",
+                              reading_.width ? "" : ", width to the right, width to the left"));
 }
 
 void TrackRows::TakeRow(const std::vector<std::string>& cells, int line) {

@@ -46,6 +46,7 @@ class TrackRows {
 
  private:
   void TakeNames(const std::vector<std::string>& names, int line);
+  void TakeNumbers(int line);
   void TakeRow(const std::vector<std::string>& cells, int line);
   void CheckNumbers(const TrackNumbers& numbers);
   void CheckExtent();
