@@ -16,6 +16,8 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/drive/run_log.h"
+#include "trackbed/path_files/drawn_lanes.h"
+#include "trackbed/road_network/lane_paint.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/run_track.h"
@@ -405,6 +407,10 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
     const fs::path file = run_folder::RequireFile(folder / kRoadNetworkXodr);
     const auto& read = recording.world.road_network->data;
     recording.roads = PaintRoads(read ? read->network : ReadOpenDrive(file), kSpacing);
+  }
+  if (const fs::path lanes = folder / kLanesCsv; fs::exists(lanes, ignored)) {
+    recording.roads = PaintLanes(ReadLanesCsv(run_folder::RequireFile(lanes)));
+    recording.road.reset();
   }
   recording.new_plans = ReadNewPlans(new_plans);
   recording.curvatures = ReadCurvatures(plan, recording.begin());

@@ -35,6 +35,7 @@ PathFile RouteOfScenario(const CommonRoadScenario& scenario) {
   }
   found.points.direction.assign(scenario.route.size(), 1);
   found.notes = scenario.notes;
+  found.lanes = scenario.lanes;
   return found;
 }
 

@@ -305,6 +305,24 @@ Vec2 OriginOf(const XMLElement& root, const std::filesystem::path& file) {
   return kRounding * (place / kRounding).array().round().matrix();
 }
 
+/// Leaves out an obstacle that moves and begins in the initial state: scenarios that are converted
+/// from other formats have the recorded car of the problem among their obstacles.
+void LeaveOutOwnCar(CommonRoadScenario& scenario) {
+  constexpr double kSame = 1e-3;  // [m, rad]; files have four decimals
+  const std::size_t left_out = std::erase_if(scenario.obstacles, [&](const auto& obstacle) {
+    if (obstacle.poses.empty()) {
+      return false;
+    }
+    const Pose2& pose = obstacle.poses.front().second;
+    return std::hypot(pose.x - scenario.start.x, pose.y - scenario.start.y) <= kSame &&
+           std::abs(WrapAngle(pose.yaw - scenario.start.yaw)) <= kSame;
+  });
+  if (left_out > 0) {
+    scenario.notes.emplace_back(
+        "an obstacle that begins in the initial state is left out: it is the recorded car");
+  }
+}
+
 }  // namespace
 
 bool CommonRoadRegion::Contains(const Vec2& point) const {
@@ -360,6 +378,7 @@ CommonRoadScenario ReadCommonRoadScenario(const std::filesystem::path& file,
   scenario.goal = problem.goal;
   scenario.obstacles =
       ReadCommonRoadObstacles(root, {timestep, problem.start_step}, reading, scenario.notes);
+  LeaveOutOwnCar(scenario);
   const int line = root.FirstChildElement("planningProblem")->GetLineNum();
   const std::vector<LaneletLane> lanes = LanesOf(problem, lanelets, reading, line);
   // Compute path and speed twice: the length of the path depends on the speed, and the speed
@@ -401,6 +420,7 @@ CommonRoadScenario ReadCommonRoadScenario(const std::filesystem::path& file,
       });
     }
   }
+  scenario.lanes = DrawnLanesOf(lanelets, scenario.route);
   if (root.FirstChildElement("environmentObstacle") != nullptr) {
     scenario.notes.emplace_back("environment obstacles, such as buildings, are not read");
   }

@@ -67,6 +67,34 @@ Lanelet2Route RouteOf(const fs::path& file, const Lanelet2Map& map,
   return route;
 }
 
+/// Adds points on long steps beside short ones, so that each step is at most about twice as long as
+/// its neighbors: centers are polylines, and a spline through the points keeps to their straights.
+std::vector<Vec2> Graded(const std::vector<Vec2>& points) {
+  const auto step = [&](std::size_t i) { return (points[i + 1] - points[i]).norm(); };
+  std::vector<Vec2> graded;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double length = step(i);
+    const double before = i > 0 ? step(i - 1) : length;
+    const double after = i + 2 < points.size() ? step(i + 1) : length;
+    // Distances from the start of the step.
+    std::vector<double> places{0.0};
+    for (double next = 2.0 * before; places.back() + next < 0.5 * length; next *= 2.0) {
+      places.push_back(places.back() + next);
+    }
+    std::vector<double> from_end{0.0};
+    for (double next = 2.0 * after; from_end.back() + next < 0.5 * length; next *= 2.0) {
+      from_end.push_back(from_end.back() + next);
+    }
+    std::for_each(from_end.rbegin(), from_end.rend() - 1,
+                  [&](double s) { places.push_back(length - s); });
+    for (const double s : places) {
+      graded.push_back(points[i] + s / length * (points[i + 1] - points[i]));
+    }
+  }
+  graded.push_back(points.back());
+  return graded;
+}
+
 /// Returns the points along the centers of a route: those of the lanelets, or, if the route changes
 /// lanes, points 1 m apart.
 std::vector<Vec2> PointsOf(const Lanelet2Map& map, const Lanelet2Route& route) {
@@ -84,7 +112,7 @@ std::vector<Vec2> PointsOf(const Lanelet2Map& map, const Lanelet2Route& route) {
     for (const Lanelet* lanelet : last) {
       std::for_each(lanelet->center.begin(), lanelet->center.end(), add);
     }
-    return points;
+    return points.empty() ? points : Graded(points);
   }
   const std::vector<Vec2>& center = route.lanes.front().front()->center;
   const Vec2 step = center[1] - center[0];
@@ -167,6 +195,7 @@ PathFile ReadLanelet2(const fs::path& file, const std::string& text, const PathM
   PathFile found;
   found.points.points = PointsOf(own, route);
   found.points.speed = LimitsOf(own, route, found.points.points);
+  found.lanes = DrawnLanesOf(own.lanelets(), found.points.points);
   constexpr std::size_t kNamed = 20;
   const std::size_t count = ids.size();
   ids.resize(std::min(count, kNamed));

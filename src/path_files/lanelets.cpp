@@ -133,6 +133,15 @@ std::optional<Lanelet> LaneletBetween(std::vector<Vec2> left, std::vector<Vec2> 
   return lanelet;
 }
 
+DrawnLanes DrawnLanesOf(const Lanelets& lanelets, const std::vector<Vec2>& path) {
+  constexpr double kReach = 150.0;  // [m]
+  DrawnLanes lanes;
+  for (const auto& [id, lanelet] : lanelets) {
+    lanes.push_back({lanelet.left, lanelet.right});
+  }
+  return LanesNear(lanes, path, kReach);
+}
+
 Lanelets ReadLanelets(const XMLElement& root, const CommonRoadReading& reading) {
   Lanelets lanelets;
   for (const XMLElement* element = root.FirstChildElement("lanelet"); element != nullptr;

@@ -10,6 +10,7 @@
 
 #include "src/path_files/commonroad_xml.h"
 #include "trackbed/path_files/commonroad_scenario.h"
+#include "trackbed/path_files/drawn_lanes.h"
 
 /// Roads as lanelets, and routes along them.
 namespace trackbed {
@@ -35,6 +36,9 @@ using Lanelets = std::map<std::string, Lanelet>;
 /// Returns a lanelet between two bounds of at least two points in the direction of driving; bounds
 /// with different numbers of points are resampled. Returns nullopt if the center line is a point.
 std::optional<Lanelet> LaneletBetween(std::vector<Vec2> left, std::vector<Vec2> right);
+
+/// Returns the bounds of the lanelets within 150 m of the path.
+DrawnLanes DrawnLanesOf(const Lanelets& lanelets, const std::vector<Vec2>& path);
 
 /// Reads all lanelets of a scenario. Leaves out lanelets without a length, and ignores links to
 /// lanelets that are not in the file.

@@ -23,7 +23,10 @@ nlohmann::ordered_json RoadsJson(const RoadNetwork& network) {
   // spacing of points along a line [m]; the polyline deviates by 3 cm from an arc with a radius of
   // 10 m
   constexpr double kSpacing = 1.5;
-  const RoadPaint paint = PaintRoads(network, kSpacing);
+  return RoadsJson(PaintRoads(network, kSpacing));
+}
+
+nlohmann::ordered_json RoadsJson(const RoadPaint& paint) {
   nlohmann::ordered_json json{{"bands", nlohmann::ordered_json::array()},
                               {"lines", nlohmann::ordered_json::array()}};
   for (const PavedBand& band : paint.bands) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "trackbed/road_network/road_network.h"
+#include "trackbed/road_network/road_paint.h"
 
 namespace trackbed {
 
@@ -11,5 +12,6 @@ namespace trackbed {
 /// (road marks) has `points`, `width` and `yellow`. Each list of points contains x, y, x, y, ...
 /// [m].
 nlohmann::ordered_json RoadsJson(const RoadNetwork& network);
+nlohmann::ordered_json RoadsJson(const RoadPaint& paint);
 
 }  // namespace trackbed

@@ -22,8 +22,10 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
+#include "trackbed/path_files/drawn_lanes.h"
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/report/names.h"
+#include "trackbed/road_network/lane_paint.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/run_track.h"
@@ -359,9 +361,15 @@ World AddWorldAndPlan(const fs::path& folder, const fs::path& scenario, ordered_
     const auto& read = world.road_network->data;
     run["world"]["roads"] = RoadsJson(read ? read->network : ReadOpenDrive(file));
   }
+  const bool has_lanes = fs::exists(folder / kLanesCsv);
+  if (has_lanes) {
+    run["world"]["roads"] =
+        RoadsJson(PaintLanes(ReadLanesCsv(run_folder::RequireFile(folder / kLanesCsv))));
+  }
   if (fs::exists(folder / run_folder::kPlanJson) || fs::exists(folder / run_folder::kPlanCsv)) {
     run["plan"] = PlanJson(folder);
-    if (const auto road = RoadToDraw(world, run["plan"].value("method", ""))) {
+    const auto road = RoadToDraw(world, run["plan"].value("method", ""));
+    if (road && !has_lanes) {
       run["plan"]["road"] = {{"width", Rounded(road->width)}, {"lanes", road->lanes}};
     }
     if (const fs::path track = folder / kTrackCsv; fs::exists(track)) {

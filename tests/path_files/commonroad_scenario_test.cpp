@@ -16,6 +16,7 @@
 namespace trackbed {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -178,6 +179,21 @@ TEST(CommonRoadScenario, ReadsMotions) {
   EXPECT_THAT(scenario.obstacles[0].poses, ElementsAre(std::pair(0.0, Pose2{20.0, 4.0, 0.0}),
                                                        std::pair(0.1, Pose2{20.5, 4.0, 0.1}),
                                                        std::pair(0.2, Pose2{21.0, 4.1, 0.2})));
+}
+
+// Scenarios that were converted from OpenSCENARIO have the recorded car among their obstacles.
+TEST(CommonRoadScenario, LeavesOutTheRecordedCar) {
+  const auto moving = [](double x, double yaw) {
+    return "<dynamicObstacle id=\"7\"><shape><rectangle><length>4</length><width>2</width>"
+           "</rectangle></shape>" +
+           State("initialState", {x, 0.0, yaw}, 0, 10.0) + "<trajectory>" +
+           State("state", {x + 1.0, 0.0, yaw}, 1, 10.0) + "</trajectory></dynamicObstacle>";
+  };
+  const CommonRoadScenario scenario = Read(Roads() + moving(5.0, 2.0 * kPi) + moving(25.0, 0.0) +
+                                           PlanningProblem({5.0, 0.0, 0.0}, 10.0, "", 0, 50));
+  ASSERT_EQ(scenario.obstacles.size(), 1U);
+  EXPECT_EQ(scenario.obstacles[0].poses.front().second.x, 25.0);
+  EXPECT_THAT(scenario.notes, Contains(HasSubstr("it is the recorded car")));
 }
 
 TEST(CommonRoadScenario, EnclosesShapesByBoxes) {

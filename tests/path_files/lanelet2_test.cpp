@@ -180,6 +180,47 @@ TEST(Lanelet2, KeepsWithinItsLanesWhileItChanges) {
   }
 }
 
+// A straight of 60 m between the ends of bends with points 1 m apart: the spline keeps to it. The
+// bends have the middles of the bounds as their points, on circles of 12 m around (0, 12) and
+// (60, 12).
+TEST(Lanelet2, KeepsToStraightsWithoutPoints) {
+  std::string nodes;
+  std::vector<int> left;
+  std::vector<int> right;
+  const auto add = [&](double x, double y, double angle) {
+    const int id = 1000 + 2 * static_cast<int>(left.size());
+    nodes += Node(id, x - 10.0 * std::sin(angle), y - 10.0 * std::cos(angle));
+    nodes += Node(id + 1, x - 14.0 * std::sin(angle), y - 14.0 * std::cos(angle));
+    left.push_back(id);
+    right.push_back(id + 1);
+  };
+  for (int i = 18; i >= 0; --i) {
+    add(0.0, 12.0, i / 12.0);
+  }
+  for (int i = 0; i <= 18; ++i) {
+    add(60.0, 12.0, -i / 12.0);
+  }
+  const std::string xml = "<osm>" + nodes + Way(1, left) + Way(2, right) +
+                          Relation(3, 1, 2, Tag("subtype", "road")) + "</osm>";
+  const FittedPath fitted = FitPath(Read(xml, {"3"}).points, {});
+  double farthest = 0.0;
+  for (double s = 0.0; s <= fitted.path.length(); s += 0.1) {
+    const Vec2 at = fitted.path.At(s).pose.position();
+    const double beside = std::max({at.x() - 60.0, -at.x(), 0.0});
+    farthest = std::max(farthest, beside > 0.0 ? std::abs(std::hypot(beside, at.y() - 12.0) - 12.0)
+                                               : std::abs(at.y()));
+  }
+  // The spline is within 0.05 m of the points; it may swing as far again between them.
+  EXPECT_LT(farthest, 0.1);
+}
+
+TEST(Lanelet2, DrawsItsLanes) {
+  const PathFile read = Read(MapText().Xml(), {"10", "11"});
+  ASSERT_EQ(read.lanes.size(), 4U);
+  EXPECT_EQ(read.lanes[0].right, (std::vector<Vec2>{{0.0, -2.0}, {60.0, -2.0}}));
+  EXPECT_EQ(read.lanes[3].left, (std::vector<Vec2>{{60.0, 6.0}, {120.0, 6.0}}));
+}
+
 TEST(Lanelet2, TakesSpeedLimits) {
   MapText text;
   text.tags += Tag("speed_limit", "36");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trackbed/geometry/oriented_box.h"
+#include "trackbed/path_files/drawn_lanes.h"
 
 /// Reads scenarios of CommonRoad: roads as lanelets, obstacles with their motions, and a planning
 /// problem (Althoff, Koschi and Manzinger 2017).
@@ -60,6 +61,7 @@ struct CommonRoadScenario {
   /// direction, to the left and to the right [m], at most 8 m.
   double room_left = 0.0;
   double room_right = 0.0;
+  DrawnLanes lanes;                ///< Lanelets within 150 m of the route.
   std::vector<std::string> notes;  ///< Parts of the file that were left out or approximated.
 };
 

@@ -6,6 +6,7 @@
 
 #include "trackbed/core/error.h"
 #include "trackbed/path/fit_path.h"
+#include "trackbed/path_files/drawn_lanes.h"
 #include "trackbed/path_files/path_map.h"
 
 /// Reads paths that other programs have planned. From a trajectory, reads the path, the speeds and
@@ -20,6 +21,8 @@ struct PathFile {
   /// Reasons why the speeds of the file cannot be driven, with their lines; `points` has no speeds
   /// then. A caller that needs the speeds should throw these problems as InputError.
   std::vector<Problem> speed_problems;
+  /// Lanes of a CommonRoad scenario or a Lanelet2 map within 150 m of the path.
+  DrawnLanes lanes;
 };
 
 /// The maximum number of points in a path file.

@@ -177,7 +177,13 @@ void ReadPath(PathFileOptions& options, InputReader& reader) {
       }
     }
     options.path = std::move(path);
+    options.drawn_lanes = std::move(found.lanes);
   });
+  if (options.lanes && reader.CouldRead("lanes")) {
+    reader.ReadFile("lanes", *options.lanes, [&](const std::filesystem::path& file) {
+      options.drawn_lanes = ReadLanesCsv(file);
+    });
+  }
 }
 
 std::optional<PlannedStart> StartOf(const PathFileOptions& options) {
@@ -206,7 +212,12 @@ std::vector<InputFile> InputFilesOf(const PathFileOptions& options) {
   if (options.path == nullptr) {
     return {};
   }
-  return {{kPathCsv, PathCsv(options.path->given), "path " + options.file}};
+  std::vector<InputFile> files{{kPathCsv, PathCsv(options.path->given), "path " + options.file}};
+  if (!options.drawn_lanes.empty()) {
+    const std::string source = options.lanes.value_or(options.file);
+    files.push_back({kLanesCsv, LanesCsv(options.drawn_lanes), "lanes " + source});
+  }
+  return files;
 }
 
 std::vector<Vec2> PlacesOf(const PathFileOptions& options) {
@@ -222,12 +233,23 @@ void MoveBy(PathFileOptions& options, const Vec2& by) {
     point += by;
   }
   options.path = std::make_shared<const FittedPath>(FitPath(std::move(moved), options.fit));
+  for (DrawnLane& lane : options.drawn_lanes) {
+    for (std::vector<Vec2>* bound : {&lane.left, &lane.right}) {
+      for (Vec2& point : *bound) {
+        point += by;
+      }
+    }
+  }
 }
 
 void Resolve(PathFileOptions& options) {
   options.file = kPathCsv;
   options.map = {};  // the output of PathCsv uses the default column names
   options.ahead = 0.0;
+  options.lanes.reset();
+  if (!options.drawn_lanes.empty()) {
+    options.lanes = kLanesCsv;
+  }
 }
 
 }  // namespace
@@ -349,6 +371,10 @@ void Visit(KeyVisitor& keys, PathFileOptions& options) {
        "the mission's speed, or at most those of the file, from point to point their mean, with "
        "a stop where they are 0, for as long as in the file if it has times"},
       options.speeds, Need::kOptional, speeds);
+  keys.Field({"lanes", "",
+              "CSV file of lanes that films and reports show; default: those of a CommonRoad "
+              "scenario or Lanelet2 map; runs write it"},
+             options.lanes);
   keys.Field({"notes", "", "what was found in the file, a line for each remark; runs write it"},
              options.notes);
 }
@@ -364,7 +390,7 @@ PlannerEntry PathFilePlanner() {
           .start_curvature = OnOptions<PathFileOptions, StartCurvature>,
           .read_inputs = OnOptions<PathFileOptions, ReadPath>,
           .input_files = OnOptions<PathFileOptions, InputFilesOf>,
-          .input_names = {kPathCsv},
+          .input_names = {kPathCsv, kLanesCsv},
           .resolve = OnOptions<PathFileOptions, Resolve>,
           .places = OnOptions<PathFileOptions, PlacesOf>,
           .translate = OnOptions<PathFileOptions, MoveBy>};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "trackbed/path/fit_path.h"
+#include "trackbed/path_files/drawn_lanes.h"
 #include "trackbed/path_files/path_map.h"
 #include "trackbed/planning/common/planner.h"
 
@@ -20,8 +21,9 @@ enum class PathSpeeds {
 };
 
 /// Options of the planner `path_file`. ReadScenario fits `path` to the points of the file. A
-/// program that uses no file can compute `path` from points by FitPath. All members except `speeds`
-/// and `notes` describe the origin of the path; changing these members does not change the path.
+/// program that uses no file can compute `path` from points by FitPath. All members except
+/// `speeds`, `notes` and `lanes` describe the origin of the path; changing these members does not
+/// change the path.
 struct PathFileOptions {
   std::string file;
   PathMap map;
@@ -32,7 +34,10 @@ struct PathFileOptions {
   PathSpeeds speeds = PathSpeeds::kMission;
   /// Remarks on the contents of the file from reading it, one per line.
   std::optional<std::string> notes;
+  /// File of lanes to draw (ReadLanesCsv); nullopt: the lanes of `file`, if it has any.
+  std::optional<std::string> lanes;
   std::shared_ptr<const FittedPath> path;
+  DrawnLanes drawn_lanes;  ///< Lanes that films and reports show.
 };
 void Visit(KeyVisitor& keys, PathFileOptions& options);
 

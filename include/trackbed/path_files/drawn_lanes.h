@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "trackbed/geometry/pose.h"
+
+/// Lanes of a map beside a path, which films and reports show.
+namespace trackbed {
+
+/// A lane between two bounds in the direction of driving.
+struct DrawnLane {
+  std::vector<Vec2> left;   ///< Points of the left bound [m], at least two.
+  std::vector<Vec2> right;  ///< Points of the right bound [m], as many as of `left`.
+};
+
+using DrawnLanes = std::vector<DrawnLane>;
+
+/// The file name of the lanes in the run folder, next to the path.
+inline constexpr const char* kLanesCsv = "lanes.csv";
+
+/// The maximum number of points in a file of lanes.
+inline constexpr std::size_t kMaxLanePoints = 1'000'000;
+
+/// Returns the lanes whose bounding box comes within `reach` [m] of a point of the path, and some
+/// at most 5 m farther, up to a total of kMaxLanePoints points. The cost is proportional to the
+/// number of lanes times the length of the path.
+DrawnLanes LanesNear(const DrawnLanes& lanes, const std::vector<Vec2>& path, double reach);
+
+/// Formats lanes as a CSV file with the columns `lane`, `left_x_m`, `left_y_m`, `right_x_m` and
+/// `right_y_m`: a row for each pair of points of the two bounds. ReadLanesCsv reads equal lanes.
+std::string LanesCsv(const DrawnLanes& lanes);
+
+/// Reads the file that LanesCsv writes. Rows of the same lane stand together.
+///
+/// Throws InputError, with file and line, if a column is missing, if a cell is not a finite number
+/// of at most 1e7, if a lane has one row, or if there are more than kMaxLanePoints rows. Throws
+/// RunError if the file cannot be read.
+DrawnLanes ReadLanesCsv(const std::filesystem::path& file);
+
+}  // namespace trackbed
