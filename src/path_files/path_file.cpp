@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cctype>
 #include <functional>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include "src/path_files/formats.h"
@@ -45,6 +47,52 @@ PathFile ReadAsGlobeXml(const fs::path& file, const PathMap& map) {
                                                                    : "LineString, no gx:Track"));
   }
   return PathOfGlobeFile(file, std::move(lines), map);
+}
+
+/// Returns the name of the root element of an XML file, without its namespace; "" if the first
+/// block of the file has none.
+std::string RootName(const fs::path& file) {
+  std::string begin;
+  ReadBlocks(file, [&](std::string_view block) {
+    begin = block;
+    return false;
+  });
+  std::string_view rest = begin;
+  for (std::size_t at = rest.find('<'); at != std::string_view::npos; at = rest.find('<')) {
+    rest.remove_prefix(at + 1);
+    const bool is_comment = rest.starts_with("!--");
+    if (!is_comment && !rest.starts_with('?') && !rest.starts_with('!')) {
+      std::string_view name = rest.substr(0, rest.find_first_of(" \t\r\n/>"));
+      name.remove_prefix(name.find(':') == std::string_view::npos ? 0 : name.find(':') + 1);
+      return std::string(name);
+    }
+    const std::size_t end = rest.find(is_comment ? "-->" : ">");
+    rest.remove_prefix(std::min(end, rest.size()));
+  }
+  return "";
+}
+
+/// Whether a file may be XML with one of the root elements: only a file ending with .xml may be
+/// another.
+bool MayHaveRoot(const fs::path& file, std::initializer_list<const char*> roots) {
+  return LowerEnding(file) != ".xml" ||
+         std::find(roots.begin(), roots.end(), RootName(file)) != roots.end();
+}
+
+bool MayBeCommonRoad(const fs::path& file) {
+  return LowerEnding(file) != ".xml" || !MayHaveRoot(file, {"gpx", "kml", "osm"});
+}
+
+bool MayBeGpx(const fs::path& file) {
+  return MayHaveRoot(file, {"gpx"});
+}
+
+bool MayBeKml(const fs::path& file) {
+  return MayHaveRoot(file, {"kml"});
+}
+
+bool MayBeLanelet2(const fs::path& file) {
+  return MayHaveRoot(file, {"osm"});
 }
 
 /// Determines the format of a path file from the ending of its name and from its content. Returns
@@ -88,6 +136,7 @@ const std::vector<PathFormatEntry>& PathFormats() {
        .name = "commonroad",
        .description = "CommonRoad solution",
        .endings = {".xml"},
+       .may_be = MayBeCommonRoad,
        .read =
            [](const fs::path& file, const PathMap& /*map*/) {
              return ReadCommonRoad(file, ReadFile(file, kMaxTextBytes));
@@ -104,12 +153,14 @@ const std::vector<PathFormatEntry>& PathFormats() {
       {.format = PathFormat::kGpx,
        .name = "gpx",
        .description = "GPX",
-       .endings = {".gpx"},
+       .endings = {".gpx", ".xml"},
+       .may_be = MayBeGpx,
        .read = ReadAsGlobeXml},
       {.format = PathFormat::kKml,
        .name = "kml",
        .description = "KML",
-       .endings = {".kml", ".kmz"},
+       .endings = {".kml", ".kmz", ".xml"},
+       .may_be = MayBeKml,
        .read = ReadAsGlobeXml},
       {.format = PathFormat::kBag,
        .name = "rosbag2",
@@ -119,7 +170,8 @@ const std::vector<PathFormatEntry>& PathFormats() {
       {.format = PathFormat::kLanelet2,
        .name = "lanelet2",
        .description = "Lanelet2",
-       .endings = {".osm"},
+       .endings = {".osm", ".xml"},
+       .may_be = MayBeLanelet2,
        .read =
            [](const fs::path& file, const PathMap& map) {
              return ReadLanelet2(file, ReadFile(file, kMaxTextBytes), map);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/path_files/path_file.h"
@@ -64,6 +65,29 @@ TEST(PathFormats, AreListedForUsers) {
   EXPECT_EQ(PathFormatList(),
             "CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution, GeoJSON, GPX, KML, rosbag2 or "
             "Lanelet2");
+}
+
+// Some programs name GPX and KML files after their syntax.
+TEST(PathFormats, RecognizesXmlByItsRoot) {
+  const std::string gpx =
+      "<gpx><trk><trkseg><trkpt lat='48' lon='11'/><trkpt lat='48.001' lon='11'/></trkseg></trk>"
+      "</gpx>";
+  const std::string kml =
+      "<k:kml xmlns:k='http://www.opengis.net/kml/2.2'><k:Placemark><k:LineString><k:coordinates>"
+      "11,48 11,48.001</k:coordinates></k:LineString></k:Placemark></k:kml>";
+  const TempFolder folder;
+  for (const std::string& text :
+       {gpx, "<?xml version='1.0'?>\n<!-- <kml> -->\n" + gpx, kml, "<!DOCTYPE kml>" + kml}) {
+    SCOPED_TRACE(text);
+    const PathFile read = ReadPathFile(folder.Write("track.xml", text));
+    ASSERT_EQ(read.points.points.size(), 2U);
+    // A thousandth of a degree of latitude is 111.19 m at 48 degrees (WGS 84).
+    EXPECT_NEAR((read.points.points[1] - read.points.points[0]).norm(), 111.19, 0.01);
+  }
+  EXPECT_THAT(ErrorText([&] { ReadPathFile(folder.Write("map.xml", "<osm/>")); }),
+              testing::HasSubstr("no lanelet for cars"));
+  EXPECT_THAT(ErrorText([&] { ReadPathFile(folder.Write("map.xml", "<other/>")); }),
+              testing::HasSubstr("must be CommonRoadSolution or commonRoad"));
 }
 
 }  // namespace
