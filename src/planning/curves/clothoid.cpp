@@ -56,6 +56,19 @@ Vec2 Series(double angle) {
   return {cos, sin * angle};
 }
 
+/// Sums two chains of half the length, which the processor computes at the same time.
+template <std::size_t terms>
+double ChordSeries(double square) {
+  const double fourth = square * square;
+  double even = 0.0;
+  double odd = 0.0;
+  for (std::size_t n = terms; n > 0; n -= 2) {
+    odd = odd * fourth + kChordCoefficients[n - 1];
+    even = even * fourth + kChordCoefficients[n - 2];
+  }
+  return even + odd * square;
+}
+
 /// Integrates over pieces that turn by at most half a radian, as Path does.
 Vec2 Quadrature(double angle) {
   using Gauss = boost::math::quadrature::gauss<double, 10>;
@@ -77,17 +90,12 @@ Vec2 FresnelPerLength(double angle) {
 }
 
 double ChordPerLength(double angle) {
+  constexpr double kShortSeriesLimit = 1.0;  // the first omitted term is below 1e-18 here [rad]
+  if (std::abs(angle) <= kShortSeriesLimit) {
+    return ChordSeries<10>(angle * angle);
+  }
   if (std::abs(angle) <= kSeriesLimit) {
-    // Two chains of half the length, which the processor computes at the same time.
-    const double square = angle * angle;
-    const double fourth = square * square;
-    double even = 0.0;
-    double odd = 0.0;
-    for (std::size_t n = kTerms; n > 0; n -= 2) {
-      odd = odd * fourth + kChordCoefficients[n - 1];
-      even = even * fourth + kChordCoefficients[n - 2];
-    }
-    return even + odd * square;
+    return ChordSeries<kTerms>(angle * angle);
   }
   return FresnelPerLength(angle).dot(Direction(angle));
 }

@@ -42,6 +42,9 @@ void ShortenSmallTurn(const TurnCircle& circle, double deflection, ClothoidTurn&
 }  // namespace
 
 Vec2 ClothoidTo(double curvature, double sharpness) {
+  if (curvature == 0.0) {
+    return {0.0, 0.0};
+  }
   return curvature / sharpness * FresnelPerLength(0.5 * curvature * curvature / sharpness);
 }
 
@@ -108,6 +111,26 @@ ClothoidTurn TurnBetween(const TurnCircle& circle, double deflection, ZeroEnds z
     ShortenSmallTurn(circle, turned, turn);
   }
   return turn;
+}
+
+double LeastTurnBetween(const TurnCircle& circle, double deflection, ZeroEnds zero,
+                        bool both_ways) {
+  const int ramps = (zero.first ? 1 : 0) + (zero.last ? 1 : 0);
+  const double turned = WrapPositive(deflection);
+  if (ramps == 2 && turned < 2.0 * circle.least) {
+    return 2.0 * std::sqrt(turned / circle.sharpness);
+  }
+  const double arc = ArcFor(turned - ramps * circle.least, both_ways && ramps == 2);
+  return ramps / circle.sharpness + std::abs(arc);
+}
+
+double LeastTurnFrom(const TurnCircle& circle, const TurnEnd& end, double yaw, bool to_zero,
+                     bool both_ways) {
+  if (end.from_zero()) {
+    return end.before +
+           LeastTurnBetween(circle, end.rotation() * (yaw - end.yaw), {true, to_zero}, both_ways);
+  }
+  return TurnFrom(circle, end, yaw, to_zero, both_ways).length;
 }
 
 ClothoidTurn TurnFrom(const TurnCircle& circle, const TurnEnd& end, double yaw, bool to_zero,

@@ -17,7 +17,8 @@ inline constexpr double kTurnRounding = 1e-12;
 /// Wraps an angle to [0, 2 pi); an angle that equals 2 pi up to rounding becomes 0.
 inline double WrapPositive(double angle) {
   constexpr double kCircle = 2.0 * kPi;
-  const double wrapped = angle - kCircle * std::floor(angle / kCircle);
+  const bool is_wrapped = angle >= 0.0 && angle < kCircle;
+  const double wrapped = is_wrapped ? angle : angle - kCircle * std::floor(angle / kCircle);
   return wrapped > kCircle - kTurnRounding ? 0.0 : wrapped;
 }
 
@@ -83,5 +84,11 @@ ClothoidTurn TurnFrom(const TurnCircle& circle, const TurnEnd& end, double yaw, 
 /// Returns the turn by `deflection`, which counts in the direction of rotation [rad].
 ClothoidTurn TurnBetween(const TurnCircle& circle, double deflection, ZeroEnds zero,
                          bool both_ways);
+
+/// Returns a lower bound of the length of a turn, without solving the clothoids of a small turn: a
+/// turn by the angle a with two ends of curvature 0 has at least the length 2 sqrt(a/sigma).
+double LeastTurnFrom(const TurnCircle& circle, const TurnEnd& end, double yaw, bool to_zero,
+                     bool both_ways);
+double LeastTurnBetween(const TurnCircle& circle, double deflection, ZeroEnds zero, bool both_ways);
 
 }  // namespace trackbed

@@ -1,6 +1,7 @@
 #include "trackbed/planning/curves/continuous_curvature.h"
 
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <set>
 #include <string>
@@ -13,33 +14,26 @@ namespace trackbed {
 namespace {
 
 /// The ways to leave a state, at most six for each direction.
-struct Ends {
-  std::array<TurnEnd, 12> ends;
-  std::size_t count = 0;
-
-  [[nodiscard]] const TurnEnd* begin() const { return ends.data(); }
-  [[nodiscard]] const TurnEnd* end() const { return ends.data() + count; }
-};
+using Ends = boost::container::static_vector<TurnEnd, 12>;
 
 Ends EndsOf(const TurnCircle& circle, const CurveState& state, int direction, bool both_ways) {
   Ends ends;
-  const auto add = [&](const TurnEnd& end) { ends.ends[ends.count++] = end; };
   const int own = state.curvature < 0.0 ? -1 : 1;
   for (const int way : {direction, -direction}) {
     if (way != direction && !both_ways) {
       continue;
     }
     for (const int side : {1, -1}) {
-      add(LeaveDirectly(circle, state, side, way));
+      ends.push_back(LeaveDirectly(circle, state, side, way));
     }
     if (state.curvature == 0.0) {
       continue;
     }
-    add(LeaveAfter(circle, state, 0.0, way, own, way));
+    ends.push_back(LeaveAfter(circle, state, 0.0, way, own, way));
     if (both_ways) {
-      add(LeaveAfter(circle, state, own, -way, own, way));
-      add(LeaveAfter(circle, state, 0.0, -way, own, way));
-      add(LeaveAfter(circle, state, 0.0, -way, -own, way));
+      ends.push_back(LeaveAfter(circle, state, own, -way, own, way));
+      ends.push_back(LeaveAfter(circle, state, 0.0, -way, own, way));
+      ends.push_back(LeaveAfter(circle, state, 0.0, -way, -own, way));
     }
   }
   return ends;
@@ -108,29 +102,29 @@ ShortestCurve SharpCurve(const TurnCircle& circle, CurveMotion motion, const Cur
   return curve;
 }
 
-ShortestCurve InMeters(ShortestCurve curve, double radius) {
+void ToMeters(ShortestCurve& curve, double radius) {
   curve.radius = radius;
   curve.length *= radius;
-  return curve;
 }
 
-ShortestCurve Shortest(const TurnCircle& circle, CurveMotion motion, const CurveTask& problem) {
-  if (problem.IsSolved()) {
-    return {};
-  }
-  const bool both_ways = motion != CurveMotion::kForwards;
-  const Ends starts = EndsOf(circle, problem.start, 1, both_ways);
-  const Ends goals = EndsOf(circle, problem.goal, -1, both_ways);
-  const ChainFinder finder(circle, motion);
-  TurnChain best;
-  for (const TurnEnd& first : starts) {
-    for (const TurnEnd& last : goals) {
-      finder.Find(
-          first, last, [&] { return best.length; }, [&](const TurnChain& chain) { best = chain; });
+ShortestCurve Shortest(const TurnCircle& circle, CurveMotion motion, const CurveTask& problem,
+                       double radius) {
+  ShortestCurve curve;
+  if (!problem.IsSolved()) {
+    const bool both_ways = motion != CurveMotion::kForwards;
+    const Ends starts = EndsOf(circle, problem.start, 1, both_ways);
+    const Ends goals = EndsOf(circle, problem.goal, -1, both_ways);
+    const ChainFinder finder(circle, motion);
+    TurnChain best;
+    finder.Find(
+        starts, goals, [&] { return best.length; }, [&](const TurnChain& chain) { best = chain; });
+    curve = SharpCurve(circle, motion, problem, best.length);
+    if (best.length <= curve.length) {
+      curve = ChainCurve(circle, best, both_ways);
     }
   }
-  const ShortestCurve sharp = SharpCurve(circle, motion, problem, best.length);
-  return sharp.length < best.length ? sharp : ChainCurve(circle, best, both_ways);
+  ToMeters(curve, radius);
+  return curve;
 }
 
 /// Returns the shortest curve for each spelling of a word, shortest first.
@@ -144,13 +138,9 @@ std::vector<ShortestCurve> AllWords(const TurnCircle& circle, CurveMotion motion
   const Ends goals = EndsOf(circle, problem.goal, -1, both_ways);
   const ChainFinder finder(circle, motion);
   std::vector<ShortestCurve> curves;
-  for (const TurnEnd& first : starts) {
-    for (const TurnEnd& last : goals) {
-      finder.Find(
-          first, last, [] { return kNoCurve; },
-          [&](const TurnChain& chain) { curves.push_back(ChainCurve(circle, chain, both_ways)); });
-    }
-  }
+  finder.Find(
+      starts, goals, [] { return kNoCurve; },
+      [&](const TurnChain& chain) { curves.push_back(ChainCurve(circle, chain, both_ways)); });
   const ShortestCurve sharp = SharpCurve(circle, motion, problem, kNoCurve);
   if (sharp.length < kNoCurve) {
     curves.push_back(sharp);
@@ -166,7 +156,7 @@ std::vector<ShortestCurve> AllWords(const TurnCircle& circle, CurveMotion motion
 
 std::vector<ShortestCurve> InMeters(std::vector<ShortestCurve> curves, double radius) {
   for (ShortestCurve& curve : curves) {
-    curve = InMeters(curve, radius);
+    ToMeters(curve, radius);
   }
   return curves;
 }
@@ -182,8 +172,7 @@ ContinuousCurves::ContinuousCurves(const CurveLimits& limits) : limits_(limits) 
 }
 
 ShortestCurve ContinuousCurves::Dubins(const CurveState& from, const CurveState& to) const {
-  return InMeters(Shortest(circle_, CurveMotion::kForwards, CurveTask(limits_, from, to)),
-                  limits_.radius);
+  return Shortest(circle_, CurveMotion::kForwards, CurveTask(limits_, from, to), limits_.radius);
 }
 
 std::vector<ShortestCurve> ContinuousCurves::DubinsWords(const CurveState& from,
@@ -193,8 +182,7 @@ std::vector<ShortestCurve> ContinuousCurves::DubinsWords(const CurveState& from,
 }
 
 ShortestCurve ContinuousCurves::ReedsShepp(const CurveState& from, const CurveState& to) const {
-  return InMeters(Shortest(circle_, CurveMotion::kContinuous, CurveTask(limits_, from, to)),
-                  limits_.radius);
+  return Shortest(circle_, CurveMotion::kContinuous, CurveTask(limits_, from, to), limits_.radius);
 }
 
 std::vector<ShortestCurve> ContinuousCurves::ReedsSheppWords(const CurveState& from,
@@ -205,8 +193,7 @@ std::vector<ShortestCurve> ContinuousCurves::ReedsSheppWords(const CurveState& f
 
 ShortestCurve ContinuousCurves::HybridReedsShepp(const CurveState& from,
                                                  const CurveState& to) const {
-  return InMeters(Shortest(circle_, CurveMotion::kHybrid, CurveTask(limits_, from, to)),
-                  limits_.radius);
+  return Shortest(circle_, CurveMotion::kHybrid, CurveTask(limits_, from, to), limits_.radius);
 }
 
 std::vector<ShortestCurve> ContinuousCurves::HybridReedsSheppWords(const CurveState& from,

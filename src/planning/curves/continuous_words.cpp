@@ -41,34 +41,52 @@ CurvePiece EndPiece(const TurnCircle& circle, const TurnEnd& end, const TurnJunc
   return TurnPiece(turn, end.side, end.direction, end.begin, to_zero ? 0.0 : end.side);
 }
 
-ClothoidTurn MiddleTurn(const TurnCircle& circle, const TurnChain& chain, std::size_t i,
-                        bool both_ways) {
-  const TurnJunction& in = chain.junctions[i - 1];
-  const TurnJunction& out = chain.junctions[i];
-  return TurnBetween(circle, chain.side[i] * chain.direction[i] * (out.yaw - in.yaw),
-                     {in.zero_after, out.zero_before}, both_ways);
-}
+/// Deflection of a turn between two junctions, and the curvatures at its ends.
+struct MiddleTurn {
+  double deflection = 0.0;
+  ZeroEnds zero;
+
+  MiddleTurn(const TurnChain& chain, std::size_t i)
+      : deflection(chain.side[i] * chain.direction[i] *
+                   (chain.junctions[i].yaw - chain.junctions[i - 1].yaw)),
+        zero{chain.junctions[i - 1].zero_after, chain.junctions[i].zero_before} {}
+};
 
 }  // namespace
 
 double ChainLength(const TurnCircle& circle, const TurnChain& chain, bool both_ways, double limit) {
   const auto last = static_cast<std::size_t>(chain.turns - 1);
-  double length = chain.last->Least();
+  const TurnJunction& begin = chain.junctions[0];
+  const TurnJunction& end = chain.junctions[last - 1];
+  double straights = 0.0;
   for (std::size_t i = 0; i < last; ++i) {
-    length += chain.junctions[i].straight;
+    straights += chain.junctions[i].straight;
   }
-  length += TurnFrom(circle, *chain.first, chain.junctions[0].yaw, chain.junctions[0].zero_before,
-                     both_ways)
-                .length;
-  for (std::size_t i = 1; i < last && length < limit; ++i) {
-    length += MiddleTurn(circle, chain, i, both_ways).length;
+  // Lower bounds first, which spare most chains the clothoids of small turns.
+  double least = straights + chain.first->Least() + chain.last->Least();
+  for (std::size_t i = 1; i < last && least < limit; ++i) {
+    const MiddleTurn turn(chain, i);
+    least += LeastTurnBetween(circle, turn.deflection, turn.zero, both_ways);
   }
-  if (length >= limit) {
+  if (least < limit) {
+    least += LeastTurnFrom(circle, *chain.first, begin.yaw, begin.zero_before, both_ways) -
+             chain.first->Least();
+  }
+  if (least < limit) {
+    least += LeastTurnFrom(circle, *chain.last, end.yaw, end.zero_after, both_ways) -
+             chain.last->Least();
+  }
+  if (least >= limit) {
     return kNoCurve;
   }
-  const TurnJunction& end = chain.junctions[last - 1];
-  return length - chain.last->Least() +
-         TurnFrom(circle, *chain.last, end.yaw, end.zero_after, both_ways).length;
+  double length = straights +
+                  TurnFrom(circle, *chain.first, begin.yaw, begin.zero_before, both_ways).length +
+                  TurnFrom(circle, *chain.last, end.yaw, end.zero_after, both_ways).length;
+  for (std::size_t i = 1; i < last; ++i) {
+    const MiddleTurn turn(chain, i);
+    length += TurnBetween(circle, turn.deflection, turn.zero, both_ways).length;
+  }
+  return length;
 }
 
 ShortestCurve ChainCurve(const TurnCircle& circle, const TurnChain& chain, bool both_ways) {
@@ -96,8 +114,9 @@ ShortestCurve ChainCurve(const TurnCircle& circle, const TurnChain& chain, bool 
     const TurnJunction& junction = chain.junctions[i];
     if (i > 0) {
       const int side = chain.side[i];
-      add(TurnPiece(MiddleTurn(circle, chain, i, both_ways), side, chain.direction[i],
-                    chain.junctions[i - 1].zero_after ? 0.0 : side,
+      const MiddleTurn turn(chain, i);
+      add(TurnPiece(TurnBetween(circle, turn.deflection, turn.zero, both_ways), side,
+                    chain.direction[i], chain.junctions[i - 1].zero_after ? 0.0 : side,
                     junction.zero_before ? 0.0 : side));
     }
     if (junction.straight > 0.0) {

@@ -48,18 +48,28 @@ class ChainFinder {
  public:
   ChainFinder(const TurnCircle& circle, CurveMotion motion);
 
-  /// Calls `take` with each chain that is shorter than `limit()`.
-  template <typename Limit, typename Take>
-  void Find(const TurnEnd& first, const TurnEnd& last, const Limit& limit, const Take& take) const {
-    const Centers centers(first, last);
-    const auto consider = [&](TurnChain chain) {
+  /// Calls `take` with each chain that is shorter than `limit()`, between each of the ends `firsts`
+  /// and each of `lasts`. Chains with a straight come first, because the others seldom are shorter.
+  template <typename Ends, typename Limit, typename Take>
+  void Find(const Ends& firsts, const Ends& lasts, const Limit& limit, const Take& take) const {
+    const auto consider = [&](TurnChain& chain) {
       chain.length = ChainLength(circle_, chain, both_ways(), limit());
       if (chain.length < limit()) {
         take(chain);
       }
     };
-    WithStraight(centers, limit, consider);
-    OfTurns(centers, consider);
+    for (const TurnEnd& first : firsts) {
+      for (const TurnEnd& last : lasts) {
+        WithStraight(Centers(first, last), limit, consider);
+      }
+    }
+    for (const TurnEnd& first : firsts) {
+      for (const TurnEnd& last : lasts) {
+        if (first.Least() + last.Least() < limit()) {
+          OfTurns(Centers(first, last), consider);
+        }
+      }
+    }
   }
 
  private:

@@ -12,11 +12,17 @@
 namespace trackbed {
 namespace {
 
+/// Returns the direction of twice the angle of a direction.
+Vec2 DoubleAngle(const Vec2& half) {
+  return {half.x() * half.x() - half.y() * half.y(), 2.0 * half.x() * half.y()};
+}
+
 /// A turn between curvatures of 0.
 struct ZeroTurn {
   double along = 0.0;   // from its start to its end, along the heading of the end
   double across = 0.0;  // the same across this heading, positive outside of the turn
   double length = 0.0;
+  double slope = 0.0;  // along minus the derivative of across by the angle, exact for full turns
 };
 
 /// The turn by a >= 0, with the cosine and sine of a/2.
@@ -25,9 +31,11 @@ ZeroTurn TurnByAngle(const TurnCircle& circle, double a, double cos, double sin)
   double chord = 0.0;
   if (a < 2.0 * circle.least) {
     turn.length = 2.0 * std::sqrt(a / circle.sharpness);
+    turn.slope = 0.25 * turn.length;
     chord = turn.length * ChordPerLength(0.5 * a);
   } else {
     turn.length = 2.0 / circle.sharpness + a - 2.0 * circle.least;
+    turn.slope = circle.along;
     chord = 2.0 * (circle.across * sin + circle.along * cos);
   }
   turn.along = chord * cos;
@@ -48,12 +56,18 @@ class SharpEnd {
       Side& own = sides_[side < 0 ? 0 : 1];
       own.side = side;
       own.yaw = state.pose.yaw - order * side * turned;
-      own.half = Direction(0.5 * own.yaw);
-      const Vec2 done = ClothoidTo(side * state_, circle.sharpness);
-      const Vec2 ahead = order * Direction(own.yaw);
-      own.zero =
-          state.pose.position() - done.x() * ahead - done.y() * side * order * LeftNormal(ahead);
+      own.zero = state.pose.position();
       own.done = side * state_ / circle.sharpness;
+      if (state_ == 0.0 && side > 0) {
+        own.half = sides_[0].half;
+        continue;
+      }
+      own.half = Direction(0.5 * own.yaw);
+      if (state_ != 0.0) {
+        const Vec2 done = ClothoidTo(side * state_, circle.sharpness);
+        const Vec2 ahead = order * DoubleAngle(own.half);
+        own.zero -= done.x() * ahead + done.y() * side * order * LeftNormal(ahead);
+      }
     }
   }
 
@@ -65,6 +79,17 @@ class SharpEnd {
     double done = 0.0;  // length of the clothoid from there to the state
   };
 
+  /// Returns the end with full circles added to the heading, at most one to either side.
+  [[nodiscard]] SharpEnd Wound(int circles) const {
+    SharpEnd wound = *this;
+    const double turns = circles * 2.0 * kPi;
+    wound.neutral_ += turns;
+    for (Side& side : wound.sides_) {
+      side.yaw += turns;
+      side.half = circles == 0 ? side.half : Vec2(-side.half);
+    }
+    return wound;
+  }
   /// Returns the side of a turn between the state and the heading alpha.
   [[nodiscard]] const Side& SideFor(double alpha) const {
     return sides_[order_ * (alpha - neutral_) < 0.0 ? 0 : 1];
@@ -83,8 +108,7 @@ class SharpEnd {
   /// Heading alpha of a turn that only straightens the wheels.
   [[nodiscard]] double neutral() const { return neutral_; }
 
-  [[nodiscard]] CurvePiece Piece(const TurnCircle& circle, double alpha) const {
-    const Side& side = SideFor(alpha);
+  [[nodiscard]] CurvePiece Piece(const TurnCircle& circle, const Side& side, double alpha) const {
     const double a = Deflection(side, alpha);
     const bool is_small = a < 2.0 * circle.least;
     const double peak = is_small ? std::sqrt(a * circle.sharpness) : 1.0;
@@ -103,142 +127,234 @@ class SharpEnd {
   std::array<Side, 2> sides_{};
 };
 
-/// The words to a goal whose heading is not wrapped, as functions of alpha.
+/// The words in an interval of alpha in which no turn changes its side, as functions of alpha.
 class SharpWords {
  public:
-  SharpWords(const TurnCircle& circle, double start, const CurveState& goal)
-      : circle_(circle), first_(circle, {{}, start}, 1), last_(circle, goal, -1) {}
+  SharpWords(const TurnCircle& circle, const SharpEnd& first, const SharpEnd& last, double from,
+             double to)
+      : circle_(circle),
+        first_(first),
+        last_(last),
+        first_side_(first.SideFor(0.5 * (from + to))),
+        last_side_(last.SideFor(0.5 * (from + to))),
+        apart_(last_side_.zero - first_side_.zero),
+        distance_(apart_.norm()),
+        done_(first_side_.done + last_side_.done) {
+    constexpr double kHalfTurn = kPi + kTurnRounding;
+    const auto bends = [&](double alpha) {
+      return std::max(first.Deflection(first_side_, alpha), last.Deflection(last_side_, alpha));
+    };
+    turn_by_at_most_pi_ = bends(from) <= kHalfTurn && bends(to) <= kHalfTurn;
+  }
 
   struct Word {
-    double across = 0.0;    // f
-    double straight = 0.0;  // length of the straight
-    double length = 0.0;    // of the word
+    double alpha = 0.0;
+    Vec2 half{1, 0};                // direction of alpha/2
+    double across = 0.0;            // f
+    double straight = 0.0;          // u, length of the straight
+    double length = 0.0;            // of the word
+    double slope = 0.0;             // -f' = u + g, for small turns approximately
+    Vec2 apart{0, 0};               // from the first turn to the last, seen along alpha
+    std::array<double, 2> along{};  // extents of the turns along alpha
+    std::array<double, 2> turns{};  // lengths of the turns
   };
 
   [[nodiscard]] Word At(double alpha) const { return At(alpha, Direction(0.5 * alpha)); }
 
   /// As above, with the direction of alpha/2.
   [[nodiscard]] Word At(double alpha, const Vec2& half) const {
-    const SharpEnd::Side& first = first_.SideFor(alpha);
-    const SharpEnd::Side& last = last_.SideFor(alpha);
-    const ZeroTurn before = first_.Turn(circle_, first, alpha, half);
-    const ZeroTurn after = last_.Turn(circle_, last, alpha, half);
-    const Vec2 ahead(half.x() * half.x() - half.y() * half.y(), 2.0 * half.x() * half.y());
-    const Vec2 apart = last.zero - first.zero;
-    Word word;
-    word.straight = ahead.dot(apart) - before.along - after.along;
-    word.across = Cross(ahead, apart) + first.side * before.across - last.side * after.across;
-    word.length = word.straight + before.length - first.done + after.length - last.done;
+    const ZeroTurn before = first_.Turn(circle_, first_side_, alpha, half);
+    const ZeroTurn after = last_.Turn(circle_, last_side_, alpha, half);
+    const Vec2 ahead = DoubleAngle(half);
+    Word word{.alpha = alpha,
+              .half = half,
+              .apart = {ahead.dot(apart_), Cross(ahead, apart_)},
+              .along = {before.along, after.along},
+              .turns = {before.length, after.length}};
+    word.straight = word.apart.x() - before.along - after.along;
+    word.across =
+        word.apart.y() + first_side_.side * before.across - last_side_.side * after.across;
+    word.length = word.straight + before.length + after.length - done_;
+    word.slope = word.straight + before.slope + after.slope;
     return word;
   }
 
-  /// Returns the ends of the interval in which neither turn makes a loop, and the values of alpha
-  /// between them at which a turn changes its side, in order.
-  [[nodiscard]] std::array<double, 4> Knots() const {
-    const double low = std::min(first_.neutral(), last_.neutral());
-    const double high = std::max(first_.neutral(), last_.neutral());
-    return {high - kPi, low, high, low + kPi};
+  /// Returns an upper bound of u between two values of alpha, from a to b. The extent of a turn
+  /// along alpha is at least 0 at angles up to pi, and has one maximum there.
+  [[nodiscard]] double MostStraight(const Word& a, const Word& b) const {
+    if (!turn_by_at_most_pi_) {
+      return kNoCurve;
+    }
+    const bool has_peak = a.apart.y() > 0.0 && b.apart.y() < 0.0;
+    const double most = has_peak ? distance_ : std::max(a.apart.x(), b.apart.x());
+    return most - std::min(a.along[0], b.along[0]) - std::min(a.along[1], b.along[1]);
   }
 
-  /// Returns the zero of a member of Word between `from` and `to`, where it has different signs.
-  template <typename Member>
-  [[nodiscard]] double Zero(Member member, double from, double to, double at_from,
-                            double at_to) const {
-    std::uintmax_t most = 60;
-    const auto zero = boost::math::tools::toms748_solve(
-        [&](double alpha) { return At(alpha).*member; }, from, to, at_from, at_to,
-        boost::math::tools::eps_tolerance<double>(52), most);
-    return 0.5 * (zero.first + zero.second);
+  /// Returns whether u < 0 for all alpha between two directions at most half a turn apart, because
+  /// the last turn is behind the first one.
+  [[nodiscard]] bool AreBehind(const Vec2& from, const Vec2& to) const {
+    return turn_by_at_most_pi_ && from.dot(apart_) < 0.0 && to.dot(apart_) < 0.0 &&
+           Cross(from, to) >= 0.0;
   }
 
-  [[nodiscard]] ShortestCurve Curve(double alpha) const {
-    const Word word = At(alpha);
+  /// Returns a lower bound of the length between two values of alpha, from a to b.
+  [[nodiscard]] double LeastLength(const Word& a, const Word& b) const {
+    return std::min(a.turns[0], b.turns[0]) + std::min(a.turns[1], b.turns[1]) - done_;
+  }
+
+  /// Returns an upper bound of the change of the length per angle: the distance, and the lengths of
+  /// both turns beyond their extent along alpha.
+  [[nodiscard]] double MostLengthPerAngle() const {
+    return distance_ + 2.0 * (1.0 + std::hypot(circle_.across, circle_.along));
+  }
+
+  /// Returns the magnitude of f that is rounding.
+  [[nodiscard]] double rounding() const {
+    return 4.0 * std::numeric_limits<double>::epsilon() * (1.0 + distance_);
+  }
+
+  [[nodiscard]] ShortestCurve Curve(const Word& word) const {
     ShortestCurve curve{.count = 3, .length = word.length};
-    curve.pieces[0] = first_.Piece(circle_, alpha);
+    curve.pieces[0] = first_.Piece(circle_, first_side_, word.alpha);
     curve.pieces[1] = {.bend = Bend::kNone, .sweep = std::max(word.straight, 0.0)};
-    curve.pieces[2] = last_.Piece(circle_, alpha);
+    curve.pieces[2] = last_.Piece(circle_, last_side_, word.alpha);
     return curve;
   }
 
  private:
   const TurnCircle& circle_;
-  SharpEnd first_;
-  SharpEnd last_;
+  const SharpEnd& first_;
+  const SharpEnd& last_;
+  const SharpEnd::Side& first_side_;
+  const SharpEnd::Side& last_side_;
+  Vec2 apart_;
+  double distance_;
+  double done_;
+  bool turn_by_at_most_pi_ = false;
 };
 
-/// Searches alpha for the shortest word. Where the straight has a length >= 0, small turns change f
-/// more slowly than the straight does: f' = -u - l/4, where u is the length of the straight and l
-/// that of both turns. Therefore f has at most one root in a range of alpha in
-/// which the straight has a length >= 0, and this root is near a knot.
+/// Searches alpha for the shortest word. Where u >= 0, f falls: f' = -u - g, with g > 0 for the
+/// turns (their length/4 if they are small, the constant `along` of the circle each if they are
+/// full). Therefore f has at most one root in a range of alpha in which u >= 0. The search halves
+/// an interval of alpha until u < 0 in a cell, by the bound on u, or until the cell is small.
 class AlphaSearch {
  public:
-  AlphaSearch(const SharpWords& words, double limit) : words_(words), limit_(limit) {
-    const std::array<double, 4> knots = words.Knots();
-    for (std::size_t i = 0; i + 1 < knots.size() && knots[0] < knots[3]; ++i) {
-      const double from = std::clamp(knots[i], knots[0], knots[3]);
-      const double to = std::clamp(knots[i + 1], knots[0], knots[3]);
-      if (from < to) {
-        Search(from, to);
-      }
+  AlphaSearch(const SharpWords& words, double limit) : words_(words), limit_(limit) {}
+
+  /// Searches the words from one value of alpha to another.
+  void Search(double from, double to) {
+    const Vec2 start = Direction(0.5 * from);
+    const Vec2 end = Direction(0.5 * to);
+    if (words_.AreBehind(DoubleAngle(start), DoubleAngle(end))) {
+      return;
     }
+    const Word a = words_.At(from, start);
+    const Word b = words_.At(to, end);
+    Take(a);
+    Take(b);
+    Split(a, b);
   }
 
-  [[nodiscard]] const std::optional<double>& best() const { return best_; }
+  [[nodiscard]] const std::optional<SharpWords::Word>& best() const { return best_; }
   [[nodiscard]] double limit() const { return limit_; }
 
  private:
-  struct Node {
-    double alpha = 0.0;
-    SharpWords::Word word;
-  };
+  using Word = SharpWords::Word;
 
-  void Search(double from, double to) {
+  void Split(const Word& a, const Word& b) {
     constexpr double kSpacing = 0.3;  // spacing at which two roots are told apart [rad]
-    const double cells = std::ceil((to - from) / kSpacing);
-    // The directions of alpha/2 follow by rotation, without trigonometric functions.
-    const Vec2 step = Direction(0.5 * (to - from) / cells);
-    Vec2 half = Direction(0.5 * from);
-    Node before{from, words_.At(from, half)};
-    Take(before);
-    for (double i = 1.0; i <= cells; i += 1.0) {
-      const double alpha = std::lerp(from, to, i / cells);
-      half = step.x() * half + step.y() * LeftNormal(half);
-      const Node node{alpha, words_.At(alpha, half)};
-      SearchCell(before, node);
-      before = node;
+    const double most = words_.MostStraight(a, b);
+    // f falls by at most `slope` per angle, so that it has no root if it is too far above 0 at the
+    // first end, or too far below 0 at the last one.
+    const double slope = most + (a.slope - a.straight) + (b.slope - b.straight);
+    const double fall = slope * (b.alpha - a.alpha);
+    if (most < -kTurnRounding || a.across > fall || -b.across > fall ||
+        words_.LeastLength(a, b) >= limit_) {
+      return;
     }
-    Take(before);
+    if (b.alpha - a.alpha > kSpacing) {
+      const Word middle = words_.At(0.5 * (a.alpha + b.alpha), (a.half + b.half).normalized());
+      Take(middle);
+      Split(a, middle);
+      Split(middle, b);
+    } else {
+      SearchCell(a, b);
+    }
   }
 
-  void SearchCell(Node a, Node b) {
-    if ((a.word.straight < 0.0) != (b.word.straight < 0.0)) {
-      const double alpha = words_.Zero(&SharpWords::Word::straight, a.alpha, b.alpha,
-                                       a.word.straight, b.word.straight);
-      Node& end = a.word.straight < 0.0 ? a : b;
-      end = Node{alpha, words_.At(alpha)};
+  void SearchCell(const Word& a, const Word& b) {
+    const bool is_solved = a.across * b.across < 0.0 && Solve(a, b);
+    if (is_solved || (a.straight < 0.0) == (b.straight < 0.0)) {
+      return;
     }
-    if (a.word.across * b.word.across < 0.0) {
-      const double alpha =
-          words_.Zero(&SharpWords::Word::across, a.alpha, b.alpha, a.word.across, b.word.across);
-      Take({alpha, words_.At(alpha)});
-    } else {
-      Take(a);
-      Take(b);
+    // f falls from or to the end with u >= 0, and may have its root there although f has the same
+    // sign at the other end.
+    const Word& in = a.straight < 0.0 ? b : a;
+    if ((&in == &a ? in.across : -in.across) <= 0.0) {
+      return;
     }
+    const Word edge = Edge(a, b);
+    if (in.across * edge.across < 0.0) {
+      &in == &a ? Solve(in, edge) : Solve(edge, in);
+    }
+  }
+
+  /// Returns the word between `a` and `b` at which u is 0.
+  [[nodiscard]] Word Edge(const Word& a, const Word& b) const {
+    std::uintmax_t most = 60;
+    const auto zero = boost::math::tools::toms748_solve(
+        [&](double alpha) { return words_.At(alpha).straight; }, a.alpha, b.alpha, a.straight,
+        b.straight, boost::math::tools::eps_tolerance<double>(52), most);
+    return words_.At(0.5 * (zero.first + zero.second));
+  }
+
+  /// Solves f = 0 between two words by Newton steps, then secants, and by bisection where these
+  /// leave the bracket or halve it too slowly. Returns false if the root has no straight. Gives up
+  /// words that are longer than the limit.
+  bool Solve(const Word& a, const Word& b) {
+    double low = a.alpha;
+    double high = b.alpha;
+    double width = high - low;
+    const double sign = a.across < 0.0 ? -1.0 : 1.0;
+    Word word = std::abs(a.across) < std::abs(b.across) ? a : b;
+    double slope = word.slope;
+    for (int i = 1; i <= kMostSteps; ++i) {
+      double next = word.alpha + word.across / slope;
+      const bool is_slow = i % 4 == 0 && high - low > 0.25 * width;
+      width = i % 4 == 0 ? high - low : width;
+      if (is_slow || !(next > low && next < high)) {
+        next = 0.5 * (low + high);
+      }
+      const double step = next - word.alpha;
+      if (word.length - 2.0 * std::abs(step) * words_.MostLengthPerAngle() >= limit_) {
+        return true;
+      }
+      const Word found = words_.At(next);
+      slope = (word.across - found.across) / step;
+      word = found;
+      if (std::abs(word.across) <= words_.rounding() || next <= low || next >= high) {
+        break;
+      }
+      (sign * word.across > 0.0 ? low : high) = next;
+    }
+    Take(word);
+    return word.straight >= -kTurnRounding;
   }
 
   /// Keeps the word if it is a root and the shortest one.
-  void Take(const Node& node) {
-    if (std::abs(node.word.across) <= kTurnRounding && node.word.straight >= -kTurnRounding &&
-        node.word.length < limit_) {
-      limit_ = node.word.length;
-      best_ = node.alpha;
+  void Take(const Word& word) {
+    if (std::abs(word.across) <= kTurnRounding && word.straight >= -kTurnRounding &&
+        word.length < limit_) {
+      limit_ = word.length;
+      best_ = word;
     }
   }
 
+  static constexpr int kMostSteps = 200;
+
   const SharpWords& words_;
   double limit_;
-  std::optional<double> best_;
+  std::optional<Word> best_;
 };
 
 }  // namespace
@@ -246,15 +362,32 @@ class AlphaSearch {
 ShortestCurve SharpWord(const TurnCircle& circle, double start, const CurveState& goal,
                         double limit) {
   ShortestCurve best{.length = kNoCurve};
-  CurveState end = goal;
-  const double yaw = WrapAngle(goal.pose.yaw);
-  for (const double turns : {0.0, 2.0 * kPi, -2.0 * kPi}) {
-    end.pose.yaw = yaw + turns;
-    const SharpWords words(circle, start, end);
-    const AlphaSearch search(words, limit);
-    if (search.best()) {
-      best = words.Curve(*search.best());
-      limit = search.limit();
+  const SharpEnd first(circle, {{}, start}, 1);
+  const Pose2 wrapped{goal.pose.x, goal.pose.y, WrapAngle(goal.pose.yaw)};
+  const SharpEnd unwound(circle, {wrapped, goal.curvature}, -1);
+  for (const int circles : {0, 1, -1}) {
+    // Neither turn makes a loop between the first and the last of these values of alpha. At those
+    // between, a turn changes its side.
+    const double neutral = unwound.neutral() + circles * 2.0 * kPi;
+    const double low = std::min(first.neutral(), neutral);
+    const double high = std::max(first.neutral(), neutral);
+    const std::array<double, 4> knots{high - kPi, low, high, low + kPi};
+    if (knots[0] >= knots[3]) {
+      continue;
+    }
+    const SharpEnd last = unwound.Wound(circles);
+    for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+      const double from = std::clamp(knots[i], knots[0], knots[3]);
+      const double to = std::clamp(knots[i + 1], knots[0], knots[3]);
+      if (from < to) {
+        const SharpWords words(circle, first, last, from, to);
+        AlphaSearch search(words, limit);
+        search.Search(from, to);
+        if (search.best()) {
+          best = words.Curve(*search.best());
+          limit = search.limit();
+        }
+      }
     }
   }
   return best;

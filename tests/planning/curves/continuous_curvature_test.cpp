@@ -194,6 +194,18 @@ struct PeerLengths {
   std::array<double, 3> lengths;  // in the order of kKinds; the peer has no second for steered cars
 };
 
+TEST(ContinuousCurvature, FindsAWordOfTwoTurnsWithAShortStraight) {
+  // Steering so slow that turns are spirals. A word of the length 22.198 m has a straight of 0.04
+  // m, but no word has a straight at headings of the straight 0.1 rad beside it.
+  const CurveLimits limits{1.0, 0.0900904};
+  const CurveState from{{}, 0.052638};
+  const CurveState to{{-1.250193, -1.250193, 0.0}, -0.236596};
+  const ShortestCurve curve = ContinuousCurves(limits).Dubins(from, to);
+  ExpectJoins(limits, kKinds[0], from, to, curve);
+  // The states are rounded to 1e-6, and the length to 1e-3.
+  EXPECT_LE(curve.length, 22.198 + Tolerance(1e-3));
+}
+
 TEST(ContinuousCurvature, IsNotLongerThanThePeer) {
   const std::vector<PeerLengths> rows{
       {0, {18, 20, -0.5}, 0, {61.471309791916, 46.163026889121, 47.107661334007}},
