@@ -20,6 +20,7 @@
 #include <cmath>
 #include <optional>
 
+#include "src/planning/curves/leg_speeds.h"
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/lead_in.h"
@@ -189,20 +190,15 @@ class RoutePlanner {
     return {};
   }
 
-  /// Time on a straight between turns at `speed`, on which the car may drive faster [s].
-  [[nodiscard]] double StraightTime(double length, double speed) const {
-    const SpeedLimits& limits = request_.speed;
-    const double per_speed = 1.0 / limits.acceleration + 1.0 / limits.deceleration;
-    const double peak = std::min(speed_, std::sqrt(speed * speed + 2.0 * length / per_speed));
-    const double used = 0.5 * (peak * peak - speed * speed) * per_speed;
-    return (peak - speed) * per_speed + std::max(length - used, 0.0) / peak;
-  }
-
-  /// Time that the car loses by stopping and by turning its wheels at rest [s].
-  [[nodiscard]] double CuspTime(const Segment& before, const Segment& after, double speed) const {
-    const SpeedLimits& limits = request_.speed;
-    return 0.5 * speed * (1.0 / limits.acceleration + 1.0 / limits.deceleration) +
-           SteeringTime(request_.vehicle, before, after);
+  [[nodiscard]] LegLimits LimitsOfMotion() const {
+    const VehicleParams& car = request_.vehicle;
+    return {.speed = {.speed = speed_,
+                      .acceleration = request_.speed.acceleration,
+                      .deceleration = request_.speed.deceleration},
+            .steering_rate = route_.max_steering_rate_fraction * car.steering_rate,
+            .lateral = LateralAccelerationOnClothoids(car, request_.friction,
+                                                      route_.max_lateral_acceleration),
+            .wheelbase = car.wheelbase};
   }
 
   [[nodiscard]] double CostOf(const std::vector<Segment>& segments, double speed,
@@ -210,20 +206,18 @@ class RoutePlanner {
     const bool counts_time = route_.objective == CurveObjective::kTime;
     double cost = 0.0;
     for (std::size_t i = 0; i < segments.size(); ++i) {
-      const Segment& segment = segments[i];
-      cost += !counts_time          ? segment.length
-              : IsStraight(segment) ? StraightTime(segment.length, speed)
-                                    : segment.length / speed;
-      if (i > 0 && segments[i - 1].direction != segment.direction) {
-        cost += counts_time ? CuspTime(segments[i - 1], segment, speed) : kCuspPenalty;
+      cost += counts_time ? 0.0 : segments[i].length;
+      if (i > 0 && segments[i - 1].direction != segments[i].direction) {
+        cost += counts_time ? SteeringTime(request_.vehicle, segments[i - 1], segments[i])
+                            : kCuspPenalty;
       }
     }
     if (counts_time) {
+      const LegLimits limits = LimitsOfMotion();
       const bool starts = leg == 0 && request_.start_speed == 0.0;
       const bool ends = leg + 2 == stops_.size();
-      cost += 0.5 * speed *
-              ((starts ? 1.0 / request_.speed.acceleration : 0.0) +
-               (ends ? 1.0 / request_.speed.deceleration : 0.0));
+      cost += LegTime(limits, LegPieces(limits, segments, speed), starts ? 0.0 : speed,
+                      ends ? 0.0 : speed);
     }
     return cost;
   }
@@ -335,7 +329,11 @@ class RoutePlanner {
       for (std::size_t i = 0; i < leg.segments.size(); ++i) {
         const Segment& segment = leg.segments[i];
         if (leg.speed < speed_ && i >= leg.lead && !IsStraight(segment)) {
-          plan.caps.push_back({station, station + segment.length, leg.speed});
+          double from = station;
+          for (const LegPiece& piece : LegPieces(LimitsOfMotion(), {segment}, leg.speed)) {
+            plan.caps.push_back({from, from + piece.length, piece.speed});
+            from += piece.length;
+          }
         }
         station += segment.length;
         segments.push_back(segment);

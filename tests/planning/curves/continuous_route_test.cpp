@@ -85,10 +85,12 @@ void ExpectFollowable(const Planned& planner, const PlanRequest& request, const 
     ASSERT_LE(std::abs(segment.CurvatureAt(segment.length)), most);
     const double rate = kFraction * car.steering_rate * (1.0 + Tolerance(1e-9));
     for (int i = 0; i <= 4; ++i) {
-      const double at = station + segment.length * i / 4.0;
-      // The steering angle is atan(L kappa).
-      ASSERT_LE(plan.reference.speed.SpeedAt(at) * car.wheelbase * std::abs(segment.sharpness),
-                rate)
+      const double along = segment.length * i / 4.0;
+      // The steering angle is atan(L kappa), its derivative by kappa L/(1 + (L kappa)^2).
+      const double bend = car.wheelbase * segment.CurvatureAt(along);
+      ASSERT_LE(plan.reference.speed.SpeedAt(station + along) * car.wheelbase *
+                    std::abs(segment.sharpness),
+                rate * (1.0 + bend * bend))
           << planner.name;
     }
     station += segment.length;
