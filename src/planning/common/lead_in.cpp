@@ -56,10 +56,14 @@ double BrakingLength(const PlanRequest& request, const Pose2& from, double speed
   double before = braking(s);
   while (left > 0.0 && s < kLongest * shortest) {
     const double after = braking(s + feasible_speeds::kCheckSpacing);
-    const double length =
-        std::min(feasible_speeds::kCheckSpacing, left / (2.0 * std::min(before, after)));
-    left -= 2.0 * std::min(before, after) * length;
-    s += length;
+    const double least = std::min(before, after);
+    // The last step ends the loop. If it were subtracted as the others are, rounding would leave
+    // ever smaller rests, in the end one that no step makes smaller.
+    if (const double rest = left / (2.0 * least); rest <= feasible_speeds::kCheckSpacing) {
+      return s + rest;
+    }
+    left -= 2.0 * least * feasible_speeds::kCheckSpacing;
+    s += feasible_speeds::kCheckSpacing;
     before = after;
   }
   return s;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
@@ -48,6 +49,22 @@ TEST(ComputeLeadIn, LeavesRoomToBrakeOnAPatchOfIce) {
   // v^2 for braking on the ice.
   EXPECT_NEAR(ComputeLeadIn(request, 1.0, 0.0).length, 1.0 + (6.0 - 1.0) / (2.0 * ice),
               Tolerance(0.1 * 1.5 / ice));
+}
+
+// A patch elsewhere makes the planner sum up steps. On the dry road, v^2 falls by 2 a s. With the
+// first numbers, rounding of the last step leaves a rest of v^2 that no further step makes smaller.
+TEST(ComputeLeadIn, EndsForAnySpeedAndDeceleration) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> speeds(0.5, 15.0);
+  std::uniform_real_distribution<double> decelerations(0.3, 3.0);
+  for (int i = 0; i < 300; ++i) {
+    PlanRequest request = RollingAt(i == 0 ? 6.2254695611450712 : speeds(random));
+    request.friction_patches = {{{{0.0, 1000.0, 0.0}, 1.0, 1.0}, 0.05}};
+    request.speed.deceleration = i == 0 ? 1.3779420264633053 : decelerations(random);
+    const double length = request.start_speed * request.start_speed / request.speed.deceleration;
+    // At most 3750 steps of 0.1 m, each with a relative rounding error of 1e-16.
+    EXPECT_NEAR(ComputeLeadIn(request, 0.0, 0.0).length, 0.5 * length, Tolerance(1e-11 * length));
+  }
 }
 
 TEST(DeparturePolylines, HaveRoomToStopOnTheirFirstLeg) {
