@@ -11,9 +11,10 @@ namespace trackbed {
 namespace {
 
 /// Fraction of g b/(2 h) to which a step of the steering angle is limited. The body of the car
-/// leans out of the turn, so the inner wheels lift at 0.83 of g b/(2 h) in a steady turn (Prius in
-/// MuJoCo), and the roll angle overshoots after a step, by a factor of 1.25 at a damping ratio of
-/// 0.4. In MuJoCo, the BMW 320i on contact tyres rolls over after steps to 0.75 of g b/(2 h).
+/// leans out of the turn, so the inner wheels lift at less than g b/(2 h) in a steady turn, and the
+/// roll angle overshoots after a step. For steps of the four cars of models/ in MuJoCo, the share
+/// of the steady turn divided by the overshoot is 0.62 (prius) to 0.67 (bmw320i), see
+/// docs/algorithms/control.md. The BMW on contact tyres rolls over after steps to 0.75.
 constexpr double kRollShare = 0.65;
 
 /// Returns the acceleration g b/(2 h) [m/s^2] at which the inner wheels of a rigid car lift.
