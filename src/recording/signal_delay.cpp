@@ -10,7 +10,10 @@
 // residuals for each delay. The slope of a cubic that is fitted to the sums around the chosen delay
 // refines the delay. The cubic extends over the delays that still explain nine tenths of the
 // signal, so noise of neighboring delays averages out. The standard error is that of an extremum
-// estimator with correlated residuals (Newey and West 1987).
+// estimator with correlated residuals (Newey and West 1987). Noise that varies faster than the
+// motion has narrow peaks of correlation at random delays. If the reference explains less than most
+// of the signal, both are smoothed by moving averages of growing width, which do not shift one
+// against the other.
 namespace trackbed {
 namespace {
 
@@ -290,16 +293,27 @@ int WidthOfCubic(const std::vector<Line>& lines, int reach, int best) {
   return width;
 }
 
-}  // namespace
+/// Returns whether the reference explains more of the signal than noise does at the best of all
+/// delays: likelihood ratio test at three standard deviations, for as many delays as are
+/// independent.
+bool IsSignificant(const Scan& scan, int best, const Line& line, int stride) {
+  constexpr double kSignificant = 9.0;
+  const double independent = IndependentSamples(scan, best, line, stride);
+  const double delays = std::max(1.0, 2.0 * scan.reach() * independent / (line.count * stride));
+  return independent * std::log(line.variance / line.residuals) >
+         kSignificant + 2.0 * std::log(delays);
+}
 
-std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
-                                     const std::vector<double>& signal,
-                                     const std::vector<bool>& valid, double period) {
+/// The best delay, and how much of the signal it explains.
+struct Estimate {
+  std::optional<SignalDelay> found{};
+  double explained = 0.0;  // share of the signal's variance
+};
+
+Estimate EstimateDelay(const std::vector<double>& reference, const std::vector<double>& signal,
+                       const std::vector<bool>& valid, double period) {
   const int reach = static_cast<int>(std::ceil(kMaxSignalDelay / period));
   const int count = static_cast<int>(signal.size());
-  if (count < 4 * reach) {
-    return std::nullopt;
-  }
   // The scan and the refinement take at most these numbers of samples, which bounds their cost.
   constexpr int kScanned = 20000;
   constexpr int kRefined = 200000;
@@ -311,14 +325,77 @@ std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
   }
   const int best = BestDelay(scan, lines, stride);
   const Line& line = lines[static_cast<std::size_t>(best + reach)];
-  const bool explained = line.residuals < (1.0 - kLeastExplained) * line.variance;
-  if (!(line.a > 0.0) || !explained || std::abs(best) == reach) {
-    return std::nullopt;
+  Estimate estimate;
+  if (!(line.a > 0.0) || !(line.variance > 0.0)) {
+    return estimate;
+  }
+  estimate.explained = 1.0 - line.residuals / line.variance;
+  if (estimate.explained <= kLeastExplained || std::abs(best) == reach ||
+      !IsSignificant(scan, best, line, stride)) {
+    return estimate;
   }
   const int width = WidthOfCubic(lines, reach, best);
   const int fine = 1 + count / kRefined;
   const Minimum minimum = FindMinimum(scan, best, width, fine);
-  return SignalDelay{minimum.delay * period, StandardError(scan, minimum, width, fine) * period};
+  estimate.found =
+      SignalDelay{minimum.delay * period, StandardError(scan, minimum, width, fine) * period};
+  return estimate;
+}
+
+/// Returns the means of the values within `reach` samples to either side.
+std::vector<double> Smoothed(const std::vector<double>& values, std::size_t reach) {
+  std::vector<double> sums{0.0};
+  for (const double value : values) {
+    sums.push_back(sums.back() + value);
+  }
+  std::vector<double> means;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t from = i < reach ? 0 : i - reach;
+    const std::size_t to = std::min(values.size(), i + reach + 1);
+    means.push_back((sums[to] - sums[from]) / static_cast<double>(to - from));
+  }
+  return means;
+}
+
+/// Returns which samples have only valid ones within `reach` samples to either side.
+std::vector<bool> Inside(const std::vector<bool>& valid, std::size_t reach) {
+  std::vector<double> values;
+  for (const bool own : valid) {
+    values.push_back(own ? 1.0 : 0.0);
+  }
+  std::vector<bool> inside;
+  for (std::size_t i = 0; i < valid.size(); ++i) {
+    inside.push_back(i >= reach && i + reach < valid.size());
+  }
+  const std::vector<double> means = Smoothed(values, reach);
+  for (std::size_t i = 0; i < valid.size(); ++i) {
+    constexpr double kAll = 1.0 - 1e-9;
+    inside[i] = inside[i] && means[i] > kAll;
+  }
+  return inside;
+}
+
+}  // namespace
+
+std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
+                                     const std::vector<double>& signal,
+                                     const std::vector<bool>& valid, double period) {
+  if (static_cast<double>(signal.size()) < 4.0 * std::ceil(kMaxSignalDelay / period)) {
+    return std::nullopt;
+  }
+  // Largest reach of the moving averages. Wider ones would average the motion itself.
+  constexpr double kWidest = 0.5 * kMaxSignalDelay;
+  constexpr double kMost = 0.8;  // share of the signal that needs no more smoothing
+  Estimate estimate = EstimateDelay(reference, signal, valid, period);
+  for (double reach = 0.125 * kWidest; estimate.explained < kMost && reach <= kWidest;
+       reach *= 2.0) {
+    const auto samples = static_cast<std::size_t>(std::lround(reach / period));
+    if (samples > 0) {
+      estimate = EstimateDelay(Smoothed(reference, samples), Smoothed(signal, samples),
+                               Inside(valid, samples), period);
+    }
+  }
+  return estimate.found;
 }
 
 }  // namespace trackbed

@@ -27,9 +27,13 @@ inline constexpr double kMaxSignalDelay = 1.0;
 /// Periodic motion fits at several delays. If the sums of squared residuals of these delays do not
 /// differ significantly (three standard deviations), the smallest absolute delay is returned.
 ///
+/// If the model explains less than 0.8 of the signal's variance, both are smoothed by moving
+/// averages of up to half of kMaxSignalDelay to either side.
+///
 /// All samples have the same distance `period` [s] in time. Returns nullopt if the model explains
-/// less than a tenth of the signal's variance, if the best delay exceeds kMaxSignalDelay, or if
-/// there are fewer than 4 kMaxSignalDelay/period samples. The cost is at most 0.3 s.
+/// less than a tenth of the signal's variance, or not significantly more than at the best delay of
+/// noise, if the best delay exceeds kMaxSignalDelay, or if there are fewer than 4
+/// kMaxSignalDelay/period samples. The cost is at most 1.5 s.
 std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
                                      const std::vector<double>& signal,
                                      const std::vector<bool>& valid, double period);
