@@ -148,8 +148,8 @@ void BindObservation(py::module_& module) {
     observation.def_property_readonly(field.name, field.value, field.doc);
     names.append(field.name);
   }
-  observation.def_property_readonly("status", &StatusOf,
-                                    "How the run ended, such as \"arrived\"; None while it continues.");
+  observation.def_property_readonly(
+      "status", &StatusOf, "How the run ended, such as \"arrived\"; None while it continues.");
   observation.def("asdict", &AsDict, "Returns all fields by their names, with status and ended.");
   observation.def("__repr__", [](const Observation& o) {
     return "<Observation " + py::repr(AsDict(o)).cast<std::string>() + ">";
