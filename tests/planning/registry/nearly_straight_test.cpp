@@ -192,7 +192,8 @@ TEST(NearlyStraightRoutes, AreNotLongerBecauseWaypointsAreClose) {
         waypoints.push_back(at);
       }
     }
-    const PlanRequest request = Route(waypoints, {}, 2.0, 0.0);
+    PlanRequest request = Route(waypoints, {}, 2.0, 0.0);
+    request.max_waypoint_miss = request.vehicle.length;
     for (const NamedPlanner& planner :
          {NamedPlanner{"astar", AStarOptions{}}, NamedPlanner{"rrt", RrtPlannerOptions{}},
           NamedPlanner{"rrt_star", RrtStarPlannerOptions{}}}) {
