@@ -63,6 +63,20 @@ TEST(InputFiles, AreThoseOfThePlanner) {
   }
 }
 
+// Films and reports read the lanes from the run folder, and so does a run of the resolved scenario.
+TEST(InputFiles, ContainTheLanesBesideThePath) {
+  const TempFolder folder;
+  folder.Write("lane.csv", "x_m,y_m\n0,0\n5,0\n10,0.2\n");
+  folder.Write("map.csv", "lane,left_x_m,left_y_m,right_x_m,right_y_m\n0,0,2,0,-2\n0,10,2,10,-2\n");
+  const Scenario scenario = ParseScenario(
+      std::string(kMission) + "plan: {method: path_file, file: lane.csv, lanes: map.csv}\n",
+      "test.yaml", folder.path());
+  EXPECT_THAT(Listed(scenario),
+              ElementsAre(Pair("path.csv", "path lane.csv"), Pair("lanes.csv", "lanes map.csv")));
+  EXPECT_EQ(ResolvedYaml(ReadBack(folder, scenario)), ResolvedYaml(scenario));
+  EXPECT_EQ(InputFiles(ReadBack(folder, scenario))[1].content, InputFiles(scenario)[1].content);
+}
+
 TEST(InputFiles, AreThoseOfTheController) {
   const TempFolder folder;
   folder.Write("steps.csv", "time,steering_rad\n0,0\n1,0.1\n");
@@ -89,9 +103,9 @@ TEST(InputFiles, OfAReplayedRecordAreTheRecordAlone) {
 }
 
 TEST(InputFileNames, AreThoseOfAllMethods) {
-  EXPECT_THAT(InputFileNames(),
-              testing::IsSupersetOf({"record.csv", "track.csv", "map.yaml", "map.pgm",
-                                     "road_network.xodr", "recording.csv", "path.csv"}));
+  EXPECT_THAT(InputFileNames(), testing::IsSupersetOf({"record.csv", "track.csv", "map.yaml",
+                                                       "map.pgm", "road_network.xodr",
+                                                       "recording.csv", "path.csv", "lanes.csv"}));
 }
 
 }  // namespace
