@@ -216,6 +216,9 @@ class Road:
 class Network:
     def __init__(self, path):
         root = ElementTree.parse(path).getroot()
+        for element in root.iter():
+            if isinstance(element.tag, str):
+                element.tag = element.tag.split("}")[-1]  # some programs declare a namespace
         self.unclear = []
         self.roads = {}
         for element in root.iter("road"):
