@@ -60,7 +60,12 @@ struct RowReader {
     if (stopped) {
       return;
     }
-    if (!cells.empty()) {
+    if (!any_row && !cells.empty() && cells.front().starts_with("File created on ")) {
+      Stop(
+          "a VBO file of RaceLogic, whose latitudes and longitudes are in minutes, positive to the "
+          "west; export it from VBOX Test Suite as GPX or KML, or as CSV with degrees");
+    }
+    if (!cells.empty() && !stopped) {
       any_row = true;
       take(cells, line);
     }

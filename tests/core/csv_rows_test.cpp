@@ -90,6 +90,12 @@ TEST(ReadCsvTable, SkipsCommentsWhateverTheyContain) {
               HasSubstr("a comment of more than 65536 characters"));
 }
 
+TEST(ReadCsvTable, RefusesFilesOfRaceLogic) {
+  EXPECT_THAT(TableText("File created on 01/03/2016 @ 14:26\r\n\r\n[header]\r\nsats\r\n"),
+              HasSubstr("t.csv:1: a VBO file of RaceLogic"));
+  EXPECT_THAT(TableText("File created,b\n1,2\n"), HasSubstr("1:File created|b"));
+}
+
 TEST(ReadCsvTable, DropsEmptyCellsAtTheEnd) {
   EXPECT_EQ(TableText("a,b,\n1,2,\n3,4\n5,,\n"), "1:a|b\n2:1|2\n3:3|4\n4:5|\n");
   EXPECT_EQ(TableText("# a,b\n1,2,\n"), "1:a|b\n2:1|2\n");
