@@ -267,6 +267,9 @@ std::vector<Problem> ReadTrackInput(Scenario& scenario, ReaderContext& context,
                                        {.smoothing = track.smoothing, .width = track.width});
         track.data = std::make_shared<const Track>(std::move(read.track));
         track.notes = std::move(read.notes);
+        if (read.chosen_smoothing) {
+          track.smoothing = read.chosen_smoothing;  // for the track of the run folder
+        }
       },
       key, context, add_error);
 }

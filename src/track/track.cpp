@@ -117,7 +117,7 @@ Track::CenterLine Track::Smooth(const std::vector<TrackPoint>& points,
   const std::size_t count = points.size();
   const auto [samples, chords, period] = SampleChords(points);
   CenterLine line;
-  line.smoothing = smoothing.value_or(4.0 * period / static_cast<double>(count));
+  line.smoothing = smoothing.value_or(kDefaultSmoothing * period / static_cast<double>(count));
   const ClosedSplineBasis basis(period, 2 * count);
   const Curve curve(basis, FitClosedSpline(basis, samples, line.smoothing));
   line.start = curve.At(0.0, 0);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "src/track/track_fold.h"
@@ -88,17 +89,134 @@ std::string DescribeFold(const TrackFold& fold, double given) {
                    fold.radius, given, kMaxRadiusFraction);
 }
 
-/// Refuses points at which an edge would have to be narrowed to less than half.
-void CheckFolds(TrackRows& rows, std::optional<double> smoothing) {
-  std::vector<TrackPoint> halved = rows.points;
-  for (TrackPoint& point : halved) {
+/// Points with half their widths: an edge is narrowed to no less than half.
+std::vector<TrackPoint> Halved(std::vector<TrackPoint> points) {
+  for (TrackPoint& point : points) {
     point.width_left *= 0.5;
     point.width_right *= 0.5;
   }
-  if (std::optional<TrackFold> fold = FindFold(halved, smoothing)) {
+  return points;
+}
+
+/// Refuses points at which an edge would have to be narrowed to less than half.
+void CheckFolds(TrackRows& rows, std::optional<double> smoothing) {
+  if (std::optional<TrackFold> fold = FindFold(Halved(rows.points), smoothing)) {
     rows.Add(fold->point, "", DescribeFold(*fold, 2.0 * fold->width));
   }
   rows.problems.ThrowIfAny();
+}
+
+/// Adds points on the straight lines of steps that are longer than four times the median step: with
+/// nothing between their ends, a smooth curve would swing aside there.
+void FillLongSteps(TrackRows& rows) {
+  const std::size_t count = rows.points.size();
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < count; ++i) {
+    steps.push_back((rows.points[(i + 1) % count].position - rows.points[i].position).norm());
+  }
+  std::vector<double> sorted = steps;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  std::vector<TrackPoint> points;
+  std::vector<int> lines;
+  for (std::size_t i = 0; i < count; ++i) {
+    const TrackPoint& from = rows.points[i];
+    const TrackPoint& to = rows.points[(i + 1) % count];
+    const double parts = steps[i] > 4.0 * *middle ? std::ceil(steps[i] / (2.0 * *middle)) : 1.0;
+    if (points.size() + static_cast<std::size_t>(parts) > Track::kMaxPoints) {
+      return;
+    }
+    for (double k = 0.0; k < parts; k += 1.0) {
+      const double w = k / parts;
+      points.push_back({from.position + w * (to.position - from.position),
+                        std::lerp(from.width_right, to.width_right, w),
+                        std::lerp(from.width_left, to.width_left, w)});
+      lines.push_back(rows.lines[i]);
+    }
+  }
+  if (points.size() == count) {
+    return;
+  }
+  rows.notes.push_back(fmt::format(
+      "{} points are added on the straight lines between points that are more than {:.4g} m apart, "
+      "four times the median distance",
+      points.size() - count, 4.0 * *middle));
+  rows.points = std::move(points);
+  rows.lines = std::move(lines);
+}
+
+/// Largest distance by which a default smoothing may move a point, as a fraction of the narrowest
+/// width of the track.
+constexpr double kMaxShift = 0.1;
+
+/// Largest shift of a point of this track by a default smoothing [m].
+double LargestShift(const TrackRows& rows) {
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (const TrackPoint& point : rows.points) {
+    narrowest = std::min(narrowest, point.width_left + point.width_right);
+  }
+  return kMaxShift * narrowest;
+}
+
+/// Returns the track if no edge would have to be narrowed to less than half and no point is moved
+/// by more than LargestShift.
+std::optional<Track> FittingTrack(const TrackRows& rows, std::optional<double> smoothing) {
+  if (FindFold(Halved(rows.points), smoothing)) {
+    return std::nullopt;
+  }
+  Track track(rows.points, smoothing);
+  return track.deviation_max() <= LargestShift(rows) ? std::optional(std::move(track))
+                                                     : std::nullopt;
+}
+
+/// Whether the polyline turns to both sides within eight points before and after a point.
+bool Zigzags(const std::vector<TrackPoint>& points, std::size_t at) {
+  constexpr std::size_t kAround = 8;
+  const std::size_t count = points.size();
+  bool turns_left = false;
+  bool turns_right = false;
+  for (std::size_t i = at + count - std::min(kAround, count); i <= at + count + kAround; ++i) {
+    const Vec2& here = points[i % count].position;
+    const double turn = Cross(here - points[(i + count - 1) % count].position,
+                              points[(i + 1) % count].position - here);
+    turns_left = turns_left || turn > 0.0;
+    turns_right = turns_right || turn < 0.0;
+  }
+  return turns_left && turns_right;
+}
+
+/// Reads points that the default of Track does not fit: fills long steps between them, and takes
+/// the nearest default times a power of 2 that does (FittingTrack). Points on the grid of a
+/// picture, which turn to both sides in turn, take a longer wavelength; points with long straights
+/// between them take a shorter one. Returns nullopt if no wavelength fits.
+std::optional<Track> FitOtherwise(TrackRows& rows) {
+  FillLongSteps(rows);
+  if (std::optional<Track> track = FittingTrack(rows, std::nullopt)) {
+    return track;
+  }
+  double length = 0.0;
+  for (std::size_t i = 0; i < rows.points.size(); ++i) {
+    length += (rows.points[(i + 1) % rows.points.size()].position - rows.points[i].position).norm();
+  }
+  const double usual = kDefaultSmoothing * length / static_cast<double>(rows.points.size());
+  const std::optional<TrackFold> fold = FindFold(Halved(rows.points), std::nullopt);
+  if (fold && !Zigzags(rows.points, fold->point)) {
+    return std::nullopt;  // a bend of the track, and not of its points
+  }
+  constexpr int kMostDoublings = 6;
+  for (int i = 1; i <= kMostDoublings; ++i) {
+    const double smoothing = std::ldexp(usual, fold ? i : -i);
+    if (std::optional<Track> track = FittingTrack(rows, smoothing)) {
+      rows.notes.push_back(fmt::format(
+          "the center line is smoothed over {:.4g} m instead of {:.4g} m, four times the mean "
+          "distance of the points, because {}; mission.track.smoothing sets the length",
+          smoothing, usual,
+          fold ? "an edge would fold over in the bends of the points"
+               : fmt::format("this would move a point by more than {:.3g} m", LargestShift(rows))));
+      return track;
+    }
+  }
+  return std::nullopt;
 }
 
 /// Largest offset of an edge at each surveyed point at which the edge does not fold over [m].
@@ -233,10 +351,30 @@ TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& r
   }
   CheckShape(file.string(), rows.lines, rows.points, rows.problems);
   rows.problems.ThrowIfAny();
-  CheckFolds(rows, reading.smoothing);
-  Track track(rows.points, reading.smoothing);
+  std::optional<Track> fitting;
+  std::optional<double> chosen;
+  if (!reading.smoothing) {
+    fitting = FittingTrack(rows, std::nullopt);
+    if (!fitting) {
+      const std::tuple given(rows.points, rows.lines, rows.notes);
+      fitting = FitOtherwise(rows);
+      if (fitting) {
+        chosen = fitting->smoothing();
+      } else {
+        std::tie(rows.points, rows.lines, rows.notes) = given;
+      }
+    }
+  }
+  if (!fitting) {
+    CheckFolds(rows, reading.smoothing);
+    fitting.emplace(rows.points, reading.smoothing);
+  }
+  Track track = std::move(*fitting);
   if (FindFold(track)) {
-    track = Track(Narrow(track, rows), reading.smoothing);
+    // The narrower track could be read with another smoothing.
+    const double smoothing = track.smoothing();
+    track = Track(Narrow(track, rows), smoothing);
+    chosen = reading.smoothing ? std::nullopt : std::optional(smoothing);
   }
   TRACKBED_CHECK(!FindFold(track), "{}: an edge folds over after it was narrowed", file.string());
   for (std::size_t i = 0; i < track.points().size(); ++i) {
@@ -250,7 +388,7 @@ TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& r
     }
   }
   rows.problems.ThrowIfAny();
-  return {std::move(track), std::move(rows.notes)};
+  return {std::move(track), std::move(rows.notes), chosen};
 }
 
 TrackFilePoints ReadTrackPoints(const std::filesystem::path& file, double log_spacing,

@@ -9,6 +9,9 @@ namespace trackbed {
 /// Largest distance of the inner edge of a bend from the center line, as a fraction of the radius.
 inline constexpr double kMaxRadiusFraction = 0.95;
 
+/// The default wavelength of the smoothing of a center line, in mean distances of its points.
+inline constexpr double kDefaultSmoothing = 4.0;
+
 /// Number of stations from each surveyed point to the next at which FindFold examines a track.
 inline constexpr int kFoldSamples = 4;
 

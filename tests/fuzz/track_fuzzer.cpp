@@ -7,9 +7,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace trackbed;
   const std::filesystem::path file = fuzz::Write("track.csv", fuzz::Text(data, size));
   fuzz::Expect([&] {
-    const Track track = ReadTrack(file);
+    const TrackFile read = ReadTrackFile(file);
+    const Track& track = read.track;
     const std::filesystem::path again = fuzz::Write("again.csv", TrackCsv(track.points()));
-    TRACKBED_CHECK(ReadTrack(again).points() == track.points(), "the track is another one");
+    TRACKBED_CHECK(ReadTrack(again, read.chosen_smoothing).points() == track.points(),
+                   "the track is another one");
     static_cast<void>(track.Locate(track.left_edge().front()));
   });
   return 0;

@@ -3,7 +3,7 @@ import math
 
 import globe
 import tables
-from near import distances
+from near import distances, to_segment
 from result import Result
 
 AHEAD = 0.3  # [m]: with headings, the path is that of a point this far behind the points of the file
@@ -19,6 +19,12 @@ def reach(points, rows):
 def offset(points, rows):
     """Largest distance of the points from the plan."""
     return max(distances(points, [row[:2] for row in rows], reach(points, rows)))
+
+
+def aside(rows, points):
+    """How far the plan of a closed track swings aside of the straight lines between the points."""
+    line = points + points[:1]
+    return max(min(to_segment(row, a, b) for a, b in zip(line, line[1:])) for row in rows[::20])
 
 
 def tangents(points):
@@ -117,6 +123,9 @@ def track(program, file, _, drive):
         result.detail = f"{len(points)} points, {length:.0f} m, {off:.3f} m, smoothed by {stated:.3f} m"
         if off > stated + 0.02 or stated > 0.5 * width:
             result.wrong(f"a point is {off:.3f} m off the plan")
+        swing = aside(rows, points)
+        if swing > width:
+            result.wrong(f"the plan is {swing:.2f} m off the lines between the points")
     return result
 
 

@@ -237,5 +237,103 @@ TEST(ReadTrack, ReadsTracksOfTum) {
   }
 }
 
+TEST(ReadTrack, TakesColumnsWithoutNamesInTheOrderOfTum) {
+  const TempFolder folder;
+  const std::vector<TrackPoint> points = RingPoints(20.0, 24, 4.0, 3.0);
+  const std::string rows = RingFile().substr(kHeader.size());
+  const TrackFile read = ReadTrackFile(folder.Write("t.csv", rows));
+  EXPECT_EQ(read.track.points(), points);
+  EXPECT_THAT(read.notes, testing::Contains(HasSubstr("no column names")));
+  std::string places;
+  for (const TrackPoint& point : points) {
+    places += fmt::format("{} {}\n", point.position.x(), point.position.y());
+  }
+  EXPECT_EQ(ReadTrackFile(folder.Write("p.csv", places), {.width = 6.0}).track.points()[5].position,
+            points[5].position);
+  EXPECT_THAT(ErrorMessages(places), HasSubstr("no column names before the first row of 2 cells"));
+  EXPECT_THAT(ErrorMessages("1,2,3\n4,5,6\n"), HasSubstr("first row of 3 cells"));
+}
+
+/// Returns the distance of a point from a stadium: two half circles of a radius around
+/// (-length / 2, 0) and (length / 2, 0), and two straights.
+double FromStadium(const Vec2& point, double radius, double length) {
+  const double beside = std::max(std::abs(point.x()) - 0.5 * length, 0.0);
+  return std::abs(std::hypot(beside, point.y()) - radius);
+}
+
+/// Points on a stadium at distances `step` in the bends and `straight` on the straights.
+std::vector<TrackPoint> StadiumPoints(double radius, double length, double step, double straight,
+                                      double width) {
+  std::vector<TrackPoint> points;
+  for (const double side : {1.0, -1.0}) {
+    const int bends = static_cast<int>(std::ceil(kPi * radius / step));
+    for (int i = 0; i <= bends; ++i) {
+      const double angle = kPi * (i / static_cast<double>(bends) - 0.5);
+      points.push_back(
+          {side * Vec2(0.5 * length + radius * std::cos(angle), radius * std::sin(angle)), width,
+           width});
+    }
+    const int pieces = static_cast<int>(std::ceil(length / straight));
+    for (int i = 1; i < pieces; ++i) {
+      points.push_back({side * Vec2(0.5 * length - length * i / pieces, radius), width, width});
+    }
+  }
+  return points;
+}
+
+double FarthestFromStadium(const Track& track, double radius, double length) {
+  double farthest = 0.0;
+  for (double s = 0.0; s < track.length(); s += 0.25) {
+    farthest = std::max(farthest, FromStadium(track.At(s).pose.position(), radius, length));
+  }
+  return farthest;
+}
+
+// Some files have points in bends only. Four times the mean distance of these points is longer than
+// a bend, and would move points by more than 1 m; and a smooth curve through them alone swings
+// aside on the straights. The bound is the greatest shift that the reader allows, a tenth of the
+// width of 10 m.
+TEST(ReadTrack, KeepsToLongStraightsWithoutPoints) {
+  for (const double straight : {150.0, 600.0}) {
+    SCOPED_TRACE(straight);
+    const std::vector<TrackPoint> points = StadiumPoints(25.0, 600.0, 6.0, straight, 5.0);
+    const TempFolder folder;
+    const TrackFile read = ReadTrackFile(folder.Write("t.csv", TrackCsv(points)));
+    EXPECT_GT(Track(points).deviation_max(), 1.0);
+    EXPECT_LE(read.track.deviation_max(), 1.0);
+    EXPECT_LT(FarthestFromStadium(read.track, 25.0, 600.0), 1.0);
+    EXPECT_THAT(read.notes, testing::Contains(HasSubstr("points are added on the straight lines")));
+    // A run keeps the track with these points; the same track is read from it.
+    const TrackFile again = ReadTrackFile(folder.Write("a.csv", TrackCsv(read.track.points())),
+                                          {.smoothing = read.chosen_smoothing});
+    EXPECT_EQ(again.track.points(), read.track.points());
+    EXPECT_EQ(again.track.length(), read.track.length());
+  }
+}
+
+// Center lines that are found in pictures of maps have points on the grid of the picture. Their
+// steps of half a cell are off the line by up to 0.71 cells, and so is the reader's line at most
+// by this and the shift that it allows, a tenth of the width of 2 m.
+TEST(ReadTrack, SmoothsPointsOnAGridMore) {
+  constexpr double kCell = 0.05;
+  std::vector<TrackPoint> points;
+  for (const TrackPoint& point : StadiumPoints(3.0, 8.0, kCell, kCell, 1.0)) {
+    const Vec2 cell = (point.position / kCell).array().round() * kCell;
+    if (points.empty() || points.back().position != cell) {
+      points.push_back({cell, 1.0, 1.0});
+    }
+  }
+  if (points.back().position == points.front().position) {
+    points.pop_back();
+  }
+  const TempFolder folder;
+  const std::filesystem::path file = folder.Write("t.csv", TrackCsv(points));
+  EXPECT_THROW(ReadTrack(file, 4.0 * kCell), InputError);
+  const TrackFile read = ReadTrackFile(file);
+  EXPECT_LT(FarthestFromStadium(read.track, 3.0, 8.0), 0.71 * kCell + 0.2);
+  EXPECT_EQ(read.track.points().size(), points.size());
+  EXPECT_THAT(read.notes, testing::Contains(HasSubstr("an edge would fold over")));
+}
+
 }  // namespace
 }  // namespace trackbed

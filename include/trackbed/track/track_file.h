@@ -22,15 +22,26 @@ struct TrackFile {
   /// Differences from the file, with line numbers: narrowed edges, a repeated first point, and the
   /// columns if their names are not those of TUM.
   std::vector<std::string> notes;
+  /// Wavelength with which the same track is read from its own points [m], if the reader has chosen
+  /// one or has narrowed an edge; nullopt: with the same argument.
+  std::optional<double> chosen_smoothing{};
 };
 
 /// Reads a track from a CSV file, such as those of TUM's racetrack database with the header
 ///   # x_m,y_m,w_tr_right_m,w_tr_left_m
 /// The file is read as by ReadCsvTable: cells are separated by commas, semicolons or tabs, the
 /// header may begin with '#', and there may be comments. Columns may have any order and several
-/// usual names, and other columns are ignored. The rows are points in the order of driving, from
-/// the start line on. The track is closed; if the last row repeats the first point, this row is
-/// dropped. If there are no columns of widths, `reading.width` is the width of the track.
+/// usual names, and other columns are ignored. Without names, four columns are x, y, and the widths
+/// to the right and to the left; two columns are x and y. The rows are points in the order of
+/// driving, from the start line on. The track is closed; if the last row repeats the first point,
+/// this row is dropped. If there are no columns of widths, `reading.width` is the width of the
+/// track.
+///
+/// Without `reading.smoothing`, the wavelength of the smoothing is the default of Track, unless an
+/// edge folds over then or a point is moved by more than a tenth of the narrowest width. Such a
+/// file is read otherwise: points are added on straight lines between points that are more than
+/// four times the median distance apart, and the default is multiplied by the power of 2 nearest to
+/// 1 (1/64 to 64) at which neither happens, if one exists.
 ///
 /// Where the inner edge would fold over in a bend (TrackFold), the edge is narrowed to 95 % of the
 /// bend's radius, to no less than half of its width in the file.
