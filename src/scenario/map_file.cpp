@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "src/scenario/yaml_reader.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/spelling.h"
 #include "trackbed/scenario/moving_ai.h"
 
 namespace trackbed {
@@ -57,8 +59,30 @@ std::string ReadMapFile(const fs::path& file) {
   }
 }
 
+/// Removes the keys that other programs add to a map, as map_server ignores them. Keeps those that
+/// may be misspelled, which the reader refuses.
+void RemoveOtherKeys(YAML::Node& root) {
+  static const std::vector<std::string> known{"image",           "resolution",  "origin", "negate",
+                                              "occupied_thresh", "free_thresh", "mode"};
+  std::vector<std::string> others;
+  for (const auto& entry : root) {
+    if (!root.IsMap() || !entry.first.IsScalar()) {
+      return;
+    }
+    const std::string& name = entry.first.Scalar();
+    if (std::find(known.begin(), known.end(), name) == known.end() &&
+        NearestSpelling(name, known).empty()) {
+      others.push_back(name);
+    }
+  }
+  for (const std::string& name : others) {
+    root.remove(name);
+  }
+}
+
 RosMapKeys ReadRosMapKeys(const fs::path& file) {
-  const YAML::Node root = LoadYaml(ReadMapFile(file), file.string(), "a ROS map");
+  YAML::Node root = LoadYaml(ReadMapFile(file), file.string(), "a ROS map");
+  RemoveOtherKeys(root);
   ReaderContext context{.file = file.string(), .overridden = {}, .problems = {}};
   RosMapKeys map;
   YamlReader reader(context, root, "");

@@ -144,6 +144,14 @@ TEST_F(MapFiles, DoNotKnowTransparentPixelsInModeScale) {
   EXPECT_EQ(Drawn(Read(rgba, std::string(kYaml) + "mode: scale\n")), "__#_/_.../_###");
 }
 
+TEST_F(MapFiles, MayHaveKeysOfOtherPrograms) {
+  EXPECT_EQ(Drawn(Read(kRamp, std::string(kYaml) + "starting_positions: [[1, 2], [3, 4]]\n"
+                                                   "map_path: levels/a\n")),
+            Drawn(Read(kRamp)));
+  EXPECT_THAT(ProblemOf(kRamp, std::string(kYaml) + "mod: scale\n"),
+              HasSubstr("unknown key 'mod'; did you mean 'mode'?"));
+}
+
 TEST_F(MapFiles, SayWhatIsWrongInTheYaml) {
   const std::string all =
       ProblemOf(kRamp,
