@@ -6,9 +6,9 @@
 // tyres' grip at u. On straights, the car may drive faster than u.
 //
 // The objective `length` takes the mission's speed, and lower speeds only where all words at a
-// higher speed are blocked. The objective `time` compares several speeds for each leg by an
-// estimate of the driving time, then compares the best combination with the one at the mission's
-// speed by the speed profile of the whole path.
+// higher speed are blocked. The objective `time` compares several speeds for each leg, and pairs of
+// speeds for its first and last turn, by an estimate of the driving time, then compares the best
+// combination with the one at the mission's speed by the speed profile of the whole path.
 //
 // A car that rolls at the start drives its first turns at its present speed, or straightens its
 // wheels first and slows down on a straight.
@@ -42,10 +42,6 @@ constexpr double kSpeedRatio = 0.8;
 constexpr double kFineChoices = 0.2;
 constexpr double kCoarseSpeedRatio = 0.6;
 
-/// Driving time of a path of continuous curvature that is accepted instead of a path with steps, as
-/// a multiple of the time of the latter.
-constexpr double kMostTime = 1.2;
-
 /// A leg between two stops.
 struct Leg {
   std::vector<Segment> segments;
@@ -76,15 +72,6 @@ double SharpestRadius(const std::vector<Segment>& segments, double radius) {
         {sharpest, std::abs(segment.curvature), std::abs(segment.CurvatureAt(segment.length))});
   }
   return sharpest > 0.0 ? 1.0 / sharpest : radius;
-}
-
-/// Returns the time that the wheels need to turn from the end of a segment to the start of the next
-/// one [s].
-double SteeringTime(const VehicleParams& vehicle, const Segment& before, const Segment& after) {
-  const double steering =
-      std::abs(SteeringForCurvature(vehicle, after.curvature) -
-               SteeringForCurvature(vehicle, before.CurvatureAt(before.length)));
-  return steering / vehicle.steering_rate;
 }
 
 bool IsStraight(const Segment& segment) {
@@ -266,18 +253,51 @@ class RoutePlanner {
         if (IsRolling(leg) && !own.empty() && own.front().direction < 0) {
           continue;
         }
-        Leg candidate;
-        candidate.segments = start.lead.segments;
-        candidate.segments.insert(candidate.segments.end(), own.begin(), own.end());
-        candidate.findings.word = CurveWord(word);
-        candidate.findings.length = start.lead.length + word.length;
-        candidate.findings.radius = limits.radius;
-        candidate.speed = start.speed;
+        Leg candidate = LegAlong(word, limits.radius, start.speed);
+        candidate.segments.insert(candidate.segments.begin(), start.lead.segments.begin(),
+                                  start.lead.segments.end());
+        candidate.findings.length += start.lead.length;
         candidate.lead = start.lead.segments.size();
         candidate.cost = LeadCost(start) + CostOf(own, start.speed, leg);
         found.push_back(std::move(candidate));
       }
     }
+    return CheapestFree(std::move(found), leg);
+  }
+
+  /// Returns the cheapest free leg of two forward turns, each at a speed of its own; a turn behind
+  /// a start at rest, for example, may be sharper than the rest of the leg.
+  [[nodiscard]] Leg LegOfTwoSpeeds(std::size_t leg, double from, double to) {
+    std::vector<Leg> found;
+    const std::vector<double> speeds = Speeds();
+    for (const double first : speeds) {
+      for (const double last : speeds) {
+        const CurveLimits limits = LimitsAt(std::max(first, last), 0.0);
+        if (first == last || std::max(std::abs(from), std::abs(to)) * limits.radius > 1.0) {
+          continue;
+        }
+        const ShortestCurve word =
+            TwoTurns(limits.radius, LimitsAt(first, 0.0).sharpness, LimitsAt(last, 0.0).sharpness,
+                     {stops_[leg], from}, {stops_[leg + 1], to});
+        if (word.length < kNoCurve) {
+          found.push_back(LegAlong(word, limits.radius, std::min(first, last)));
+          found.back().cost = CostOf(found.back().segments, found.back().speed, leg);
+        }
+      }
+    }
+    return CheapestFree(std::move(found), leg);
+  }
+
+  [[nodiscard]] static Leg LegAlong(const ShortestCurve& word, double radius, double speed) {
+    Leg leg{.segments = ToSegments(word), .speed = speed};
+    leg.findings.word = CurveWord(word);
+    leg.findings.length = word.length;
+    leg.findings.radius = radius;
+    return leg;
+  }
+
+  /// Returns the cheapest leg that is free of obstacles; its cost is infinite if there is none.
+  [[nodiscard]] Leg CheapestFree(std::vector<Leg> found, std::size_t leg) {
     tried_ = std::max(tried_, found.size());
     std::stable_sort(found.begin(), found.end(),
                      [](const Leg& a, const Leg& b) { return a.cost < b.cost; });
@@ -300,17 +320,23 @@ class RoutePlanner {
       const std::vector<double> from = CurvaturesAt(leg);
       const std::vector<double> to = CurvaturesAt(leg + 1);
       std::vector<Legs> next(to.size());
+      const auto consider = [&](std::size_t i, std::size_t j, const auto& make) {
+        if (best[i].cost >= next[j].cost) {
+          return;
+        }
+        Leg own = make();
+        if (best[i].cost + own.cost < next[j].cost) {
+          next[j] = {best[i].legs, best[i].cost + own.cost};
+          next[j].legs.push_back(std::move(own));
+        }
+      };
       for (std::size_t j = 0; j < to.size(); ++j) {
         for (std::size_t i = 0; i < from.size(); ++i) {
           for (const double speed : speeds) {
-            if (best[i].cost >= next[j].cost) {
-              continue;
-            }
-            Leg own = LegAt(speed, leg, from[i], to[j]);
-            if (best[i].cost + own.cost < next[j].cost) {
-              next[j] = {best[i].legs, best[i].cost + own.cost};
-              next[j].legs.push_back(std::move(own));
-            }
+            consider(i, j, [&] { return LegAt(speed, leg, from[i], to[j]); });
+          }
+          if (speeds.size() > 1 && !IsRolling(leg)) {
+            consider(i, j, [&] { return LegOfTwoSpeeds(leg, from[i], to[j]); });
           }
         }
       }
@@ -394,51 +420,6 @@ void VisitClothoids(KeyVisitor& keys, double& max_lateral_acceleration,
 
 Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request) {
   return RoutePlanner(route, request).Make();
-}
-
-double DrivingTime(const Plan& plan, const VehicleParams& vehicle) {
-  const Path& path = plan.reference.path;
-  const std::vector<Segment>& segments = path.segments();
-  const auto stops = [&](double station) {
-    constexpr double kSameStation = 1e-6;  // [m]
-    return std::any_of(plan.stops.begin(), plan.stops.end(),
-                       [&](double stop) { return std::abs(stop - station) < kSameStation; });
-  };
-  double time = plan.Duration();
-  double station = 0.0;
-  for (std::size_t i = 1; i < segments.size(); ++i) {
-    const Segment& before = segments[i - 1];
-    station += before.length;
-    if (before.direction != segments[i].direction || stops(station)) {
-      time += SteeringTime(vehicle, before, segments[i]);
-    }
-  }
-  return time;
-}
-
-Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request) {
-  // A plan that keeps the limits only if the request allows to exceed them does not fit.
-  PlanRequest strict = request;
-  strict.infeasible = InfeasiblePolicy::kSlowDown;
-  const FeasiblePlan smooth = MakeFeasible(continuous, strict);
-  const FeasiblePlan stepping = MakeFeasible(steps, strict);
-  if (smooth.ok() && !stepping.ok()) {
-    return continuous;
-  }
-  std::string why = smooth->reason;
-  if (smooth.ok()) {
-    const double time = DrivingTime(smooth, request.vehicle);
-    const double with_steps = DrivingTime(stepping, request.vehicle);
-    if (time <= kMostTime * with_steps) {
-      return continuous;
-    }
-    why = fmt::format("it takes {:.3g} s instead of {:.3g} s", time, with_steps);
-  }
-  if (steps.ok()) {
-    steps.notes.push_back(
-        fmt::format("the curvature steps, because no path of continuous curvature fits: {}", why));
-  }
-  return steps;
 }
 
 }  // namespace trackbed

@@ -22,14 +22,6 @@ struct ContinuousRoute {
 /// of a few choices for which the whole route is cheapest.
 Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request);
 
-/// Returns the driving time of a plan, with the time in which the wheels turn at rest [s].
-double DrivingTime(const Plan& plan, const VehicleParams& vehicle);
-
-/// Returns the plan `continuous` unless the car cannot drive it, or drives the plan `steps` in much
-/// less time, as on short legs where the car can only turn its wheels at rest. A plan with steps
-/// gets a note that says why. If the car can drive neither of the plans, returns `steps`.
-Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request);
-
 /// Returns the largest lateral acceleration on a path of continuous curvature [m/s^2]: `most`, or a
 /// share of the tyres' grip on a road with the factor `friction`, if that is less.
 double LateralAccelerationOnClothoids(const VehicleParams& vehicle, double friction, double most);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/planning/curves/continuous_or_steps.h"
 #include "src/planning/curves/continuous_route.h"
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/route.h"

@@ -4,6 +4,7 @@
 
 #include "trackbed/path/path.h"
 #include "trackbed/path/reference.h"
+#include "trackbed/vehicle/params.h"
 
 /// Speeds along the turns of a leg of continuous curvature.
 ///
@@ -25,6 +26,10 @@ struct LegPiece {
   double speed = 0.0;   // largest speed [m/s], at most LegLimits::speed
   bool stops = false;   // the car changes its direction of motion before the piece
 };
+
+/// Returns the time that the wheels need to turn from the end of a segment to the start of the next
+/// one [s].
+double SteeringTime(const VehicleParams& vehicle, const Segment& before, const Segment& after);
 
 /// Splits segments into pieces, clothoids into eight of equal length. The speed of a piece is the
 /// largest that keeps the limits at its ends, but at least `least`.

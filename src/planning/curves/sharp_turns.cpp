@@ -48,7 +48,7 @@ class SharpEnd {
  public:
   /// Makes the first turn (`order` +1) or the last turn (`order` -1).
   SharpEnd(const TurnCircle& circle, const CurveState& state, int order)
-      : state_(state.curvature), order_(order) {
+      : circle_(circle), state_(state.curvature), order_(order) {
     const double turned = 0.5 * state_ * state_ / circle.sharpness;
     neutral_ = state.pose.yaw + order * std::copysign(turned, state_);
     for (const int side : {-1, 1}) {
@@ -100,27 +100,29 @@ class SharpEnd {
   }
   /// Returns the turn between curvature 0 and the heading alpha; `half` is the direction of
   /// alpha/2.
-  [[nodiscard]] ZeroTurn Turn(const TurnCircle& circle, const Side& side, double alpha,
-                              const Vec2& half) const {
-    return TurnByAngle(circle, Deflection(side, alpha), half.dot(side.half),
+  [[nodiscard]] ZeroTurn Turn(const Side& side, double alpha, const Vec2& half) const {
+    return TurnByAngle(circle_, Deflection(side, alpha), half.dot(side.half),
                        order_ * side.side * Cross(side.half, half));
   }
   /// Heading alpha of a turn that only straightens the wheels.
   [[nodiscard]] double neutral() const { return neutral_; }
 
-  [[nodiscard]] CurvePiece Piece(const TurnCircle& circle, const Side& side, double alpha) const {
+  [[nodiscard]] CurvePiece Piece(const Side& side, double alpha) const {
     const double a = Deflection(side, alpha);
-    const bool is_small = a < 2.0 * circle.least;
-    const double peak = is_small ? std::sqrt(a * circle.sharpness) : 1.0;
+    const bool is_small = a < 2.0 * circle_.least;
+    const double peak = is_small ? std::sqrt(a * circle_.sharpness) : 1.0;
     return {.bend = side.side < 0 ? Bend::kRight : Bend::kLeft,
-            .sweep = is_small ? 0.0 : a - 2.0 * circle.least,
+            .sweep = is_small ? 0.0 : a - 2.0 * circle_.least,
             .ramps = {.first = order_ > 0 ? state_ : 0.0,
                       .peak = side.side * std::min(peak, 1.0),
                       .last = order_ > 0 ? 0.0 : state_,
-                      .sharpness = circle.sharpness}};
+                      .sharpness = circle_.sharpness}};
   }
 
+  [[nodiscard]] const TurnCircle& circle() const { return circle_; }
+
  private:
+  TurnCircle circle_;
   double state_;
   int order_;
   double neutral_ = 0.0;
@@ -130,10 +132,8 @@ class SharpEnd {
 /// The words in an interval of alpha in which no turn changes its side, as functions of alpha.
 class SharpWords {
  public:
-  SharpWords(const TurnCircle& circle, const SharpEnd& first, const SharpEnd& last, double from,
-             double to)
-      : circle_(circle),
-        first_(first),
+  SharpWords(const SharpEnd& first, const SharpEnd& last, double from, double to)
+      : first_(first),
         last_(last),
         first_side_(first.SideFor(0.5 * (from + to))),
         last_side_(last.SideFor(0.5 * (from + to))),
@@ -163,8 +163,8 @@ class SharpWords {
 
   /// As above, with the direction of alpha/2.
   [[nodiscard]] Word At(double alpha, const Vec2& half) const {
-    const ZeroTurn before = first_.Turn(circle_, first_side_, alpha, half);
-    const ZeroTurn after = last_.Turn(circle_, last_side_, alpha, half);
+    const ZeroTurn before = first_.Turn(first_side_, alpha, half);
+    const ZeroTurn after = last_.Turn(last_side_, alpha, half);
     const Vec2 ahead = DoubleAngle(half);
     Word word{.alpha = alpha,
               .half = half,
@@ -205,7 +205,10 @@ class SharpWords {
   /// Returns an upper bound of the change of the length per angle: the distance, and the lengths of
   /// both turns beyond their extent along alpha.
   [[nodiscard]] double MostLengthPerAngle() const {
-    return distance_ + 2.0 * (1.0 + std::hypot(circle_.across, circle_.along));
+    const auto radius = [](const TurnCircle& circle) {
+      return std::hypot(circle.across, circle.along);
+    };
+    return distance_ + 2.0 + radius(first_.circle()) + radius(last_.circle());
   }
 
   /// Returns the magnitude of f that is rounding.
@@ -215,14 +218,13 @@ class SharpWords {
 
   [[nodiscard]] ShortestCurve Curve(const Word& word) const {
     ShortestCurve curve{.count = 3, .length = word.length};
-    curve.pieces[0] = first_.Piece(circle_, first_side_, word.alpha);
+    curve.pieces[0] = first_.Piece(first_side_, word.alpha);
     curve.pieces[1] = {.bend = Bend::kNone, .sweep = std::max(word.straight, 0.0)};
-    curve.pieces[2] = last_.Piece(circle_, last_side_, word.alpha);
+    curve.pieces[2] = last_.Piece(last_side_, word.alpha);
     return curve;
   }
 
  private:
-  const TurnCircle& circle_;
   const SharpEnd& first_;
   const SharpEnd& last_;
   const SharpEnd::Side& first_side_;
@@ -361,10 +363,15 @@ class AlphaSearch {
 
 ShortestCurve SharpWord(const TurnCircle& circle, double start, const CurveState& goal,
                         double limit) {
+  return SharpWord(circle, circle, start, goal, limit);
+}
+
+ShortestCurve SharpWord(const TurnCircle& at_start, const TurnCircle& at_goal, double start,
+                        const CurveState& goal, double limit) {
   ShortestCurve best{.length = kNoCurve};
-  const SharpEnd first(circle, {{}, start}, 1);
+  const SharpEnd first(at_start, {{}, start}, 1);
   const Pose2 wrapped{goal.pose.x, goal.pose.y, WrapAngle(goal.pose.yaw)};
-  const SharpEnd unwound(circle, {wrapped, goal.curvature}, -1);
+  const SharpEnd unwound(at_goal, {wrapped, goal.curvature}, -1);
   for (const int circles : {0, 1, -1}) {
     // Neither turn makes a loop between the first and the last of these values of alpha. At those
     // between, a turn changes its side.
@@ -380,7 +387,7 @@ ShortestCurve SharpWord(const TurnCircle& circle, double start, const CurveState
       const double from = std::clamp(knots[i], knots[0], knots[3]);
       const double to = std::clamp(knots[i + 1], knots[0], knots[3]);
       if (from < to) {
-        const SharpWords words(circle, first, last, from, to);
+        const SharpWords words(first, last, from, to);
         AlphaSearch search(words, limit);
         search.Search(from, to);
         if (search.best()) {
@@ -391,6 +398,19 @@ ShortestCurve SharpWord(const TurnCircle& circle, double start, const CurveState
     }
   }
   return best;
+}
+
+ShortestCurve TwoTurns(double radius, double first_sharpness, double last_sharpness,
+                       const CurveState& from, const CurveState& to) {
+  const Vec2 local = ToLocal(from.pose, to.pose.position()) / radius;
+  const double square = radius * radius;
+  ShortestCurve curve = SharpWord(
+      MakeTurnCircle(first_sharpness * square), MakeTurnCircle(last_sharpness * square),
+      from.curvature * radius,
+      {{local.x(), local.y(), to.pose.yaw - from.pose.yaw}, to.curvature * radius}, kNoCurve);
+  curve.radius = radius;
+  curve.length *= radius;
+  return curve;
 }
 
 }  // namespace trackbed

@@ -20,4 +20,14 @@ namespace trackbed {
 ShortestCurve SharpWord(const TurnCircle& circle, double start, const CurveState& goal,
                         double limit);
 
+/// As above, with one circle for the first turn and another for the last turn.
+ShortestCurve SharpWord(const TurnCircle& at_start, const TurnCircle& at_goal, double start,
+                        const CurveState& goal, double limit);
+
+/// Returns the shortest forward curve of two turns and a straight between two states [m] whose
+/// turns have the radius `radius` [m], and a sharpness of their own [1/m^2]. Its length is infinite
+/// if there is no such curve.
+ShortestCurve TwoTurns(double radius, double first_sharpness, double last_sharpness,
+                       const CurveState& from, const CurveState& to);
+
 }  // namespace trackbed

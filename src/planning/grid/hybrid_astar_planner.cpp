@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "src/planning/curves/continuous_or_steps.h"
 #include "src/planning/curves/continuous_route.h"
 #include "src/planning/grid/clothoid_costs.h"
 #include "trackbed/planning/common/curvature_steps.h"

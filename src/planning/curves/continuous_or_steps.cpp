@@ -1,0 +1,67 @@
+#include "src/planning/curves/continuous_or_steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "src/planning/curves/leg_speeds.h"
+#include "trackbed/planning/common/feasibility.h"
+
+namespace trackbed {
+namespace {
+
+/// Driving time of a path of continuous curvature that is accepted instead of a path with steps, as
+/// a multiple of the time of the latter.
+constexpr double kMostTime = 1.2;
+
+}  // namespace
+
+double DrivingTime(const Plan& plan, const VehicleParams& vehicle) {
+  const Path& path = plan.reference.path;
+  const std::vector<Segment>& segments = path.segments();
+  const auto stops = [&](double station) {
+    constexpr double kSameStation = 1e-6;  // [m]
+    return std::any_of(plan.stops.begin(), plan.stops.end(),
+                       [&](double stop) { return std::abs(stop - station) < kSameStation; });
+  };
+  double time = plan.Duration();
+  double station = 0.0;
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    const Segment& before = segments[i - 1];
+    station += before.length;
+    if (before.direction != segments[i].direction || stops(station)) {
+      time += SteeringTime(vehicle, before, segments[i]);
+    }
+  }
+  return time;
+}
+
+Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request) {
+  // A plan that keeps the limits only if the request allows to exceed them does not fit.
+  PlanRequest strict = request;
+  strict.infeasible = InfeasiblePolicy::kSlowDown;
+  const FeasiblePlan smooth = MakeFeasible(continuous, strict);
+  const FeasiblePlan stepping = MakeFeasible(steps, strict);
+  if (smooth.ok() && !stepping.ok()) {
+    return continuous;
+  }
+  std::string why = smooth->reason;
+  if (smooth.ok()) {
+    const double time = DrivingTime(smooth, request.vehicle);
+    const double with_steps = DrivingTime(stepping, request.vehicle);
+    if (time <= kMostTime * with_steps) {
+      return continuous;
+    }
+    why = fmt::format("it takes {:.3g} s instead of {:.3g} s", time, with_steps);
+  }
+  if (steps.ok()) {
+    steps.notes.push_back(
+        fmt::format("the curvature steps, because no path of continuous curvature fits: {}", why));
+  }
+  return steps;
+}
+
+}  // namespace trackbed
