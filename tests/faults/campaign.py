@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
-"""Kills the program, lets its calls on files fail, and takes away what it stands on.
+"""Kills the program, makes its calls on files fail, and removes files and devices that it needs.
 
   campaign.py PROGRAM SHIM [--kills N] [--each-kill] [--errors NAME,...] [--share P] [--seed S]
               [--only PART,...] [--cases NAME,...]
 
-For every verb that writes (see Cases) a folder is made with an earlier result, the fault happens
-while the verb writes another one, and then must hold:
+For every verb that writes (see Cases), the campaign makes a folder with an earlier result. The fault
+happens while the verb writes a new result. Afterwards:
 
-  * what is there is the earlier result or the new one, whole, never files of both; a result that is
-    not there entirely says so (manifest.json, .trackbed.complete);
-  * after a failed call the exit code is 2 with one line on stderr, besides those that the verb
-    prints without a fault, or 0 with the new result, and there are no temporaries;
+  * the folder contains the complete earlier result or the complete new one, never files of both; an
+    incomplete result is marked as incomplete (manifest.json, .trackbed.complete);
+  * if a call failed, either the exit code is 2 with one line on stderr, besides those that the verb
+    prints without a fault, or it is 0 and the new result is complete; no temporary files are left;
   * the same verb without a fault then succeeds, with the new result and nothing else.
 
-Prints a table of faults, how many there were and how many were losses; ends with 1 if any was.
+Prints a table with the numbers of faults and of losses; ends with 1 if there was a loss.
 """
 import argparse
 import errno
@@ -35,14 +35,14 @@ import xml.etree.ElementTree as xml
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SHORT = ["--set", "drive.time_limit=0.1", "expect={}"]
-# Files whose bytes differ between repetitions: times, and rows in the order in which they were
-# done.
+# Files whose bytes differ between repetitions: durations, and rows in the order in which they
+# finished.
 CHANGING = {"timing.json", "sweep.records"}
 ADDITIONS = {"report.html", "video.mp4", "picture.png", "timing.json", "manifest.json"}
 
 
 class Case:
-    """A verb that writes to `out`, from a folder in which it stands as `old` left it."""
+    """A verb that writes to `out`, which contains the result of the verb `old`."""
 
     def __init__(self, name, args, out, old=None, before=(), check=None):
         self.name = name
@@ -60,7 +60,7 @@ def digest(path):
 
 
 def contents(folder):
-    """Names (from the folder) and hashes of all files but CHANGING."""
+    """Paths, relative to the folder, and hashes of all files except CHANGING."""
     found = {}
     for at, _, names in os.walk(folder):
         for name in names:
@@ -88,13 +88,13 @@ def visible(files):
 
 
 def same_bytes(folder, now, old, new):
-    """Each file is the earlier one or the new one."""
+    """Each file has the contents of the earlier or of the new result."""
     return [f"{name} is neither the earlier nor the new one" for name, what in visible(now).items()
             if what not in (old.get(name), new.get(name))]
 
 
 def one_film(folder, now, old, new):
-    """All frames are of one film, numbered from 0."""
+    """All frames belong to one film, and their numbers start at 0."""
     now = visible(now)
     if sorted(now) != [f"f_{i:05}.png" for i in range(len(now))]:
         return ["frames are missing"]
@@ -104,7 +104,7 @@ def one_film(folder, now, old, new):
 
 
 def one_result(folder, now, old, new):
-    """Whole results, all of the earlier state or all of the new one."""
+    """The folder contains only files of the earlier state or only files of the new state."""
     wrong = same_bytes(folder, {k: v for k, v in now.items() if k != "manifest.json"}, old, new)
     if any(".trackbed.complete" in name for name in now):
         return wrong  # the folder itself says that it is between two results
@@ -132,7 +132,7 @@ def one_result(folder, now, old, new):
 
 
 def whole_or_refused(program):
-    """The earlier result or the new one, or files of both that `report` refuses."""
+    """The result is the earlier or the new one, or a mixture that `report` refuses."""
     def check(folder, now, old, new):
         now = {name: what for name, what in now.items() if not is_temporary(name)
                or ".trackbed.complete" in name}
@@ -149,7 +149,7 @@ def whole_or_refused(program):
 
 
 def one_study(folder, now, old, new):
-    """The table as one_result; the runs of rows are whole, or their manifest tells what is missing."""
+    """Checks the table like one_result; each row's run is complete, or its manifest lists the missing files."""
     top = {name: what for name, what in now.items() if not name.startswith("rows/")}
     wrong = one_result(folder, top, old, new)
     rows = {name: what for name, what in now.items() if name.startswith("rows/")}
@@ -305,7 +305,7 @@ class Campaign:
                 file.write(text)
 
     def prepare(self, case):
-        """Makes the states of a case once: as it stands before, and after."""
+        """Makes the state before the verb runs and the state after it, once for each case."""
         self.fresh("work")
         os.makedirs(f"{self.work}/{case.out}")
         if case.name == "docs":
@@ -360,7 +360,7 @@ class Campaign:
         return now, wrong
 
     def check_next(self, case):
-        """The next start succeeds and leaves the new result alone."""
+        """The next start succeeds, and the folder then contains nothing but the new result."""
         code, error = self.run(case.args)
         now = contents(f"{self.work}/{case.out}")
         wrong = [] if code in case.codes else [f"the next start ends with {code}: {error.strip()}"]
@@ -489,7 +489,7 @@ class Campaign:
             self.count("closed stdin, stdout, stderr, all three", 1, self.judge(case, what, wrong))
 
     def closed_terminal(self, case, count):
-        """The terminal goes while the program runs: SIGHUP, and nothing can be printed any more."""
+        """The terminal closes while the program runs: the program gets SIGHUP and can no longer print."""
         lost = 0
         loud = [arg for arg in case.args if arg != "-q"]
         for _ in range(count):
@@ -509,7 +509,7 @@ class Campaign:
         self.count("closed terminal", count, lost)
 
     def two_processes(self, case):
-        """While one is at work (stopped in the middle), another is refused or does no harm."""
+        """While one process is stopped in the middle of its work, a second one is refused or does no harm."""
         self.restore(case)
         folder = f"{self.work}/{case.out}"
         middle = len(self.calls) // 2 + 1
@@ -551,8 +551,8 @@ class Campaign:
             return True
 
     def vanished_folder(self, case):
-        """The output folder is removed in the middle: the result is there nevertheless, or one line
-        says that it is not."""
+        """The output folder is removed while the program runs: the result is written nevertheless, or
+        one line says that it is not."""
         lost = 0
         moments = self.chosen(range(1, len(self.calls) + 1))[:12]
         for at in moments:
@@ -574,7 +574,7 @@ class Campaign:
         self.count("output folder vanishes", len(moments), lost)
 
     def read_only(self, case):
-        """A read-only file system, which also stops root; in a namespace of our own."""
+        """A read-only file system, in a private namespace. It prevents even root from writing."""
         self.restore(case)
         out = f"{self.work}/{case.out}"
         script = f"mount --bind '{out}' '{out}' && mount -o remount,bind,ro '{out}' || exit 99; exec \"$@\""
@@ -593,8 +593,8 @@ class Campaign:
         self.count("read-only folder", 1, self.judge(case, "read-only folder", wrong))
 
     def full_disk(self, case):
-        """A tmpfs of growing size (in pages) up to enough: every size up to 64 pages, then steps of
-        a 32nd, because an FMU has thousands."""
+        """A tmpfs of growing size in pages, up to the first size that suffices: every size up to 64
+        pages, then steps of a 32nd, because an FMU has thousands of pages."""
         lost = 0
         sizes = 0
         code = 2
@@ -646,7 +646,7 @@ class Campaign:
         self.rows.append([fault, injected, int(lost)])
 
     def make_locale(self):
-        """de_DE.UTF-8, which writes 0,5; none if it cannot be made here."""
+        """Returns the locale de_DE.UTF-8, which writes 0,5, or None if this machine cannot make it."""
         folder = os.path.join(self.root, "locale")
         os.mkdir(folder)
         made = shutil.which("localedef") and subprocess.run(

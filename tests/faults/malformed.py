@@ -3,13 +3,14 @@
 
   malformed.py PROGRAM [--seed S] [--share P] [--only FILE,...] [--part I/N]
 
-Small runs of all verbs leave their results. For each key of each of their JSON files the key is
-removed, or its value becomes one of another type or far out of its range; so does the whole file.
-Then every verb that reads the file reads it. Each must succeed, or tell what is wrong (exit code 2
-or 3): never exit code 1, "internal error", a message of a library, a signal or more than 20 s.
+Every verb makes a small result. In each JSON file of the results, each key is removed, or its value
+is replaced by a value of another type or far out of range; the whole file is replaced in the same
+way. Then all verbs that read the file run on it. Each must succeed, or explain the problem and end
+with the exit code 2 or 3. It must not end with 1, "internal error", a message of a library or a
+signal, nor take more than 20 s.
 
---share: the share of the changes that is tried, chosen at random. Prints a table of the files, the
-numbers of changes and of faults; ends with 1 if there was a fault.
+--share: the share of the changes that are tried, chosen at random. Prints a table with the numbers of
+changes and faults of each file; ends with 1 if there was a fault.
 """
 import argparse
 import collections
@@ -65,7 +66,7 @@ def changed(root, path, value):
 
 
 class Results:
-    """The results that are changed, in folders of a temporary one."""
+    """The results that are changed, in subfolders of a temporary folder."""
 
     def __init__(self, program):
         self.program = program
@@ -150,7 +151,7 @@ READERS = {
 
 
 def documents(text, name):
-    """The JSON values of a file, each with what makes a file of it again."""
+    """The JSON values of a file, each with the function that converts them back to the file's text."""
     if not name.endswith(".records"):
         yield "", json.loads(text), lambda new: new
         return
@@ -164,7 +165,7 @@ def documents(text, name):
 
 
 def changes(text, name):
-    """What is changed, and the new text of the file."""
+    """The name of the change, and the new text of the file."""
     for where, root, make in documents(text, name):
         for path in places(root):
             for value in VALUES:
@@ -185,7 +186,7 @@ def changes(text, name):
 
 
 def restore(root, pristine, folder):
-    """The folder as it was, and nothing that was not there."""
+    """Restores the files of the folder, and removes all other files."""
     shutil.rmtree(f"{root}/{folder}")
     shutil.copytree(f"{pristine}/{folder}", f"{root}/{folder}")
     for other in set(os.listdir(root)) - set(os.listdir(pristine)):

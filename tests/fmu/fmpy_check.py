@@ -26,7 +26,7 @@ except ImportError:
 
 
 def own_run(program, scenario, plant, folder, overrides):
-    # The run may miss the expectations of the scenario, since it ends early (3).
+    # The run ends early, so it may fail the expectations of the scenario (exit code 3).
     code = subprocess.run([program, "run", "-q", scenario, "--plant", plant, "-o", folder, "--set",
                            *overrides, "expect={}"], check=False).returncode
     assert code in (0, 3), code
@@ -56,18 +56,18 @@ def main(program, scenario, plant, fmi):
         description = fmpy.read_model_description(fmu)
         period = float(description.defaultExperiment.stepSize)
         log = own_run(program, scenario, plant, folder / "run", overrides)
-        # A step states the command before it, which the log has one row earlier.
+        # The FMU outputs the command of the previous step, so this column lags the log by one row.
         states = [name for name in log if name != "steering_command_rad"]
         options = dict(output_interval=period, step_size=period, stop_time=5.0, output=states)
         driven = fmpy.simulate_fmu(fmu, start_values={"controller_steers": True}, **options)
         rows = same(log, driven, states, "driven by the controller")
-        # The commands of the log as inputs, which hold over each period.
+        # The inputs are the commands of the log, each constant over its period.
         commands = np.array(list(zip(log["t_s"], log["steering_command_rad"])),
                             dtype=[("time", float), ("commanded_steering_rad", float)])
         steered = fmpy.simulate_fmu(fmu, start_values={"plan_sets_speed": True}, input=commands,
                                     **options)
         same(log, steered, states, "steered by the commands of the log")
-        # A parameter is an override.
+        # A parameter of the FMU has the effect of an override of the scenario.
         slower = own_run(program, scenario, plant, folder / "slow",
                          [*overrides, "mission.speed=1.5"])
         slow = fmpy.simulate_fmu(fmu, start_values={"controller_steers": True,

@@ -1,4 +1,4 @@
-"""What the tests of pages share: the program, its results as inputs, a browser.
+"""Shared by the tests of pages: calls of the program, its results as inputs, and a browser.
 
 A test file is started as FILE PROGRAM PICTURES [inputs | I/N] [unittest's options]. `inputs` makes the results that the
 tests of this file open and keeps them beside the pictures; I/N runs the Ith of N parts of the tests on a copy of them.
@@ -83,7 +83,7 @@ class PartLoader(unittest.TestLoader):
 
 
 def run_tests(test_class):
-    """Does what the command line asks for."""
+    """Makes the inputs or runs the tests, as the command line requests."""
     if WHAT == "inputs":
         shutil.rmtree(INPUTS, ignore_errors=True)
         INPUTS.mkdir(parents=True)

@@ -53,7 +53,7 @@ def rotated(quaternion, point):
 
 
 def corners_of(geom, meshes):
-    """Points whose convex hull contains a geom."""
+    """Returns points whose convex hull contains the geom."""
     a, b, c = geom["size"]
     kind = geom["type"]
     if kind == "mesh":
@@ -64,7 +64,7 @@ def corners_of(geom, meshes):
 
 
 def car_points(vehicle):
-    """Such points of a whole vehicle with its joints at zero, in the frame of its first body."""
+    """Returns the points of all geoms of a vehicle with its joints at zero, in the frame of its first body."""
     places = []
     for i, body in enumerate(vehicle["bodies"]):
         chain = []

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Runs a study on a Slurm of its own: munged, slurmctld and two slurmd in a temporary folder.
+"""Runs a study on a private Slurm: munged, slurmctld and two slurmd in a temporary folder.
 
   slurm_test.py PROGRAM
 
-A study is submitted as an array of three tasks on two nodes, which are processes of this machine; one
-of the tasks is killed and requeued while it runs, and goes on; the merged files must have the bytes of
-a study that ran in one process. Needs slurm-wlm and munge; ends with 77 (skipped) without them.
+The test submits a study as an array of three tasks on two nodes, which are processes of this machine.
+One task is killed and requeued while it runs, and then continues. The merged files must be equal, byte
+for byte, to those of a study that ran in one process. Needs slurm-wlm and munge; ends with 77
+(skipped) without them.
 """
 import getpass
 import json
@@ -121,13 +122,13 @@ PartitionName=main Nodes={",".join(NODES)} Default=YES MaxTime=INFINITE State=UP
                 process.kill()
 
     def state(self, job):
-        """Of all tasks of a job, such as {'COMPLETED'}."""
+        """Returns the states of all tasks of a job, such as {'COMPLETED'}."""
         text = self.tell("scontrol", "show", "job", str(job), "--oneliner")
         return {word.split("=")[1] for word in text.split() if word.startswith("JobState=")}
 
 
 def rows_of(folder):
-    """How many rows a shard has finished."""
+    """Returns the number of rows that a shard has finished."""
     try:
         with open(f"{folder}/sweep.records", "rb") as file:
             return file.read().count(b"\n") - 1

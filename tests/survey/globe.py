@@ -15,7 +15,7 @@ E = math.sqrt(F * (2.0 - F))
 
 
 def project(lat, lon, meridian):
-    """Easting and northing [m] of a position [degrees], with the scale 1 on the meridian."""
+    """Projects a position [degrees] to easting and northing [m]; the scale is 1 on the meridian."""
     phi, lam = math.radians(lat), math.radians((lon - meridian + 180.0) % 360.0 - 180.0)
     t = math.sinh(math.atanh(math.sin(phi)) - E * math.atanh(E * math.sin(phi)))
     xi, eta = math.atan2(t, math.cos(lam)), math.asinh(math.sin(lam) / math.hypot(t, math.cos(lam)))
@@ -27,7 +27,7 @@ def project(lat, lon, meridian):
 
 
 def local(line):
-    """Meters east and north of the first position of a line of (lat, lon)."""
+    """Converts a line of (lat, lon) to meters east and north of its first position."""
     meridian = line[0][1]
     _, north = project(line[0][0], meridian, meridian)
     points = [project(lat, lon, meridian) for lat, lon in line]

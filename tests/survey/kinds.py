@@ -1,4 +1,4 @@
-"""What a file is, by its content: names and endings do not count."""
+"""Recognizes the kind of a file by its content, independent of its name and extension."""
 import json
 import re
 
@@ -31,7 +31,7 @@ def json_kind(text):
 
 
 def kind(file):
-    """The kind of a file; None for files that are of no kind that the survey knows."""
+    """Returns the kind of a file, or None if the survey knows no such kind."""
     data = file.read_bytes() if file.stat().st_size < HEAD else None
     with open(file, "rb") as stream:
         head = stream.read(HEAD) if data is None else data

@@ -16,7 +16,7 @@ def tags(element):
 
 
 def at(line, share):
-    """The point at a share of the length of a line."""
+    """Returns the point of a line at this fraction of the line's length."""
     lengths = [math.dist(a, b) for a, b in zip(line, line[1:])]
     rest = share * sum(lengths)
     for a, b, length in zip(line, line[1:], lengths):
@@ -27,7 +27,7 @@ def at(line, share):
 
 
 def side(line, point):
-    """Positive if a point is to the left of the nearest edge of a line."""
+    """Returns a positive number if the point is to the left of the line's nearest edge."""
     best = (math.inf, 0.0)
     for a, b in zip(line, line[1:]):
         dx, dy = b[0] - a[0], b[1] - a[1]

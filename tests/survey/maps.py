@@ -1,4 +1,4 @@
-"""Compares the cells of maps with what the formats' texts say of their images."""
+"""Compares the cells of maps with the cells that the format's specification assigns to the image."""
 import math
 import re
 import struct
@@ -10,7 +10,7 @@ FREE, UNKNOWN, OCCUPIED = 0, 1, 2
 
 
 def pgm(data):
-    """(width, height, white, rows of gray values) of a P2 or P5 image."""
+    """Returns (width, height, value of white, rows of gray values) of a P2 or P5 image."""
     position, tokens = 0, []
     while len(tokens) < 4:
         found = re.compile(rb"\s*(?:#[^\n]*\n\s*)*([^\s#]+)").match(data, position)
@@ -27,7 +27,7 @@ def pgm(data):
 
 
 def png(data):
-    """The same of a PNG image without interlacing; colors are averaged."""
+    """Returns the same tuple as for P2, for a PNG image without interlacing; averages the colors."""
     position, parts, palette = 8, b"", b""
     while position < len(data):
         size, name = struct.unpack(">I4s", data[position:position + 8])
@@ -85,7 +85,7 @@ def grays(line, width, depth, color, channels, palette):
 
 
 def ros(file):
-    """(resolution, rows of cells from the top) of a map of map_server."""
+    """Returns (resolution, rows of cells from the top) of a map_server map."""
     keys = dict(re.findall(r"(?m)^\s*(\w+)\s*:\s*([^#\n]*)", file.read_text(errors="replace")))
     image = file.parent / keys["image"].strip().strip("'\"")
     data = image.read_bytes()
@@ -106,7 +106,7 @@ def moving_ai(file):
 
 
 def survey(program, file, _, __):
-    """Runs a small car beside the map: its run folder has the map as the program read it."""
+    """Runs a small car beside the map. The run folder contains the map as the program read it."""
     result = Result("map")
     octile = file.read_bytes()[:5] == b"type "
     out = program.scratch / "run"

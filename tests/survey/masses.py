@@ -1,6 +1,6 @@
 """Prints the total mass [kg] that MuJoCo's library compiles from a model: masses.py LIBRARY FILE.
 
-It runs as a process of its own, because the library may end the process on an error.
+It runs as a separate process, because the library may end the process on an error.
 """
 import ctypes
 import sys

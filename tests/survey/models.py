@@ -1,4 +1,4 @@
-"""Adapts vehicle models and compares their total mass with what MuJoCo's library says of the file."""
+"""Adapts vehicle models and compares their total mass with the mass that MuJoCo's library computes."""
 import pathlib
 import re
 import subprocess
@@ -11,7 +11,7 @@ LIMIT = 1e-9  # of the mass
 
 
 def library(program):
-    """The library that the program is linked with, or None."""
+    """Returns the path of the MuJoCo library that the program is linked with, or None."""
     try:
         listed = subprocess.run(["ldd", program.path], capture_output=True, text=True, check=False).stdout
     except OSError:
@@ -21,7 +21,7 @@ def library(program):
 
 
 def mass(program, file):
-    """(mass, "") or (None, why not)."""
+    """Returns (mass, ""), or (None, reason) if the mass cannot be computed."""
     found = library(program)
     if not found:
         return None, "MuJoCo's library was not found"
@@ -33,8 +33,8 @@ def mass(program, file):
 
 
 def urdf_mass(root):
-    """The masses that a URDF file states: MuJoCo's library welds its base to the world, which has no mass. A link
-    without mass gets 1e-6 kg (docs/how-to/adapt.md)."""
+    """Returns the sum of the masses in a URDF file. MuJoCo's library welds the base of the robot to the world, so it
+    omits the mass of the base. A link without mass gets 1e-6 kg (docs/how-to/adapt.md)."""
     masses = [link.find("inertial/mass") for link in root.findall("link")]
     return sum(1e-6 if m is None or float(m.get("value")) == 0.0 else float(m.get("value")) for m in masses)
 
@@ -48,7 +48,7 @@ def expected_mass(program, file):
 
 
 def movable_trees(root):
-    """How many bodies of the world can move; a file that includes others counts as 1."""
+    """Returns the number of bodies that can move in the world; 1 for a file that includes other files."""
     if root.find(".//include") is not None:
         return 1
     bodies = root.findall("worldbody/body")
@@ -78,7 +78,7 @@ def survey(program, file, _, drive):
 
 
 def compare(program, file, car, result):
-    """The mass of the car that the program steps, against that of the file."""
+    """Compares the mass of the car that the program simulates with the mass in the file."""
     composed = program.scratch / "composed.xml"
     saved = program.call("model", car, "--save", composed, "--allow-assets", file.parent)
     if not saved.accepted:

@@ -1,4 +1,4 @@
-"""Distances of points from a polyline that both go through in the same order."""
+"""Distances of successive points from a polyline that runs in the same direction."""
 import math
 
 
@@ -10,7 +10,7 @@ def to_segment(p, a, b):
 
 
 def distances(points, line, reach):
-    """Distance of each point from the line, searched up to `reach` segments beyond the last point's segment."""
+    """Returns each point's distance from the line; searches `reach` segments beyond the previous nearest one."""
     at, found = 0, []
     for p in points:
         best = math.inf

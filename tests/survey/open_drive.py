@@ -16,7 +16,7 @@ GAUSS = ((0.0, 128 / 225), (0.5384693101056831, 0.47862867049936647), (-0.538469
 
 
 class Unclear(Exception):
-    """The standard does not say where the lane is."""
+    """Raised if the standard does not define the position of the lane."""
 
 
 def real(element, name, default=None):
@@ -62,7 +62,7 @@ class Cubics:
 
 
 class Geometry:
-    """One element of the plan view: (x, y, heading) at a distance along it."""
+    """One element of the plan view, which gives (x, y, heading) at a distance along the element."""
 
     def __init__(self, element):
         self.s, self.length = real(element, "s"), real(element, "length")
@@ -186,7 +186,7 @@ class Road:
         return self.sections[index + 1].s if index + 1 < len(self.sections) else self.length
 
     def edges(self, index, lane_id, s):
-        """Offsets of the inner and the outer edge of a lane."""
+        """Returns the lateral offsets of the inner and the outer edge of a lane from the reference line."""
         section = self.sections[index]
         side = 1 if lane_id > 0 else -1
         t = self.offset.value(s)
@@ -202,7 +202,7 @@ class Road:
         return inner, t
 
     def center(self, index, lane_id, s):
-        """(x, y) of the middle of a lane, on a surface that is rolled about the tangent in space."""
+        """Returns (x, y) of the middle of a lane, whose surface is rolled about the tangent in space."""
         inner, outer = self.edges(index, lane_id, s)
         t = 0.5 * (inner + outer)
         g = self.geometries[max(bisect.bisect_right(self.starts, s) - 1, 0)]
@@ -235,7 +235,7 @@ class Network:
         return (lane_id < 0) != road.left_hand
 
     def lanes(self):
-        """(road, section, lane) of every drivable lane that is a meter wide in its middle."""
+        """Yields (road, section, lane) of every drivable lane that is at least a meter wide halfway along."""
         for road in self.roads.values():
             for index, section in enumerate(road.sections):
                 s = 0.5 * (section.s + road.section_end(index))
@@ -249,7 +249,7 @@ class Network:
                             yield road, index, lane_id
 
     def nexts(self, road, index, lane_id):
-        """The lanes that follow a lane in the direction of its traffic."""
+        """Returns the lanes that follow a lane in the direction of travel."""
         ahead = self.forward(road, lane_id)
         end = "successor" if ahead else "predecessor"
         lane = road.sections[index].lanes[lane_id]
@@ -273,7 +273,7 @@ class Network:
         return found
 
     def entries(self, road, other, contact, lane_id):
-        """A lane that is entered at an end of its road, if its traffic leads away from this end."""
+        """Returns the lane that begins at this end of its road, if its traffic drives away from this end."""
         index = 0 if contact == "start" else len(other.sections) - 1
         section = other.sections[index]
         if other is road or lane_id not in section.lanes or section.lanes[lane_id].type not in DRIVABLE:
@@ -281,7 +281,7 @@ class Network:
         return [(other, index, lane_id)] if self.forward(other, lane_id) == (contact == "start") else []
 
     def random_route(self, random, lanes, longest):
-        """Lanes that follow each other, up to about `longest` meters; each road appears once."""
+        """Returns a random chain of successive lanes of up to about `longest` meters; no road appears twice."""
         route = [random.choice(lanes)]
         seen = {route[0][0].id}
         length = 0.0
@@ -298,7 +298,7 @@ class Network:
 
 
 def stations(network, route):
-    """[(road, section, lane, from, to)] of a route that begins and ends inside of its first and last lane."""
+    """Returns [(road, section, lane, from, to)] of a route that begins and ends in the middle of a lane."""
     legs = []
     for road, index, lane_id in route:
         a, b = road.sections[index].s, road.section_end(index)
@@ -316,7 +316,7 @@ def stations(network, route):
 
 
 def joints_of(road, index):
-    """Stations where the center of a lane may kink."""
+    """Returns the stations at which the center of a lane may kink."""
     stations_ = [g.s for g in road.geometries]
     for name in ("offset", "roll", "elevation"):
         stations_ += getattr(road, name).starts
@@ -327,8 +327,10 @@ def joints_of(road, index):
 
 
 def sampled(legs, step):
-    """Points of the lane centers (x, y, near a joint, gap): whether a joint is within a meter, where centers may kink,
-    and how far the center is from those of the lanes before and after [m]."""
+    """Returns points of the lane centers as (x, y, is_near_joint, gap).
+
+    A point is near a joint if it is within a meter of it; centers may kink at joints. The gap is the distance [m]
+    between the end of a lane's center and the beginning of the next one."""
     parts = []
     for road, index, lane_id, a, b in legs:
         inset = math.copysign(min(INSET, 0.25 * abs(b - a)), b - a)

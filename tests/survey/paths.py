@@ -10,14 +10,14 @@ AHEAD = 0.3  # [m]: with headings, the path is that of a point this far behind t
 
 
 def reach(points, rows):
-    """Segments of the plan within three of the longest steps of the points."""
+    """Returns the number of segments of the plan in three times the longest step of the points, plus 20."""
     length = sum(math.dist(a[:2], b[:2]) for a, b in zip(rows, rows[1:]))
     step = max(math.dist(a, b) for a, b in zip(points, points[1:]))
     return 20 + int(3.0 * step / max(length / len(rows), 1e-6))
 
 
 def offset(points, rows):
-    """Largest distance of the points from the plan."""
+    """Returns the largest distance of the points from the plan."""
     return max(distances(points, [row[:2] for row in rows], reach(points, rows)))
 
 
@@ -59,7 +59,7 @@ def attempt(program, result, file, keys, drive):
 
 
 def path(program, file, _, drive):
-    """A path by its points; with headings also that of a point behind, which the headings turn."""
+    """Checks the points of a path. With headings, also checks a point behind each, which a wrong heading moves."""
     result = Result("path")
     table = tables.read(file) if file.suffix.lower() not in (".yaml", ".yml", ".json", ".xml") else {}
     points = list(zip(table["x"], table["y"])) if "x" in table else tables.poses(file)
@@ -89,7 +89,7 @@ def path(program, file, _, drive):
 
 
 def positions(program, file, _, drive):
-    """Positions on the globe; a file with several lines is read line by line."""
+    """Checks positions on the globe; reads a file with several lines line by line."""
     result = Result("positions")
     lines = globe.lines(file)
     for number in range(1, max(len(lines), 1) + 1):
@@ -105,7 +105,7 @@ def positions(program, file, _, drive):
 
 
 def track(program, file, _, drive):
-    """The center line of a track, which may be smoothed by as much as the plan states."""
+    """Checks the center line of a track, which the program may smooth by the distance that the plan states."""
     result = Result("track")
     table = tables.read(file)
     points = list(zip(table["x"], table["y"]))
@@ -130,7 +130,7 @@ def track(program, file, _, drive):
 
 
 def recording(program, file, _, __):
-    """A log that is read with the map that the program proposes for it."""
+    """Reads a log with the column map that the program proposes for it."""
     result = Result("recording")
     listing = program.call("import", file, "--list", "--allow-assets", file.parent)
     result.add(listing)

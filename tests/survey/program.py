@@ -9,7 +9,7 @@ import time
 
 
 class Outcome:
-    """What a call of the program gave: its exit code (None: out of time), first message and time [s]."""
+    """Result of a call of the program: exit code (None: timed out), first message and duration [s]."""
 
     def __init__(self, code, text, seconds):
         self.code, self.text, self.seconds = code, text, seconds
@@ -20,7 +20,7 @@ class Outcome:
 
     @property
     def fault(self):
-        """Why this is a fault of the program, or "": a refusal of an input ends with 2 or 3."""
+        """The reason why this result is a fault of the program, or "". The exit codes 2 and 3 are no faults."""
         if self.code is None:
             return f"over {self.seconds:.0f} s"
         if self.code in (0, 2, 3):
@@ -29,7 +29,7 @@ class Outcome:
 
     @property
     def message(self):
-        """The first line that says why, without colors and beginning with the error."""
+        """The first line that gives a reason, without colors, from the word that begins the error."""
         lines = [line.strip() for line in re.sub(r"\x1b\[[0-9;]*m", "", self.text).splitlines() if line.strip()]
         for line in lines:
             if "error" in line or "no plan" in line or "not " in line:
@@ -38,7 +38,7 @@ class Outcome:
 
 
 class Program:
-    """The program, with a limit of its processor time [s]: a busy machine must not count as a fault."""
+    """The program, with a limit of its processor time [s], so that a busy machine does not cause a fault."""
 
     def __init__(self, path, scratch, limit=30):
         self.path, self.scratch, self.limit = path, scratch, limit
@@ -63,7 +63,7 @@ class Program:
         return file
 
     def plan(self, keys, assets):
-        """The outcome and the rows of plan.csv in the coordinates of the inputs, with plan.json."""
+        """Returns the outcome, the rows of plan.csv in the coordinates of the inputs, and plan.json."""
         return self.plan_file(self.scenario(keys), assets)
 
     def plan_file(self, file, assets=None):
@@ -80,7 +80,7 @@ class Program:
         return outcome, rows, json.loads((out / "plan.json").read_text())
 
     def drive(self, keys, assets):
-        """Whether the kinematic car arrives, as text."""
+        """Returns "yes" if the kinematic car arrives, otherwise the reason."""
         outcome = self.call("run", self.scenario(keys), "-o", self.scratch / "run", "--allow-assets", assets,
                             "--plant", "kinematic", "-q")
         return "yes" if outcome.accepted else outcome.fault or "no: " + outcome.message

@@ -13,7 +13,7 @@ class Result:
         self.no_route = False
 
     def add(self, outcome):
-        """Keeps the message of a refusal, and a fault: a crash, exit code 1, or too long a time."""
+        """Records the message of a refusal, or a fault: a crash, exit code 1, or a timeout."""
         if outcome.fault:
             self.faults.append(outcome.fault)
         if not outcome.accepted and outcome.message not in self.messages:

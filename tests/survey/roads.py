@@ -15,8 +15,9 @@ PLAN_STEP = 0.1  # [m], between the rows of plan.csv; chords of a circle of 3 m 
 
 
 def deviation(points, rows):
-    """How far the lane centers are from the plan beyond the limits, and their largest distance. A plan bridges gaps of
-    the file, so it is off the centers by up to the gap."""
+    """Returns by how much the distance of the lane centers from the plan exceeds its limit, and the largest distance.
+
+    A plan bridges gaps in the file, so the limit is larger by the gap."""
     off = distances([p[:2] for p in points], [row[:2] for row in rows], int(4.0 * STEP / PLAN_STEP))
     beyond = max(d - (JOINT_LIMIT if near else LIMIT) - gap for d, (_, _, near, gap) in zip(off, points))
     ends = max(math.hypot(p[0] - row[0], p[1] - row[1]) for p, row in ((points[0], rows[0]), (points[-1], rows[-1])))
@@ -74,7 +75,7 @@ def survey(program, file, random, drive):
 
 
 def refused_whole(program, file, why):
-    """A file without a route: what the program says of a route to nowhere."""
+    """Reads a file in which no route was found: the program must refuse a route that does not exist."""
     keys = {"world": {"road_network": str(file)}, "plan": {"method": "lane_route"},
             "mission": {"speed": 5.0, "route": [{"road": "1", "lane": -1, "s": 1}, {"road": "1", "lane": -1, "s": 2}]}}
     result = Result("road network")

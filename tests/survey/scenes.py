@@ -1,4 +1,4 @@
-"""CommonRoad scenarios, tyre files and bags."""
+"""Reads CommonRoad scenarios, tyre files and bags, and compares plans with independent evaluations."""
 import math
 import xml.etree.ElementTree as ElementTree
 
@@ -21,7 +21,7 @@ def inside(p, polygon):
 
 
 def outside(p, polygons):
-    """How far a point is from the nearest polygon; 0 inside."""
+    """Returns the distance of a point from the nearest polygon; 0 inside."""
     best = math.inf
     for polygon, (x0, x1, y0, y1) in polygons:
         if x0 - best < p[0] < x1 + best and y0 - best < p[1] < y1 + best:
@@ -42,7 +42,7 @@ def lanelets(root):
 
 
 def commonroad(program, file, _, drive):
-    """The planned rear axle stays on lanelets between its first and last place on one, and begins at the initial state."""
+    """Checks that the plan begins at the initial state, and that the rear axle stays on lanelets once it is on one."""
     result = Result("CommonRoad scenario")
     outcome, rows, _ = program.plan_file(file)
     result.add(outcome)
@@ -52,7 +52,7 @@ def commonroad(program, file, _, drive):
     root = ElementTree.parse(file).getroot()
     polygons = lanelets(root)
     away = [outside(row[:2], polygons) for row in rows[:: max(1, len(rows) // 200)]]
-    # The rear axle may begin behind the first lanelet, and a plan goes on straight behind the last one until it stops.
+    # The rear axle may start behind the first lanelet, and a plan may end straight ahead behind the last one.
     on_road = [i for i, d in enumerate(away) if d == 0.0] or [0]
     worst = max(away[on_road[0]:on_road[-1] + 1])
     start = root.find("planningProblem/initialState/position/point")
@@ -74,7 +74,7 @@ def commonroad(program, file, _, drive):
 
 
 def tyre(program, file, _, __):
-    """Whether a tyre file is read; tests/vehicle compares forces."""
+    """Checks whether the program reads a tyre file; tests/vehicle compares forces."""
     result = Result("tyre")
     keys = {"vehicle": {"model": "prius", "tyre_file": str(file)}, "plan": {"method": "fillet"},
             "mission": {"speed": 2.0, "waypoints": [[0, 0], [20, 0]]}}
@@ -85,7 +85,7 @@ def tyre(program, file, _, __):
 
 
 def bag(program, file, _, __):
-    """A bag that is imported with the map that the program proposes for it, if it has a pose."""
+    """Imports a bag that contains poses, with the topic map that the program proposes for it."""
     result = Result("bag")
     listing = program.call("import", file, "--list")
     result.add(listing)

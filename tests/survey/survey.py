@@ -1,4 +1,4 @@
-"""Reads every file of folders with the program, and prints a table of what became of each (docs/how-to/survey.md)."""
+"""Reads every file of folders with the program, and prints a table of the results (docs/how-to/survey.md)."""
 import argparse
 import collections
 import pathlib
@@ -35,7 +35,7 @@ def files_of(folders):
 
 
 def surveyed(program, kind, file, seed, drive):
-    """The result of a file. Its random numbers depend on the seed and its name, not on the files before it."""
+    """Returns the result of a file. The random numbers depend only on the seed and on the name of the file."""
     numbers = random.Random(zlib.crc32(f"{seed} {file.name}".encode()))
     try:
         return SURVEYS[kind](program, file, numbers, drive)
@@ -60,7 +60,7 @@ def row(folder, file, result, scratch):
 
 
 def totals(results):
-    """A table of counts per kind."""
+    """Returns a table with the numbers of results of each kind of file."""
     counts = collections.defaultdict(collections.Counter)
     for result in results:
         c = counts[result.kind.replace(" with headings", "")]

@@ -1,4 +1,4 @@
-"""Tests of the survey: its own evaluation by closed forms, and that it finds what is read wrongly.
+"""Tests the survey: its evaluation of files against closed forms, and that it finds files that are read wrongly.
 
     survey_test.py PROGRAM
 """
@@ -92,7 +92,7 @@ class Evaluation(unittest.TestCase):
 
 
 def filtered(kind, row, above):
-    """A row of bytes as PNG's specification filters it."""
+    """Filters a row of bytes as the specification of PNG defines."""
     left, corner = [0] + row[:-1], [0] + above[:-1]
 
     def paeth(a, b, c):
@@ -120,7 +120,7 @@ class Survey(unittest.TestCase):
         self.assertRegex(text, r"\| positions \| 4 \| 4 \| 0 ")
 
     def test_finds_paths_beside_their_lanes_and_points(self):
-        """A program that shifts what it plans by 6 cm to the north is found out."""
+        """The survey reports a program whose plans are shifted by 6 cm to the north."""
         with tempfile.TemporaryDirectory() as folder:
             shifted = pathlib.Path(folder) / "shifted"
             shifted.write_text(f"""#!{sys.executable}

@@ -1,4 +1,4 @@
-"""Tables of numbers: separators, comments and headers as people write them."""
+"""Reads tables of numbers with any common separators, comments and headers."""
 import math
 import re
 
@@ -34,7 +34,7 @@ def columns(names):
 
 
 def head(text):
-    """The columns of the header, which is the last line before the rows; {} without a header."""
+    """Returns the column indices of the names in the header, the last line before the rows; {} without a header."""
     before = ""
     for line in text.splitlines():
         line = line.strip()
@@ -60,7 +60,7 @@ def kind(text):
 
 
 def read(file):
-    """The columns of a table: {name: [values]} of those that NAMES knows."""
+    """Returns the columns of a table whose names are in NAMES, as {name: [values]}."""
     text = file.read_text(errors="replace")
     found = head(text)
     rows = []
@@ -74,7 +74,7 @@ def read(file):
 
 
 def poses(file):
-    """(x, y) of the poses of a nav_msgs/Path, by the order of its text."""
+    """Returns (x, y) of the poses of a nav_msgs/Path, in the order of its text."""
     text = re.sub(r"[\"{},]", " ", file.read_text(errors="replace"))
     return [(float(a), float(b)) for a, b in
             re.findall(r"position\s*:\s*x\s*:\s*([-+.\deE]+)\s+y\s*:\s*([-+.\deE]+)", text)]
