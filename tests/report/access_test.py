@@ -157,9 +157,8 @@ class Access(PageTest):
             off = self.browser.run(
                 """
                 const off = [];
-                for (const plot of document.querySelectorAll('.chart .plot')) {
+                const check = (plot, graph) => {
                   const at = plot.getBoundingClientRect();
-                  const graph = graphs.get(plot);
                   for (const label of plot.querySelectorAll('.dygraph-axis-label-x, .dygraph-axis-label-y')) {
                     const isX = label.classList.contains('dygraph-axis-label-x');
                     const value = parseFloat(label.textContent.replace('\\u2212', '-'));
@@ -171,6 +170,16 @@ class Access(PageTest):
                     // A label is set to whole pixels, and its letters do not fill its line evenly.
                     if (Math.abs(away) > 3) off.push([label.textContent, away, isX]);
                   }
+                };
+                for (const plot of document.querySelectorAll('.chart .plot')) check(plot, graphs.get(plot));
+                // Moves the grid lines of one chart over its whole height, so that some pass close to both edges.
+                const plot = document.querySelector('.chart .plot');
+                const graph = graphs.get(plot);
+                const [low, high] = graph.yAxisRange();
+                for (let step = 1; step <= 60; ++step) {
+                  const shift = step / 60 * (high - low);
+                  graph.updateOptions({drawCallback: null, valueRange: [low + shift, high + shift]});
+                  check(plot, graph);
                 }
                 return off;
                 """

@@ -5,6 +5,17 @@
 // forbids.
 Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 
+// Keeps half a label's height free above the chart. The library moves a label that would otherwise
+// begin above the chart down, away from its grid line.
+Dygraph.PLUGINS.push(class {
+  activate() {
+    const layout = (event) => {
+      event.reserveSpaceTop(Math.ceil(event.dygraph.getOptionForAxis('axisLabelFontSize', 'y') / 2));
+    };
+    return { layout };
+  }
+});
+
 /** Returns a function that chooses ticks at round values, about `pixels` apart. */
 function ticksEvery(pixels, name) {
   return (from, to, length) => d3.ticks(from, to, Math.max(2, Math.round(length / pixels)))
