@@ -6,6 +6,16 @@
 
 #include "trackbed/planning/common/speed_at_limit.h"
 
+// Finds speeds at which a car can drive a given path (used by feasibility.cpp).
+// 1. The path is divided into pieces of at most kCheckSpacing.
+// 2. CapsFor limits the speed on each piece by the steering rate, the lateral grip and the top
+//    speed.
+// 3. GripAlong gives the acceleration and deceleration that the road allows on each piece;
+//    SectionsOfLessGrip keeps the pieces on which this is less than the mission's.
+// 4. CapsInBends lowers the speed in a whole bend if the accelerations along and across the path
+//    together exceed the friction ellipse somewhere in it.
+// 5. SteerableSpeedsAtLimit repeats the profile at the limit (limit_profile.h) until the wheels can
+//    follow it.
 namespace trackbed::feasible_speeds {
 namespace {
 

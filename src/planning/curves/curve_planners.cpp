@@ -13,6 +13,16 @@
 #include "trackbed/planning/curves/dubins.h"
 #include "trackbed/planning/curves/reeds_shepp.h"
 
+// The planners `dubins` and `reeds_shepp`: shortest curves from stop to stop.
+// 1. All words to the next stop are made drivable: arcs get room for the ramps of the steering
+//    (drivable_curve.h).
+// 2. The candidates are sorted by length plus a penalty for each stop; the first that keeps clear
+//    of obstacles is taken.
+// 3. A rolling car may begin its first curve at once, after straightening its wheels, or after
+//    slowing down on a straight; the cheapest of the three is taken.
+// 4. With curvature `auto`, the path has continuous curvature (continuous_route.h), unless the car
+//    cannot drive it or it takes much longer than the path of steps 1 to 3.
+// Source: Dubins 1957; Reeds and Shepp 1990.
 namespace trackbed {
 namespace {
 

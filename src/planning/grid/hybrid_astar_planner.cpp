@@ -13,6 +13,15 @@
 #include "trackbed/planning/curves/reeds_shepp.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 
+// The planner `hybrid_astar`: one search (hybrid_astar.h) for each leg between two stops.
+// 1. PlanArcs searches with arcs. The curvature steps between arcs, so the plan slows down or stops
+//    there.
+// 2. PlanClothoids searches with arcs and clothoids, which the steering can follow.
+// 3. A rolling car drives its first leg at once along a Dubins curve, or by a search that begins
+//    where the car has slowed down; the shorter one is taken.
+// 4. With curvature `auto`, both paths are planned, and ContinuousOrSteps chooses one. The search
+//    with clothoids then has a budget, because it is about ten times as slow.
+// Source: Dolgov et al. 2010.
 namespace trackbed {
 namespace {
 

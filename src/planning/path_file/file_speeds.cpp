@@ -6,6 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+// Takes speeds, stops and waits of a path from its file.
+// 1. CapsOf limits the speed between two points to the mean of their speeds.
+// 2. The car of the file stands at points with the speed 0, and at places within max_deviation
+//    where it stays so long that its mean speed is below kMinSpeed.
+// 3. The duration of a standstill is the time at these points, plus the part of the steps before
+//    and after that is longer than starting and braking take (StandingPart).
+// 4. AddStops adds a stop at each standstill, and a wait if the file has times.
 namespace trackbed {
 namespace {
 

@@ -11,6 +11,14 @@
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/path_pieces.h"
 
+// Checks whether a car can drive a path at a constant speed, without simulation.
+// 1. The path is divided into pieces of kSpacing.
+// 2. DemandOf computes steering angle, steering rate and lateral acceleration on a piece, and the
+//    highest speed that each limit of the car allows.
+// 3. SteepestSlope samples tight pieces more finely, because the steering rate varies within them.
+// 4. FaultFinder merges successive pieces that exceed the same limit into one fault, and keeps the
+//    place of the largest excess.
+// 5. A jump of the heading is one fault, whatever curvature the fitted arc has.
 namespace trackbed {
 namespace {
 

@@ -16,6 +16,12 @@
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/path_file/steerable_fit.h"
 
+// The planner `path_file`: drives a path from a file.
+// 1. ReadPath reads the points with the map of the scenario, and fits a curve (fit_path.h).
+// 2. If the curve is too tight for the car, it is fitted again with the car's curvature as a bound.
+// 3. A path that turns back on itself, or whose heading jumps, is refused with a remedy.
+// 4. PlanSteps slows the car down, or stops it, where the curvature steps.
+// 5. FollowFileSpeeds takes the speeds, stops and waits of the file.
 namespace trackbed {
 namespace {
 
