@@ -10,6 +10,13 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/angle.h"
 
+// Reads obstacles and goal regions of CommonRoad scenarios.
+// 1. A shape becomes its smallest enclosing box, of all rectangles with a side along an edge.
+// 2. A moving obstacle has the poses of its trajectory. Without a trajectory, it keeps its
+//    velocity.
+// 3. States without an orientation head in the direction of motion.
+// 4. An occupancy set becomes boxes at the middle of their time, with the size of the largest box.
+// 5. Approximations counts what was changed in steps 1 to 4, for the notes.
 namespace trackbed {
 namespace {
 

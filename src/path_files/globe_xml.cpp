@@ -12,9 +12,11 @@
 #include "trackbed/core/timestamp.h"
 #include "trackbed/path_files/globe_names.h"
 
-// Reads GPX (1.0 and 1.1) and KML (2.2 with Google's extensions, 2.3). A track of GPX consists of
-// segments; a route is one line. In KML, lines are LineString, LinearRing and Track elements, in
-// any folder. Names of elements are compared without their prefix.
+// Reads GPX (1.0 and 1.1) and KML (2.2 with Google's extensions, 2.3).
+// 1. tinyxml2 parses the text; names of elements are compared without their prefix.
+// 2. A track of GPX consists of segments; a route is one line.
+// 3. In KML, lines are LineString, LinearRing and Track elements, in any folder.
+// 4. GlobeProblem (globe.h) checks each position: range, and swapped latitude and longitude.
 namespace trackbed {
 namespace {
 

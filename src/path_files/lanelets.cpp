@@ -13,6 +13,13 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/angle.h"
 
+// Lanelets of CommonRoad and Lanelet2 maps: geometry, and the shortest route.
+// 1. LaneletBetween resamples the bounds if their numbers of points differ; the center consists of
+//    the midpoints.
+// 2. LaneletsAt finds the lanelets that contain a pose and lead in its direction; if there are
+//    none, the nearest one within 5 m.
+// 3. FindLaneletRoute is Dijkstra's algorithm over successors and neighbors. A lane change has a
+//    fixed cost; of equally long routes, the one that changes lanes earlier costs less.
 namespace trackbed {
 namespace {
 

@@ -12,6 +12,11 @@
 #include "trackbed/path_files/globe.h"
 #include "trackbed/path_files/globe_names.h"
 
+// Keys of scenarios that describe how a path file is read, and the usual names of its columns.
+// 1. Visit declares the keys with units, ranges and descriptions.
+// 2. PathMapProblems checks conditions that involve several keys, such as a latitude without a
+//    longitude.
+// 3. PathColumnNames lists the names by which a CSV column is recognized, with the units.
 namespace trackbed {
 
 namespace {
