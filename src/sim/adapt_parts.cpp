@@ -9,6 +9,13 @@
 #include <iterator>
 #include <set>
 
+// Divides the model of another program into the parts of a car (adapt.h).
+// 1. The bodies between the chassis and a wheel become the wheel and its knuckle. A wheel without
+//    such a body gives a share of its mass to the knuckle.
+// 2. The rack is a small scaled copy of the chassis, so that the inertias of both stay physical.
+// 3. Masses and inertias of the parts add up to those of the model; a wheel that is too light for
+//    tyre forces gets a share of the chassis.
+// 4. CopyLooks copies the visible geoms as MJCF text; meshes with many faces become boxes.
 namespace trackbed::adapt {
 namespace {
 

@@ -10,7 +10,12 @@
 #include "trackbed/sim/car_model.h"
 #include "trackbed/sim/linkage.h"
 
-// Writes car files with the names and conventions of docs/models.md.
+// Writes the file of an adapted car, with the names and conventions of docs/models.md.
+// 1. Each function returns the MJCF text of one part: head, defaults, assets, chassis, wheels,
+//    steering linkage, numbers, actuators.
+// 2. Numbers that the model does not state are computed from its masses and sizes: the servo is
+//    critically damped, bearings take a thousandth of the weight on the wheels.
+// 3. Comments in the file give the source of each number.
 namespace trackbed::adapt {
 namespace {
 

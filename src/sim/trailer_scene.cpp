@@ -15,6 +15,13 @@
 #include "src/sim/trailer_parts.h"
 #include "trackbed/core/error.h"
 
+// Adds a trailer with one axle to the MJCF of its car.
+// 1. The body of the trailer has three hinges at the hitch. Positions are relative to the hitch.
+// 2. Wheels, tyres, springs and their masses are those of the car's rear axle, scaled to the
+//    trailer.
+// 3. The mass, center and inertia of the body are chosen such that the whole trailer has the given
+//    ones.
+// 4. Springs and dampers follow from a deflection at rest and a damping ratio.
 namespace trackbed {
 namespace {
 

@@ -7,6 +7,12 @@
 #include "src/sim/contact_friction.h"
 #include "src/sim/parts_reader.h"
 
+// Reads the parts and parameters of a vehicle with differential drive from its compiled model.
+// 1. Find and Joint look up the required names, and collect all problems before they throw.
+// 2. The limits of speed and acceleration follow from the speed servos of the two wheels, and the
+//    steering limit from the turning radius.
+// 3. Supports such as caster wheels are the other round geoms that touch the ground at qpos0; their
+//    positions bound the braking and driving forces.
 namespace trackbed {
 namespace {
 
