@@ -1,4 +1,9 @@
-// Draws the 3D replay of the run at the current time of the page.
+// Draws the 3D replay of the run at the current time of the page, with three.js.
+// 1. makeReplay builds the scene once: scenery, one vehicle for each track, trails and plans.
+// 2. For each picture, it moves the vehicles to their poses, which are interpolated between the
+//    rows.
+// 3. A camera follows a car, orbits it or sits on the driver's seat. Several cars are shown
+//    together, or apart in one view each.
 
 // maximum number of ghosts (translucent cars of other plants) whose names are shown
 const MOST_NAMED = 4;

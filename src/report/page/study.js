@@ -1,4 +1,8 @@
 // Draws the page of a study: the outputs over the parameters, and the table of all rows.
+// 1. Columns are divided by their kind: parameters, status, outputs.
+// 2. drawPlots draws the outputs over the parameter that the user selects, colored by another one.
+// 3. A dot is a row; pointing at it shows the row in the tooltip, the other plots and the table.
+// 4. drawStudyTable sorts and filters the rows.
 
 function drawStudy(study) {
   const columns = study.columns.map((column, index) => ({ ...column, index }));
