@@ -8,6 +8,12 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
+// Computes the poses of the cameras of films: chase, side, driver, orbit and top.
+// 1. Each camera is a function of the recording and the time. Headings are averaged over 0.8 s
+//    before and after the time, with triangular weights, so that cameras turn smoothly.
+// 2. The camera's distance and height are multiples of the size of the car, and include a trailer.
+// 3. LiftOnto adds the height and the slope of the ground around the car.
+// CameraTable lists the cameras with their names; FindCamera suggests the most similar name.
 namespace trackbed::render {
 namespace {
 

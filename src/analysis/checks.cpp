@@ -10,9 +10,12 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
-// Checks metrics, requirements and differences between runs for a verdict, and writes the failure
-// messages. CheckMetric compares the metric at a given path with a bound. FailureMessage names the
-// plant, the value, the bound, and the station and time of the value.
+// Checks metrics, requirements and differences between runs for a verdict.
+// 1. Each function Check... compares one value with its bound, and returns a Check: the value, the
+//    bound, and whether the value meets the bound.
+// 2. A metric that a run does not have fails, with the reason or the most similar name.
+// 3. FailureMessage describes a failed Check: plant, value, bound, and the station and time of the
+//    value. Value and bound get as many digits as are needed to tell them apart.
 namespace trackbed {
 namespace {
 

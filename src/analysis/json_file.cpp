@@ -11,6 +11,12 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/file.h"
 
+// Reads JSON files of results, which a user may have edited or truncated.
+// 1. ParseJson limits the size and the depth of a file, and converts errors of nlohmann::json to an
+//    InputError with file, line and column.
+// 2. JsonValue refers to a value in the document and knows its path, such as plants[0].end.
+// 3. Each getter checks the type of the value, and otherwise throws an InputError that names the
+//    file and the path.
 namespace trackbed {
 
 using nlohmann::ordered_json;

@@ -14,9 +14,12 @@
 #include "src/analysis/trailer_metrics.h"
 #include "trackbed/planning/registry/planners.h"
 
-// Table of all metrics that Trackbed defines, with one entry per metric. AllMetrics sets every
-// metric that a run of a scenario can have to a dummy value, so that the paths of metrics can be
-// checked before the run.
+// Table of all metrics that Trackbed defines, with one entry per metric.
+// 1. Most entries have `read`, a function that takes the value from PlantMetrics: Of() reads a
+//    member, At() a member with the station and time at which the value occurs.
+// 2. Other entries have `measure`, a function that computes the value from the log.
+// 3. AllMetrics gives a dummy value to every metric that a run of a scenario can have, so that the
+//    paths of metrics can be checked before the run.
 namespace trackbed {
 namespace {
 

@@ -10,6 +10,15 @@
 #include "src/analysis/peaks.h"
 #include "trackbed/core/angle.h"
 
+// Measures how calmly a controller steers: reversals, activity, and sustained oscillations.
+// 1. MakeSignals collects the steering command and the signals that explain it: curvature of the
+//    path, lateral acceleration and measurement noise. Jumps at changes of plan are removed.
+// 2. UnexplainedCommand (oscillation.h) removes what these signals explain, and WaveSearch looks
+//    for waves in the rest, in each stretch in which the car moves.
+// 3. The largest wave above ToleratedAmplitude counts. The tolerated steering uses a fifth of the
+//    steering rate, or moves the car by 5 % of its width, whichever is less; but at least half of
+//    the backlash.
+// docs/verdict.md#calm-steering explains the limits.
 namespace trackbed {
 namespace {
 

@@ -15,6 +15,12 @@
 #include "trackbed/scenario/record.h"
 #include "trackbed/sim/scene.h"
 
+// Lists the files that each verb may write, as patterns with variable parts such as <plant>.csv.
+// 1. AllResultNames and AllVerbNames are the tables of results and of verbs.
+// 2. A name matches a pattern if it consists of the fixed parts of the pattern in order, with at
+//    least one character between two fixed parts.
+// 3. HasMark recognizes pictures, pages and films of Trackbed by marks in their contents: a PNG
+//    chunk, a line of the page, or a box of the MP4 file.
 namespace trackbed {
 namespace {
 

@@ -25,6 +25,12 @@
 #include "trackbed/sim/linkage.h"
 #include "trackbed/sim/model_notes.h"
 
+// The verb `model`: prints the parameters of a vehicle model.
+// 1. Finds the model by name or path, compiles it, and prints its parameters and notes.
+// 2. --ggv prints the g-g-v diagram as a table, --linkage the polynomials of the steering linkage.
+// 3. --save writes the composed MJCF file with its meshes and textures.
+// 4. --adapt proposes a car for the model of another program (sim/adapt.h), and prints the
+//    evidence.
 namespace trackbed::cli {
 namespace {
 

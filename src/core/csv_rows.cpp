@@ -12,6 +12,11 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/text_table.h"
 
+// Reads rows of CSV files with libcsv, within limits of cells, columns and cell lengths.
+// 1. CommentFilter removes lines that begin with '#', before libcsv interprets quotes.
+// 2. RowReader collects the cells of a row, and calls the caller for each row with its line.
+// 3. FindDelimiter chooses the comma, the semicolon or the tab by the first lines of the file.
+// 4. NamedRows finds the names of columns in the header, or in a comment before rows of numbers.
 namespace trackbed {
 namespace {
 

@@ -13,6 +13,13 @@
 
 #include "trackbed/core/error.h"
 
+// Reads and writes files such that a killed process or a full disk leaves no partial file.
+// 1. ReadFile accepts regular files only, because a pipe could block the program, and limits the
+//    size.
+// 2. TemporaryFile writes beside the final file under a temporary name, which contains the process
+//    id, and holds a lock. Publish closes the file and renames it, which is atomic.
+// 3. RemoveAbandonedTemporaries removes temporary files whose lock nobody holds.
+// 4. Devices and pipes, such as /dev/stdout, are written directly, because they cannot be replaced.
 namespace trackbed {
 namespace {
 

@@ -16,6 +16,13 @@
 #include "trackbed/core/text_table.h"
 #include "trackbed/core/timestamp.h"
 
+// Tables of numbers, read from and written to CSV files.
+// 1. ReadThrough passes the rows of a file to a Reader, which selects columns by the names in the
+//    header.
+// 2. The Reader converts each cell by std::from_chars, which does not depend on the locale.
+// 3. Problems are collected with line, column and cell, up to a maximum number, and thrown
+//    together.
+// 4. ToCsv writes each number in the shortest form from which the same double can be read.
 namespace trackbed {
 namespace {
 

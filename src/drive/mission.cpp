@@ -20,6 +20,15 @@
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/initial_state.h"
 
+// Plans the mission of a scenario before the run.
+// 1. Refuses a start at which the car overlaps an obstacle (StartOverlap).
+// 2. Makes the PlanRequest from the scenario: waypoints, obstacles known at the start, road,
+//    limits.
+// 3. MakePlan calls the planner and checks the feasibility. If there is no plan, WithHint plans
+//    without the obstacles known at the start, and names the remedy if that succeeds.
+// 4. Adds notes on slow turns, missed waypoints, obstacles in the way, and turning round at the
+//    start.
+// 5. With plan.avoid, PlanAround leads the plan around the known obstacles.
 namespace trackbed {
 namespace {
 

@@ -18,6 +18,12 @@
 #include "trackbed/core/text_table.h"
 #include "trackbed/core/version.h"
 
+// Writes modelDescription.xml of an FMU, for FMI 2 and FMI 3.
+// 1. ParseUnit splits units such as "m/s^2" into powers of SI base units, which FMI requires.
+// 2. Variables are written in the order of their value references. FMI 2 and FMI 3 name elements,
+//    causality and variability differently.
+// 3. AddStructure lists the outputs and the variables that are unknown at initialization.
+// Source: FMI 2.0.4, section 2.2; FMI 3.0.1, section 2.4.
 namespace trackbed::fmu {
 namespace {
 

@@ -14,6 +14,11 @@
 #include "trackbed/path_files/globe.h"
 #include "trackbed/path_files/globe_names.h"
 
+// Keys of a log map, which names the columns of a log, their units and their frames.
+// 1. kUnits converts units to SI; UnitsOf lists the units that a quantity may have.
+// 2. Visit declares the keys with ranges and descriptions, for the reader and the reference.
+// 3. LogMapProblems checks conditions that involve several keys, such as two sources of the
+//    position.
 namespace trackbed {
 namespace {
 

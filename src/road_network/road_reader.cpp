@@ -13,6 +13,13 @@
 #include "src/road_network/plan_view.h"
 #include "trackbed/core/spelling.h"
 
+// Reads one road of an OpenDRIVE file: links, heights, lane offset and lane sections.
+// 1. Each element is read by XmlFields, which collects problems with their lines.
+// 2. ReadHeights reads elevation, superelevation and shape, and notes the forms that are not
+//    supported.
+// 3. After all roads are read, CheckLinks compares the links of lanes and roads with the elements
+//    to which they refer. A wrong link is left out, with a note.
+// Source: ASAM OpenDRIVE 1.7.0.
 namespace trackbed {
 namespace {
 

@@ -13,6 +13,11 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/sim/plant.h"
 
+// Checks conditions that involve several sections of a scenario.
+// 1. Each function Check... tests one condition, and adds its problem at the key that the user
+//    should change.
+// 2. A condition is tested only if its keys could be read, so that one mistake causes one message.
+// 3. CrossProblems calls all of them. The conditions of a method belong to its entry (check).
 namespace trackbed {
 namespace {
 

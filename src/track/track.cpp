@@ -12,6 +12,13 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path/bezier.h"
 
+// A closed track: a smooth center line with edges.
+// 1. A closed B-spline of degree 5 over the chord length smooths the points (closed_spline.h).
+// 2. CenterLine samples the spline, and computes station, yaw and curvature of each sample. The arc
+//    length is integrated by Gauss quadrature.
+// 3. BuildPath makes a path of one lap that extends beyond both ends of the lap.
+// 4. PlaceEdges corrects the widths by the distance by which smoothing moved the center line.
+// 5. FindFold finds places where an edge lies beyond the center of curvature, and thus folds over.
 namespace trackbed {
 namespace {
 

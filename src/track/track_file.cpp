@@ -17,6 +17,11 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/table.h"
 
+// Reads the center line and widths of a track from a CSV file.
+// 1. TrackRows reads the columns and checks the numbers.
+// 2. CheckShape refuses center lines with large gaps or points that turn back.
+// 3. If an edge folds over in a tight bend, Narrow moves this edge inwards, with a note, but by at
+//    most half of its width.
 namespace trackbed {
 namespace {
 

@@ -7,8 +7,16 @@
 
 #include "src/vehicle/tyre_file_reader.h"
 
-// Copies the coefficients of a tyre property file, and applies the scale factors and the inflation
-// pressure to them.
+// Takes the Magic Formula coefficients from a tyre property file.
+// 1. ReadCoefficients copies the coefficients by their names, such as PCX1 to p_cx1, and lists
+//    missing ones.
+// 2. NormalizeSigns turns pairs of coefficients with reversed signs, which give the same forces.
+// 3. ApplyScaleFactors and ApplyPressure fold scale factors and the change of pressure into the
+//    coefficients.
+// 4. ApplySide mirrors the tyre of a right wheel.
+// 5. CheckResult refuses coefficients that are out of range, and tyres whose stiffness or friction
+//    at the nominal load is not positive.
+// Source: Pacejka 2012, sections 4.3.2 and 4.3.3.
 namespace trackbed {
 namespace {
 

@@ -12,6 +12,14 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/text_table.h"
 
+// The behavior of an FMU, independent of the version of FMI.
+// 1. The resources of the FMU contain the scenario and all files that it names.
+// 2. Parameters are overrides of the scenario. Exiting the initialization plans the mission and
+//    makes the loop, so an FMU without a plan fails there.
+// 3. Step advances the loop by a whole number of control periods. The periods are counted, so that
+//    rounding errors of the host's times do not add up.
+// 4. Get returns values of the present row of the log, or of the commands.
+// 5. A state of the FMU is a copy of the loop, so a host can return to it.
 namespace trackbed::fmu {
 
 namespace fs = std::filesystem;
