@@ -13,6 +13,16 @@
 #include "src/cli/shell_quote.h"
 #include "trackbed/core/version.h"
 
+// Writes completion scripts for bash, zsh and fish, and manual pages, from the options of the
+// verbs.
+// 1. CommandInfo lists verbs, subcommands, options and positional arguments, as the parser knows
+//    them.
+// 2. The type name of an option decides its values: "draft|film" is a list of values, and CAMERA
+//    and SCENARIO are names that `trackbed list` prints when the user completes.
+// 3. Each shell parses words differently, so each has its own quoting. Names of files and scenarios
+//    are data of the user, and are never inserted into code.
+// 4. Manual pages are roff text without a date, so that two builds of one version write the same
+//    pages.
 namespace trackbed::cli {
 namespace {
 

@@ -14,6 +14,14 @@
 #include "src/sim/trailer_parts.h"
 #include "trackbed/core/error.h"
 
+// Simulates the tyres of a car by the Magic Formula with relaxation lengths.
+// 1. In each step, the slips follow the speeds of the contact patch with a first-order lag over the
+//    distance rolled; Relaxation solves this equation exactly.
+// 2. The forces follow from the slips, the load and the camber (magic_formula.h).
+// 3. Below walking pace, a tyre becomes a spring with critical damping, so that a car can stand on
+//    a slope.
+// 4. The constructor checks that explicit integration of the wheels is stable with the timestep.
+// Source: Pacejka 2012, chapter 7.
 namespace trackbed {
 namespace {
 

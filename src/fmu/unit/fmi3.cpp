@@ -3,8 +3,13 @@
 #include "src/fmu/fmi3_interface.h"
 #include "src/fmu/unit/functions.h"
 
-// The C functions of FMI 3.0 for co-simulation. Functions of other kinds of simulation, and of
-// types that no variable has, fail with a message. FMI 3 requires that they exist.
+// The C functions of FMI 3.0 for co-simulation.
+// 1. Each function checks its arguments, and calls a function of Functions<Instance>, which FMI 2
+//    shares.
+// 2. Functions<Instance> converts exceptions to messages of the host's log and to the status
+//    "error".
+// 3. Functions of other kinds of simulation, and of types that no variable has, fail with a
+//    message, because FMI 3 requires that they exist.
 namespace {
 
 using trackbed::InputError;

@@ -1,4 +1,8 @@
 // Creates the scenery of the 3D scene: ground, road, friction patches, obstacles, cones, trees.
+// 1. Each function returns meshes of one kind, in the coordinates of the run's world.
+// 2. Heights come from the height samples of the ground that the report contains.
+// 3. Trees stand at pseudo-random places that are the same on every page, and keep away from the
+//    road.
 
 const ROAD = { dash: 3, gap: 6, line: 0.12, post: 10 };  // [m]
 
