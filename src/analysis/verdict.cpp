@@ -119,8 +119,8 @@ void NotePrescribedSteering(const PlantMetrics& metrics, Verdict& verdict) {
   note("rate", metrics.steering_rate_max, metrics.steering_rate_limit, "rad/s");
 }
 
-/// Whether wheels left the road. In the air, they turn in the play of their linkage, faster than
-/// the actuator turns them.
+/// Returns whether wheels left the road. Wheels in the air turn within the play of their linkage,
+/// faster than the actuator turns them.
 bool WheelsLeftTheRoad(const PlantMetrics& metrics) {
   return metrics.status == DriveStatus::kRolledOver || metrics.status == DriveStatus::kAirborne;
 }

@@ -29,8 +29,8 @@ class ResidualModel {
  public:
   /// The study must outlive the ResidualModel. Before each prediction window, each thread calls
   /// `interrupted`, which returns true if the caller asks to stop.
-  /// `bank` is the bank of the study's track, whose parameters are parameters of the study; null if
-  /// the study does not estimate it. It must outlive the ResidualModel, too.
+  /// `bank` models the bank of the study's track by some of the study's parameters; null if the
+  /// study does not estimate the bank. The BankModel must outlive the ResidualModel, too.
   ResidualModel(const Identification& study, const BankModel* bank, int threads,
                 std::function<bool()> interrupted = {});
 

@@ -276,8 +276,9 @@ int BestDelay(const Scan& scan, const std::vector<Line>& lines, int stride) {
   return best;
 }
 
-/// Returns the largest distance from the delay `best` within which all delays explain at least nine
-/// tenths of what the best delay explains; at least 1.
+/// Returns the half width of the range of delays around `best` that fit nearly as well: each of
+/// them explains at least nine tenths of the variance that `best` explains. The half width is at
+/// least 1.
 int WidthOfCubic(const std::vector<Line>& lines, int reach, int best) {
   constexpr double kExplained = 0.9;
   const auto explained = [&](int delay) {

@@ -35,7 +35,7 @@ class StabilityControl {
   /// Updates the brake torques for a step of `timestep` [s].
   void Update(const CarMotion& motion, double timestep);
 
-  /// Returns the state of the control. The brake torques are those that the control commands.
+  /// Returns the state of the control, with the brake torques that the control commands.
   [[nodiscard]] const EscState& state() const { return state_; }
 
  private:

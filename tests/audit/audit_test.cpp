@@ -1,7 +1,6 @@
 // Checks the verdicts of many random runs against the recorded results of the runs.
 //
 // Environment:
-// Environment:
 //   TRACKBED_AUDIT_SCENARIOS  number of scenarios instead of the default, for long campaigns: run
 //                             the program directly then, because ctest stops a shard after minutes
 //   TRACKBED_AUDIT_INDEX      runs only this scenario

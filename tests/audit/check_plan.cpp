@@ -1,9 +1,10 @@
 // Checks one plan, from the rows of plan.csv, against the car and the mission.
 //
-// Start and end must match the car's state and the goal. Chords and yaws must belong to one curve
-// within full lock. Steering angles and rates, longitudinal and lateral accelerations (friction
-// circle) and braking must keep the car's limits. The footprint along the plan must not overlap
-// obstacles known to the planner. All quantities are differences between rows, every 0.1 m.
+// The plan must start at the car's state and end at the goal. Positions and yaws of the rows must
+// belong to one curve, which the car can drive without exceeding full lock. Steering angles,
+// steering rates, accelerations (friction circle) and braking must stay within the car's limits.
+// The footprint along the plan must not overlap obstacles that the planner knows. All quantities
+// are computed from differences between rows 0.1 m apart.
 
 #include <fmt/format.h>
 

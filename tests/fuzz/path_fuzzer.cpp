@@ -26,7 +26,7 @@ std::vector<std::string> EndsOfRoute(const std::string& text) {
 }  // namespace
 }  // namespace trackbed
 
-/// Fuzzes a path in each of the formats, read and fitted.
+/// Reads the input as a path file of each format, and fits a path to the points.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   const std::string text = fuzz::Text(data, size);

@@ -33,7 +33,7 @@ TEST(BankedTrack, IsAConeOnARing) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (int i = 0; i < 200; ++i) {
-      // Counterclockwise, the left edge is 4 m nearer to the middle.
+      // The ring is driven counterclockwise, so its left edge is 4 m nearer to the ring's middle.
       const double radius = kRadius - 4.0 + 9.0 * unit(random);
       const double angle = 2.0 * kPi * unit(random);
       const Vec2 outward = Direction(angle);

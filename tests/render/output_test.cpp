@@ -193,7 +193,7 @@ class Frames : public testing::Test {
     CopyPrius(run_);
     WritePlant(run_, "mujoco", 1.0, [](double time) { return CarPlace{3.0 * time, 0.0, 0.0}; });
     WriteStraightPlan(run_, 20.0);
-    options_.width = 161;  // odd, which only a video cannot encode
+    options_.width = 161;  // pictures may have odd sizes, videos may not
     options_.height = 91;
     options_.fps = 2.0;
   }

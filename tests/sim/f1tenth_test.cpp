@@ -31,7 +31,7 @@ const CarModel& F1tenth() {
 TEST(F1tenth, HasTheParametersOfTheGym) {
   const VehicleParams& params = F1tenth().params();
   EXPECT_EQ(params.name, "f1tenth");
-  // The file gives the sprung mass, its place and inertia with 16 digits; sums over ten bodies.
+  // Masses, positions and inertias in the file have 16 digits, and are summed over ten bodies.
   const double rounding = Tolerance(1e-12);
   EXPECT_NEAR(params.mass, kMass, rounding);
   EXPECT_NEAR(params.yaw_inertia, kYawInertia, rounding);

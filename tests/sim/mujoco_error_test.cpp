@@ -17,7 +17,7 @@ namespace {
 
 struct OtherHandler {};
 
-/// An error handler as another user of MuJoCo in the same program may have installed it.
+/// An error handler that another library in the same program may have installed for MuJoCo.
 void ThrowOther(const char* /*message*/) {
   throw OtherHandler();
 }

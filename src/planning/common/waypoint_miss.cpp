@@ -26,7 +26,7 @@ std::string DescribeWaypoint(std::size_t waypoint, const Vec2& at) {
 }
 
 std::string RemedyForMiss(double distance) {
-  // The last of three digits, at least a millimeter.
+  // Unit of the last digit if the distance is written with three digits; at least a millimeter.
   const double digit = std::pow(10.0, std::max(std::floor(std::log10(distance)) - 2.0, -3.0));
   return fmt::format("set plan.max_waypoint_miss to at least {:.10g}, or move the waypoint",
                      digit * (std::floor(distance / digit) + 1.0));

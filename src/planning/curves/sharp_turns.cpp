@@ -137,7 +137,8 @@ class SharpEnd {
   std::array<Side, 2> sides_{};
 };
 
-/// The words in an interval of alpha in which no turn changes its side, as functions of alpha.
+/// The words to a goal, as functions of alpha, in an interval of alpha in which no turn changes its
+/// side. The heading of the goal counts full turns.
 class SharpWords {
  public:
   SharpWords(const SharpEnd& first, const SharpEnd& last, double from, double to)

@@ -155,8 +155,8 @@ std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t 
   return reached.size();
 }
 
-/// Updates the cost of every neighbor that a path through `cell` reaches at a lower cost. The cost
-/// of `cell` is `cost`. For each updated neighbor, calls `take` with the neighbor, the number of
+/// Updates the cost of every neighbor that a path through `cell` reaches at a lower cost. `cost` is
+/// the cost of `cell`. For each updated neighbor, calls `take` with the neighbor, the number of
 /// the step and the new cost.
 template <typename Take>
 void ForEachBetter(Costs& costs, int cell, double cost, const Take& take) {

@@ -191,7 +191,8 @@ struct PeerLengths {
   double curvature;
   Pose2 to;
   double end_curvature;
-  std::array<double, 3> lengths;  // in the order of kKinds; the peer has no second for steered cars
+  // In the order of kKinds. The peer has no curves of the second kind for steered cars.
+  std::array<double, 3> lengths;
 };
 
 TEST(ContinuousCurvature, FindsAWordOfTwoTurnsWithAShortStraight) {

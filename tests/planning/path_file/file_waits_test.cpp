@@ -75,8 +75,8 @@ struct Recorder {
   }
 };
 
-// The durations are exact to the two sampling periods beside a stop. Rounding adds the time that
-// the car is within 0.5 mm of the stop, 0.03 s on either side.
+// The duration of a stop is uncertain by the sampling periods before and after the stop. Positions
+// are rounded to 1 mm, so the car seems to stand while it is within 0.5 mm, 0.03 s on either side.
 TEST(FileWaits, LastAsLongAsTheCarStands) {
   Random random(47);
   for (int i = 0; i < 60; ++i) {

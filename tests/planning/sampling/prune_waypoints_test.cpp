@@ -142,8 +142,8 @@ TEST(FewCorners, OfAStraightWayAreNone) {
 }
 
 TEST(FewCorners, OfALongWayAreFoundInWindows) {
-  // A zigzag with an amplitude of 1 m through 4 windows. Straight lines are shorter, and windows
-  // meet at their ends.
+  // A zigzag with an amplitude of 1 m through four windows. Within each window, one straight line
+  // replaces the zigzag; successive windows share a point.
   Case one{.corner_cost = 1.0};
   for (std::size_t i = 0; i <= 4 * kPruningWindow; ++i) {
     one.way.emplace_back(static_cast<double>(i), i % 2 == 0 ? 0.0 : 1.0);
