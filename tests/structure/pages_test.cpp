@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kFolder = TRACKBED_SOURCE_DIR;
+
+/// Paths that pages name although the tree does not contain them: files of examples, and of MuJoCo.
+const std::vector<std::string> kElsewhere{"render/heading_line.h", "render/heading_line.cpp",
+                                          "include/mujoco/mujoco.h"};
+
+std::vector<fs::path> Pages() {
+  std::vector<fs::path> pages{kFolder / "README.md", kFolder / "CONTRIBUTING.md"};
+  for (const auto& entry : fs::recursive_directory_iterator(kFolder / "docs")) {
+    if (entry.path().extension() == ".md") {
+      pages.push_back(entry.path());
+    }
+  }
+  return pages;
+}
+
+/// Returns the paths in backquotes outside of code blocks. A word in capitals, such as NAME, is a
+/// placeholder.
+std::vector<std::string> PathsIn(const fs::path& page) {
+  static const std::regex path(
+      "`((?:src|include|tests|render|scripts|cmake|models|scenarios|python|bench)/[a-z0-9_./-]+)`");
+  std::vector<std::string> paths;
+  bool is_code = false;
+  std::ifstream in(page);
+  for (std::string line; std::getline(in, line);) {
+    is_code = line.find("```") != std::string::npos ? !is_code : is_code;
+    for (std::sregex_iterator match(line.begin(), line.end(), path), end; !is_code && match != end;
+         ++match) {
+      paths.push_back((*match)[1]);
+    }
+  }
+  return paths;
+}
+
+TEST(Pages, NameFilesThatExist) {
+  std::size_t seen = 0;
+  for (const fs::path& page : Pages()) {
+    for (const std::string& path : PathsIn(page)) {
+      ++seen;
+      const bool is_elsewhere =
+          std::find(kElsewhere.begin(), kElsewhere.end(), path) != kElsewhere.end();
+      EXPECT_TRUE(is_elsewhere || fs::exists(kFolder / path))
+          << fs::relative(page, kFolder) << " names " << path << ", which does not exist";
+    }
+  }
+  EXPECT_GT(seen, 100U);  // the scan found paths
+}
+
+}  // namespace
