@@ -69,17 +69,19 @@ std::string CodeOf(const fs::path& file) {
       skip_to(i, "*/");
     } else if (is_line_start && rest.front() == '#') {
       while (i < text.size() && text[i] != '\n') {
-        i += text[i] == '\\' ? 2 : 1;
+        i += text[i] == '\\' ? 2U : 1U;
       }
     } else if (rest.starts_with("R\"")) {
-      const std::string end = ")" + text.substr(i + 2, text.find('(', i) - i - 2) + "\"";
+      std::string end(1, ')');
+      end.append(text, i + 2, text.find('(', i) - i - 2);
+      end += '"';
       skip_to(i, end);
     } else if (rest.front() == '"' ||
                (rest.front() == '\'' &&
                 (code.empty() || std::isalnum(static_cast<unsigned char>(code.back())) == 0))) {
       const char quote = rest.front();
       for (++i; i < text.size() && text[i] != quote; ++i) {
-        i += text[i] == '\\' ? 1 : 0;
+        i += text[i] == '\\' ? 1U : 0U;
       }
       ++i;
     } else {
