@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/cli/manual_pages.h"
 #include "src/cli/shell_pages.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"

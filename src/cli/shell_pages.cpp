@@ -11,18 +11,14 @@
 
 #include "src/cli/list.h"
 #include "src/cli/shell_quote.h"
-#include "trackbed/core/version.h"
 
-// Writes completion scripts for bash, zsh and fish, and manual pages, from the options of the
-// verbs.
+// Writes completion scripts for bash, zsh and fish from the options of the verbs.
 // 1. CommandInfo lists verbs, subcommands, options and positional arguments, as the parser knows
 //    them.
 // 2. The type name of an option decides its values: "draft|film" is a list of values, and CAMERA
 //    and SCENARIO are names that `trackbed list` prints when the user completes.
 // 3. Each shell parses words differently, so each has its own quoting. Names of files and scenarios
 //    are data of the user, and are never inserted into code.
-// 4. Manual pages are roff text without a date, so that two builds of one version write the same
-//    pages.
 namespace trackbed::cli {
 namespace {
 
@@ -65,7 +61,8 @@ bool IsList(const std::string& type) {
   return type.ends_with(",...");
 }
 
-/// Returns the options of a verb, including the options that every verb has.
+}  // namespace
+
 std::vector<OptionInfo> OptionsOf(const CommandInfo& verb) {
   std::vector<OptionInfo> options;
   for (const OptionInfo& option : verb.options) {
@@ -77,6 +74,8 @@ std::vector<OptionInfo> OptionsOf(const CommandInfo& verb) {
   options.push_back(kHelp);
   return options;
 }
+
+namespace {
 
 /// Returns the possible values of the verb's positional arguments.
 Words PositionalValues(const CommandInfo& verb) {
@@ -112,18 +111,6 @@ Words NamesOf(const std::vector<CommandInfo>& verbs) {
     names.push_back(verb.name);
   }
   return names;
-}
-
-std::string Replaced(const std::string& text, std::string_view what, std::string_view by) {
-  std::string result;
-  std::size_t at = 0;
-  for (std::size_t found = text.find(what); found != std::string::npos;
-       found = text.find(what, at)) {
-    result += text.substr(at, found - at);
-    result += by;
-    at = found + what.size();
-  }
-  return result + text.substr(at);
 }
 
 /// Quotes a text that Trackbed itself defines, such as a help text, for bash and zsh.
@@ -371,82 +358,6 @@ std::string FishCompletion(const std::vector<CommandInfo>& verbs) {
     }
   }
   return text;
-}
-
-namespace {
-
-/// Escapes a text for a line of a manual page in roff format.
-std::string Roff(const std::string& text) {
-  const std::string escaped = Replaced(Replaced(text, "\\", "\\e"), "-", "\\-");
-  return escaped.starts_with('.') || escaped.starts_with('\'') ? "\\&" + escaped : escaped;
-}
-
-std::string PageTitle(const std::string& name) {
-  return fmt::format(".TH {} 1 \"\" \"Trackbed {}\" \"Trackbed\"\n", name, Version());
-}
-
-std::string PageOfVerb(const CommandInfo& verb) {
-  const std::string name = "trackbed-" + Replaced(verb.name, " ", "-");
-  std::string usage;
-  for (const OptionInfo& option : verb.options) {
-    if (option.positional) {
-      usage += option.required ? " " + option.name : " [" + option.name + "]";
-    }
-  }
-  std::string text = PageTitle(name);
-  text += fmt::format(".SH NAME\n{} \\- {}\n", Roff(name), Roff(verb.summary));
-  text += fmt::format(".SH SYNOPSIS\n.B trackbed {}\n[OPTION...]{}\n", verb.name, Roff(usage));
-  text += ".SH OPTIONS\n";
-  std::vector<OptionInfo> options = OptionsOf(verb);
-  std::copy_if(verb.options.begin(), verb.options.end(), std::inserter(options, options.begin()),
-               [](const OptionInfo& option) { return option.positional; });
-  for (const OptionInfo& option : options) {
-    const std::string names = Replaced(option.name, ",-", ", -");
-    text += fmt::format(".TP\n\\fB{}\\fR{}\n{}{}\n", Roff(names),
-                        option.value.empty() ? "" : " \\fI" + Roff(option.value) + "\\fR",
-                        Roff(option.text),
-                        option.fallback.empty() ? "" : " (default: " + Roff(option.fallback) + ")");
-  }
-  if (!verb.examples.empty()) {
-    text += ".SH EXAMPLES\n";
-  }
-  for (const Example& example : verb.examples) {
-    text += &example == &verb.examples.front() ? "" : ".PP\n";
-    text += fmt::format("{}:\n.PP\n.RS 4\n.EX\n{}\n.EE\n.RE\n", Roff(example.text),
-                        Roff(example.command));
-  }
-  return text + ".SH SEE ALSO\n.BR trackbed (1)\n";
-}
-
-}  // namespace
-
-std::vector<ManualPage> ManualPages(const std::vector<CommandInfo>& verbs) {
-  std::string text = PageTitle("trackbed");
-  text +=
-      ".SH NAME\ntrackbed \\- vehicle simulation testbed on MuJoCo\n"
-      ".SH SYNOPSIS\n.B trackbed\nVERB [OPTION...]\n"
-      ".SH DESCRIPTION\nRuns plans and controllers under contact dynamics, compares them with a "
-      "kinematic model, and renders videos without a display.\n"
-      ".SH VERBS\n";
-  std::vector<ManualPage> pages;
-  for (const CommandInfo& verb : verbs) {
-    ManualPage page{"trackbed-" + Replaced(verb.name, " ", "-") + ".1", PageOfVerb(verb)};
-    text += fmt::format(".TP\n\\fB{}\\fR\n{}; see \\fB{}\\fR(1)\n", verb.name, Roff(verb.summary),
-                        Roff(page.file.substr(0, page.file.size() - 2)));
-    pages.push_back(std::move(page));
-  }
-  text +=
-      ".SH EXIT STATUS\n"
-      ".TP\n0\nDone; of runs with expectations: all met.\n"
-      ".TP\n1\nA bug in Trackbed.\n"
-      ".TP\n2\nWrong input, or an environment that does not allow the work.\n"
-      ".TP\n3\nExpectations or tolerances not met.\n"
-      ".TP\n130\nInterrupted; what was finished is kept.\n"
-      ".SH ENVIRONMENT\n"
-      ".TP\nTRACKBED_DATA\nFolder with models and scenarios, instead of the installed one.\n"
-      ".TP\nNO_COLOR\nIf set and not empty: no colors.\n";
-  pages.insert(pages.begin(), {"trackbed.1", text});
-  return pages;
 }
 
 }  // namespace trackbed::cli

@@ -63,4 +63,16 @@ std::string AllQuoted(const std::vector<std::string>& words,
   return all;
 }
 
+std::string Replaced(const std::string& text, std::string_view what, std::string_view by) {
+  std::string result;
+  std::size_t at = 0;
+  for (std::size_t found = text.find(what); found != std::string::npos;
+       found = text.find(what, at)) {
+    result += text.substr(at, found - at);
+    result += by;
+    at = found + what.size();
+  }
+  return result + text.substr(at);
+}
+
 }  // namespace trackbed::cli

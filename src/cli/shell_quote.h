@@ -25,4 +25,7 @@ std::optional<std::string> QuotedForSbatch(std::string_view word);
 std::string AllQuoted(const std::vector<std::string>& words,
                       std::optional<std::string> (*quoted)(std::string_view word));
 
+/// Returns the text with every occurrence of `what` replaced by `by`.
+std::string Replaced(const std::string& text, std::string_view what, std::string_view by);
+
 }  // namespace trackbed::cli
