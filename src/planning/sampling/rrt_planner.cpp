@@ -57,18 +57,6 @@ std::vector<OptionProblem> CheckDetour(const RrtPlannerOptions& options) {
   return problems;
 }
 
-SamplingTask MakeTask(const RrtPlannerOptions& options, const PlanRequest& request,
-                      const std::vector<Vec2>& departure) {
-  return MakeSamplingTask({.corners = options.corners,
-                           .safe_distance = options.safe_distance,
-                           .corner_room = options.corner_room,
-                           .margin = options.margin,
-                           .lead_in = options.lead_in,
-                           .wind_weight = options.wind_weight,
-                           .departure = departure},
-                          request);
-}
-
 /// A path through all goals, or only through the goals before the first goal that a tree did not
 /// reach.
 struct TreePath {
@@ -211,19 +199,11 @@ Plan RefusedAs(const TreePath& way, const Forest& forest) {
                   way.goals + 1, forest.task.inflation.most));
 }
 
-/// Returns the plan along the points, or the reason why it is not feasible. Then `rejected` gets
-/// the plan.
-Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points,
-                    std::optional<Plan>& rejected) {
-  Plan plan = route::AlongPolyline({}, forest.request, InWorld(forest.request.start, points),
-                                   forest.options.corners, forest.options.safe_distance,
-                                   forest.options.min_speed);
-  Plan tested = MakeFeasible(plan, forest.request);
-  if (tested.ok()) {
-    return plan;
-  }
-  rejected = plan.ok() ? std::optional(std::move(plan)) : std::nullopt;
-  return tested;
+/// Plans along the points; `rejected` of `next` gets the plan if it is not feasible.
+void PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points, Try& next) {
+  TreesPlan along = PlanAlong(forest.options, forest.request, points);
+  next.plan = std::move(along.plan);
+  next.rejected = std::move(along.rejected);
 }
 
 /// Plans a partial path that ends at the tree's node nearest to the next goal, because the tree did
@@ -247,7 +227,7 @@ void UsePartialPath(const Forest& forest, Try& next) {
     if (points.size() < 2) {
       break;  // the car would not move
     }
-    next.plan = PlanAlongRoute(forest, points, next.rejected);
+    PlanAlongRoute(forest, points, next);
     if (next.plan.ok()) {
       next.way.points = points;
       next.way.left = (goal - points.back()).norm();
@@ -264,7 +244,7 @@ Try TryTree(const Forest& forest, std::uint64_t seed, long& samples) {
   Try next;
   next.way = GrowPath(forest, seed, samples);
   if (!next.is_partial()) {
-    next.plan = PlanAlongRoute(forest, next.way.points, next.rejected);
+    PlanAlongRoute(forest, next.way.points, next);
   } else if (MayBePartial(forest.options) && !next.way.nearest.empty()) {
     UsePartialPath(forest, next);
   } else {
@@ -302,7 +282,7 @@ void RecordBudget(const Forest& forest, const Try& best, const std::string& budg
 
 TreesPlan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request,
                     const std::vector<Vec2>& departure) {
-  const SamplingTask task = MakeTask(options, request, departure);
+  const SamplingTask task = TaskOf(options, request, departure, options.wind_weight);
   if (Plan refused = CheckLeadIn(task, request, options.safe_distance); !refused.ok()) {
     return {std::move(refused)};
   }
@@ -374,11 +354,7 @@ PlannerEntry RrtPlanner() {
 }
 
 void Visit(KeyVisitor& keys, RrtPlannerOptions& options) {
-  route::VisitCorners(keys, options.corners, options.safe_distance, options.corner_room);
-  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNonNegative);
-  keys.Field({"lead_in", "m", "straight distance from the start before the trees; 0: none"},
-             options.lead_in, Need::kOptional, kNonNegative);
-  keys.Field(route::kCornerSpeed, options.min_speed, Need::kOptional, kPositive);
+  VisitTaskKeys(keys, options);
   keys.Field({"trees", "", "number of trees; the best feasible path of all is the plan"},
              options.trees, Need::kOptional, Range{.min = 1, .max = 1000});
   keys.Field({"iterations", "", "maximum samples per leg and tree"}, options.iterations,
@@ -401,9 +377,7 @@ void Visit(KeyVisitor& keys, RrtPlannerOptions& options) {
               "beta of the smoothing: attraction to the neighbors' midpoint; data_weight + 2 "
               "smoothness_weight must be above 0 and below 1"},
              options.smoothness_weight, Need::kOptional, Range{.min = 0.0, .max = 0.5});
-  keys.Field({"corner_cost", "m",
-              "cost of a corner, as path length: favors fewer corners and longer legs"},
-             options.corner_cost, Need::kOptional, kNonNegative);
+  keys.Field(kCornerCost, options.corner_cost, Need::kOptional, kNonNegative);
   keys.Field({"wind_weight", "", "weight of the wind in the path length; 0: ignored"},
              options.wind_weight, Need::kOptional, kNonNegative);
 }

@@ -13,18 +13,6 @@
 namespace trackbed {
 namespace {
 
-SamplingTask MakeStarTask(const RrtStarPlannerOptions& options, const PlanRequest& request,
-                          const std::vector<Vec2>& departure) {
-  return MakeSamplingTask({.corners = options.corners,
-                           .safe_distance = options.safe_distance,
-                           .corner_room = options.corner_room,
-                           .margin = options.margin,
-                           .lead_in = options.lead_in,
-                           .wind_weight = 0.0,
-                           .departure = departure},
-                          request);
-}
-
 /// Returns the failed plan for a tree that did not reach the waypoint `waypoint` from the previous
 /// waypoint.
 Plan StarRefused(const RrtStarPlannerOptions& options, const SamplingTask& task,
@@ -111,18 +99,16 @@ TreesPlan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& 
     AddPruned(task, tangents, options.corner_cost, found.path, i + 1 == task.goals.size(), points);
     from = task.goals[i];
   }
-  Plan plan = route::AlongPolyline({}, request, InWorld(request.start, points), options.corners,
-                                   options.safe_distance, options.min_speed);
-  if (Plan tested = MakeFeasible(plan, request); !tested.ok()) {
-    return {tested, plan.ok() ? std::optional(std::move(plan)) : std::nullopt};
+  TreesPlan along = PlanAlong(options, request, points);
+  if (along.plan.ok()) {
+    along.plan.tree = std::move(tree);
   }
-  plan.tree = std::move(tree);
-  return {std::move(plan)};
+  return along;
 }
 
 TreesPlan PlanStarTrees(const RrtStarPlannerOptions& options, const PlanRequest& request,
                         const std::vector<Vec2>& departure) {
-  const SamplingTask task = MakeStarTask(options, request, departure);
+  const SamplingTask task = TaskOf(options, request, departure, 0.0);
   if (Plan refused = CheckLeadIn(task, request, options.safe_distance); !refused.ok()) {
     return {std::move(refused)};
   }
@@ -178,11 +164,7 @@ void Visit(DiagnosticsVisitor& out, const RrtStarPlanDiagnostics& own) {
 }
 
 void Visit(KeyVisitor& keys, RrtStarPlannerOptions& options) {
-  route::VisitCorners(keys, options.corners, options.safe_distance, options.corner_room);
-  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNonNegative);
-  keys.Field({"lead_in", "m", "straight distance from the start before the trees; 0: none"},
-             options.lead_in, Need::kOptional, kNonNegative);
-  keys.Field(route::kCornerSpeed, options.min_speed, Need::kOptional, kPositive);
+  VisitTaskKeys(keys, options);
   keys.Field({"trees", "", "maximum number of trees; the first feasible path is the plan"},
              options.trees, Need::kOptional, Range{.min = 1, .max = 1000});
   keys.Field({"iterations", "", "samples per leg and tree"}, options.iterations, Need::kOptional,
@@ -193,9 +175,7 @@ void Visit(KeyVisitor& keys, RrtStarPlannerOptions& options) {
              options.expand_distance, kPositive);
   keys.Field({"goal_bias", "", "fraction of samples at the goal until it is reached"},
              options.goal_bias, Need::kOptional, Range{.min = 0.0, .max = 1.0});
-  keys.Field({"corner_cost", "m",
-              "cost of a corner, as path length: favors fewer corners and longer legs"},
-             options.corner_cost, Need::kOptional, kNonNegative);
+  keys.Field(kCornerCost, options.corner_cost, Need::kOptional, kNonNegative);
 }
 
 PlannerEntry RrtStarPlanner() {

@@ -8,6 +8,7 @@
 
 #include "trackbed/core/angle.h"
 #include "trackbed/geometry/box_index.h"
+#include "trackbed/options/key_visitor.h"
 #include "trackbed/planning/common/corners.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/lead_in.h"
@@ -51,6 +52,33 @@ struct SamplingTaskOptions {
 };
 
 SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequest& request);
+
+/// Returns the task of a planner with these options, whose path begins with `departure`.
+template <typename Options>
+SamplingTask TaskOf(const Options& options, const PlanRequest& request,
+                    const std::vector<Vec2>& departure, double wind_weight) {
+  return MakeSamplingTask({.corners = options.corners,
+                           .safe_distance = options.safe_distance,
+                           .corner_room = options.corner_room,
+                           .margin = options.margin,
+                           .lead_in = options.lead_in,
+                           .wind_weight = wind_weight,
+                           .departure = departure},
+                          request);
+}
+
+/// Visits the first keys of a planner: corners, area, initial straight and lowest speed.
+template <typename Options>
+void VisitTaskKeys(KeyVisitor& keys, Options& options) {
+  route::VisitCorners(keys, options.corners, options.safe_distance, options.corner_room);
+  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNonNegative);
+  keys.Field({"lead_in", "m", "straight distance from the start before the trees; 0: none"},
+             options.lead_in, Need::kOptional, kNonNegative);
+  keys.Field(route::kCornerSpeed, options.min_speed, Need::kOptional, kPositive);
+}
+
+inline constexpr Key kCornerCost{
+    "corner_cost", "m", "cost of a corner, as path length: favors fewer corners and longer legs"};
 
 /// Checks whether the car is clear of obstacles at its start, and whether the first points of the
 /// path are free: for a point that keeps its distance or, on a straight, for the car's footprint.
@@ -100,6 +128,19 @@ struct TreesPlan {
   /// rejection.
   std::optional<Plan> rejected{};
 };
+
+/// Returns the plan along `points` in the car's start frame, with rounded corners. If the plan is
+/// not feasible, returns the reason, and the plan as `rejected`.
+template <typename Options>
+TreesPlan PlanAlong(const Options& options, const PlanRequest& request,
+                    const std::vector<Vec2>& points) {
+  Plan plan = route::AlongPolyline({}, request, InWorld(request.start, points), options.corners,
+                                   options.safe_distance, options.min_speed);
+  if (Plan tested = MakeFeasible(plan, request); !tested.ok()) {
+    return {std::move(tested), plan.ok() ? std::optional(std::move(plan)) : std::nullopt};
+  }
+  return {std::move(plan)};
+}
 
 /// Returns whether another start of the path may lead to a plan.
 inline bool IsTooNear(const Plan& plan) {
