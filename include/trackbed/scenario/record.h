@@ -23,7 +23,7 @@ struct RecordSpec {
   std::optional<std::string> map;
   std::optional<double> from{};  ///< Start time in the log that replaces `from` of the log map [s].
   std::optional<double> to{};    ///< End time in the log that replaces `to` of the log map [s].
-  /// File of a closed track with its bank, whose surface is the ground (recording/banked_track.h);
+  /// File of a banked track or open road, whose surface is the ground (recording/banked_track.h);
   /// nullopt: the ground of the world.
   std::optional<std::string> ground{};
   ReplaySteering steering = ReplaySteering::kCommand;
