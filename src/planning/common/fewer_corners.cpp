@@ -119,10 +119,10 @@ class CornerChoice {
     }
     for (std::size_t i = from + 1; i < to; ++i) {
       // If the first leg is not replaced, a point on it is passed there.
-      const double distance = std::min(
-          DistanceFromLeg(points_[i], points_[from], points_[to]),
-          is_waypoint_[i] || from > 0 ? DistanceFromLeg(points_[i], points_[0], points_[1])
-                                      : kInfinity);
+      const double distance =
+          std::min(DistanceFromLeg(points_[i], points_[from], points_[to]),
+                   is_waypoint_[i] || from > 0 ? DistanceFromLeg(points_[i], points_[0], points_[1])
+                                               : kInfinity);
       constexpr double kOnLeg = 1e-9;  // [m]
       if (distance > (is_waypoint_[i] ? limits_.max_gap : kOnLeg)) {
         return std::nullopt;
