@@ -172,7 +172,7 @@ TEST(CloseCorners, StayIfTheyFit) {
 }
 
 /// Returns a path around the round end of a wall, with corners on a circle of radius 2 m about the
-/// wall's end. The path comes from one side of the wall and goes on to the other side.
+/// wall's end. The path begins on one side of the wall and ends on the other side.
 Case RoundAWallEnd(Random& random) {
   Case one;
   one.obstacles = {{{0.0, -10.0, 0.0}, 0.4, 20.0}};
