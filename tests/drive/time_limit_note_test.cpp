@@ -15,12 +15,11 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// Returns the notes of a plan that leads straight on for 800 m at 1 m/s, from 1 m/s to rest. With
-/// the deceleration of 1.5 m/s^2, the last 1/3 m takes 2/3 s, so the plan takes 800 1/3 s.
+/// the default deceleration of 1.5 m/s^2, the last 1/3 m takes 2/3 s, so the plan takes 800 1/3 s.
 std::vector<std::string> Notes(double time_limit) {
   const Scenario scenario = ParseScenario(
       fmt::format("schema: 1\nname: slow\nvehicle: {{model: prius}}\nmission: {{speed: 1}}\n"
-                  "plan: {{method: straight, length: 800}}\ndrive: {{time_limit: {}}}\n"
-                  "control: {{speed: {{deceleration: 1.5}}}}\n",
+                  "plan: {{method: straight, length: 800}}\ndrive: {{time_limit: {}}}\n",
                   time_limit),
       "slow.yaml", "");
   const FeasiblePlan plan = PlanScenario(scenario, ReferenceCar());
