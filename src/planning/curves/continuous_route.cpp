@@ -265,8 +265,8 @@ class RoutePlanner {
     return CheapestFree(std::move(found), leg);
   }
 
-  /// Returns the cheapest free leg of two forward turns, each at a speed of its own; a turn behind
-  /// a start at rest, for example, may be sharper than the rest of the leg.
+  /// Returns the cheapest free leg of two forward turns that are driven at different speeds. For
+  /// example, a turn behind a start at rest may be sharper than the rest of the leg.
   [[nodiscard]] Leg LegOfTwoSpeeds(std::size_t leg, double from, double to) {
     std::vector<Leg> found;
     const std::vector<double> speeds = Speeds();
@@ -296,7 +296,7 @@ class RoutePlanner {
     return leg;
   }
 
-  /// Returns the cheapest leg that is free of obstacles; its cost is infinite if there is none.
+  /// Returns the cheapest leg that is free of obstacles. Its cost is infinite if all are blocked.
   [[nodiscard]] Leg CheapestFree(std::vector<Leg> found, std::size_t leg) {
     tried_ = std::max(tried_, found.size());
     std::stable_sort(found.begin(), found.end(),
