@@ -24,9 +24,9 @@ ShortestCurve SharpWord(const TurnCircle& circle, double start, const CurveState
 ShortestCurve SharpWord(const TurnCircle& at_start, const TurnCircle& at_goal, double start,
                         const CurveState& goal, double limit);
 
-/// Returns the shortest forward curve of two turns and a straight between two states [m]. Both turns
-/// have the radius `radius` [m], and each has a given sharpness [1/m^2]. The length is infinite if no
-/// such curve exists.
+/// Returns the shortest forward curve of two turns and a straight between two states [m]. Both
+/// turns have the radius `radius` [m], and each has a given sharpness [1/m^2]. The length is
+/// infinite if no such curve exists.
 ShortestCurve TwoTurns(double radius, double first_sharpness, double last_sharpness,
                        const CurveState& from, const CurveState& to);
 

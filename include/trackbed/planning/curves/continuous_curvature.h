@@ -73,8 +73,8 @@ class ContinuousCurves {
                                                            const CurveState& to) const;
 
   /// Returns the shortest word for a car that drives forwards and backwards, and whose curvature
-  /// may step at a cusp, where the car stands (HC-Reeds-Shepp). If the car leaves or reaches a state
-  /// of full curvature by a cusp at once, the curvature steps at this state.
+  /// may step at a cusp, where the car stands (HC-Reeds-Shepp). If the car leaves or reaches a
+  /// state of full curvature by a cusp at once, the curvature steps at this state.
   [[nodiscard]] ShortestCurve HybridReedsShepp(const CurveState& from, const CurveState& to) const;
   [[nodiscard]] std::vector<ShortestCurve> HybridReedsSheppWords(const CurveState& from,
                                                                  const CurveState& to) const;
