@@ -20,6 +20,7 @@
 #include <cmath>
 #include <optional>
 
+#include "src/planning/curves/continuous_or_steps.h"
 #include "src/planning/curves/leg_speeds.h"
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/feasibility.h"
