@@ -147,7 +147,8 @@ void TimeRoute(benchmark::State& state, SearchMethod method, double limit) {
   scenario.plan->global.Get<FilletOptions>().search.method = method;
   const CarModel car = LoadCar(scenario);
   for ([[maybe_unused]] auto round : state) {
-    benchmark::DoNotOptimize(PlanScenario(scenario, car.params())->status);
+    auto status = PlanScenario(scenario, car.params())->status;
+    benchmark::DoNotOptimize(status);
   }
   state.counters["limit_s"] = limit;
 }

@@ -430,7 +430,8 @@ TEST(Verdict, FailsADriveThatDoesNotArrive) {
 
 TEST(Drive, LogsCommandActuatorAndMeasurementApart) {
   const RunResult result = RunScenario(Load("three_turns", {"drive.time_limit=12", "expect={}"}));
-  const RunLog& log = FindLog(result, "mujoco");
+  const std::string plant = "mujoco";
+  const RunLog& log = FindLog(result, plant);
   double command_ahead = 0.0;
   double measured_behind = 0.0;
   for (const LogRow& row : log.rows) {

@@ -187,7 +187,7 @@ TEST(Camera, SideGoesAlongWithoutAJerk) {
   const MujocoErrorScope errors;
   const Recording recording = ReadRecording(folder.path());
   const CameraSubject subject(recording);
-  const Camera& side = FindCamera("side");
+  const Camera side = FindCamera("side");
   EXPECT_GT(std::sin(side.pose(subject, 0.9, 1.8).azimuth), 0.99);  // from the right, looking left
   double before = side.pose(subject, 1.0, 1.8).azimuth;
   double rate_before = 0.0;
@@ -217,7 +217,7 @@ TEST(Camera, TopShowsAllOfASmallRouteAndFollowsInALargeOne) {
     });
     const Recording recording = ReadRecording(folder.path());
     const CameraSubject subject(recording);
-    const Camera& top = FindCamera("top");
+    const Camera top = FindCamera("top");
     return std::pair{top.pose(subject, 0.0, 1.5), top.pose(subject, 10.0, 1.5)};
   };
   const auto [small_first, small_last] = poses(40.0);
