@@ -13,6 +13,7 @@ namespace {
 /// The planner options that PlanWithLeadIn uses.
 struct Options {
   Corners corners = Corners::kRound;
+  double safe_distance = 0.0;
   double lead_in = 4.0;
   int trees = 3;
 };
