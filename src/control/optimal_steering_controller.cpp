@@ -26,7 +26,7 @@ class OptimalSteeringController final : public SteeringController {
     const double speed = std::max(std::abs(input.state.speed), kCrawl);
     const int direction = input.reference.path.BendAt(input.station).direction;
     deviation_ = ComputeDeviation(input.state.pose, RelativePathPose(input, primary.station));
-    const double planned = std::max(options_.horizon ? *options_.horizon : PreviewDistance(input),
+    const double planned = std::max(options_.horizon ? *options_.horizon : planned_.Next(input),
                                     options_.time * primary.speed.value_or(speed));
     const double horizon =
         options_.matching == Matching::kTime
@@ -103,6 +103,7 @@ class OptimalSteeringController final : public SteeringController {
   std::optional<double> last_;  // steering angle at which the next search starts [rad]
   Deviation deviation_;
   SteeringMatch match_;
+  HeldPreviewDistance planned_;
   TurnRound turn_round_;
 };
 

@@ -24,7 +24,7 @@ class Preview final : public SteeringController {
   explicit Preview(const PreviewOptions& options) : options_(options) {}
 
   double Steer(const ControlInput& input) override {
-    const double shortest = options_.distance ? *options_.distance : PreviewDistance(input);
+    const double shortest = options_.distance ? *options_.distance : planned_.Next(input);
     const double distance =
         std::max({shortest, options_.time * std::abs(input.state.speed), ReturnDistance(input)});
     const double angle =
@@ -54,6 +54,7 @@ class Preview final : public SteeringController {
   }
 
   PreviewOptions options_;
+  HeldPreviewDistance planned_;
   TurnRound turn_round_;
 };
 

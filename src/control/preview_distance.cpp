@@ -153,6 +153,15 @@ double PreviewDistance(const ControlInput& input, double delay) {
   return slower < speed ? RampPreview(input, slower, response, shortest) : far;
 }
 
+double HeldPreviewDistance::Next(const ControlInput& input, double delay) {
+  const int direction = input.reference.path.BendAt(input.station).direction;
+  const double held =
+      direction == direction_ ? distance_ - std::abs(input.state.speed) * input.period : 0.0;
+  direction_ = direction;
+  distance_ = std::max(PreviewDistance(input, delay), held);
+  return distance_;
+}
+
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset) {
   // The factor 1.5 was determined by trial, with offsets of 0.2 to 4 m and preview distances of 2
   // to 4 m. With a factor of 1.5, all cars converge to the path. With a factor of 1, some cars

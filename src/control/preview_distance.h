@@ -60,6 +60,22 @@ double ShortestPreview(const VehicleParams& vehicle, double speed, double period
 /// an approximation. The sampling of the path's steering stops at the ends and cusps of the path.
 double PreviewDistance(const ControlInput& input, double delay = 0.0);
 
+/// The preview distance of a controller over time. PreviewDistance grows when a curvature step
+/// comes within reach, and shrinks at once when the step leaves it. A preview point that moved
+/// backwards would make the steering command jump. This distance therefore shrinks by at most the
+/// distance that the car drives, so the preview point never moves backwards. After a change of the
+/// direction of motion, the distance is PreviewDistance.
+class HeldPreviewDistance {
+ public:
+  /// Returns the preview distance R [m] for the car's present state, with `delay` [s] added to the
+  /// response time. Call it once per control period.
+  double Next(const ControlInput& input, double delay = 0.0);
+
+ private:
+  double distance_ = 0.0;  // [m]; 0 before the first call.
+  int direction_ = 0;      // Direction of motion on the path.
+};
+
 /// Returns the shortest preview distance [m] with which a rate-limited car at `speed` returns from
 /// `offset` [m] to its path without oscillation and without sliding. At the maximum steering rate,
 /// the curvature of the car's track changes by c = omega/(L v) per meter. Returning from an offset

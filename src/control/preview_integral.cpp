@@ -110,8 +110,8 @@ class PreviewIntegral final : public SteeringController {
   }
 
   /// Returns the preview distance R [m].
-  [[nodiscard]] double Distance(const ControlInput& input, int direction) const {
-    const double single = std::max(options_.distance ? 0.0 : PreviewDistance(input, options_.delay),
+  double Distance(const ControlInput& input, int direction) {
+    const double single = std::max(options_.distance ? 0.0 : planned_.Next(input, options_.delay),
                                    ReturnDistance(input));
     return std::max({options_.distance.value_or(0.0), options_.time * std::abs(input.state.speed),
                      DistanceOfEqualGain(input, direction, single)});
@@ -172,6 +172,7 @@ class PreviewIntegral final : public SteeringController {
   }
 
   PreviewIntegralOptions options_;
+  HeldPreviewDistance planned_;
   TurnRound turn_round_;
   std::vector<double> past_commands_;  // past steering angles of the law, the newest first
 };

@@ -11,12 +11,6 @@
 namespace trackbed {
 namespace {
 
-double Lookahead(const ControlInput& input) {
-  const double design = kReturnOffset * input.vehicle.wheelbase;
-  return std::max({PreviewDistance(input), ReturnDistance(input),
-                   ReturnDistance(input.vehicle, input.state.speed, design)});
-}
-
 class PurePursuit final : public SteeringController {
  public:
   explicit PurePursuit(const PurePursuitOptions& options) : options_(options) {}
@@ -36,7 +30,14 @@ class PurePursuit final : public SteeringController {
   }
 
  private:
+  double Lookahead(const ControlInput& input) {
+    const double design = kReturnOffset * input.vehicle.wheelbase;
+    return std::max({planned_.Next(input), ReturnDistance(input),
+                     ReturnDistance(input.vehicle, input.state.speed, design)});
+  }
+
   PurePursuitOptions options_;
+  HeldPreviewDistance planned_;
   TurnRound turn_round_;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -200,6 +201,38 @@ TEST(ReturnDistance, KeepsTheArcToThePathWithinHalfOfTheGrip) {
     const double curvature = 2.0 * std::abs(offset) / (distance * distance);
     EXPECT_NEAR(16.0 * 16.0 * curvature, 0.45 * kGravity, Tolerance(1e-9));
   }
+}
+
+TEST(HeldPreviewDistance, NeverMovesThePointBackwards) {
+  const VehicleParams car = ReferenceCar();
+  // A right angle with 10 m before and after it, on the car's arc of 9.46 m.
+  const Path path({}, {{10.0, 0.0, 1}, {15.0, 0.1057, 1}, {10.0, 0.0, 1}});
+  const Reference reference{path, {}};
+  const double speed = 3.0;
+  HeldPreviewDistance held;
+  double point = 0.0;     // Station of the preview point [m].
+  double steepest = 0.0;  // Largest decrease of PreviewDistance in a period [m].
+  double last = Distance(car, path, 0.0, speed);
+  const double step = speed * kPeriod;
+  for (double station = 0.0; station < path.length(); station += step) {
+    VehicleState state;
+    state.pose = path.At(station).pose;
+    state.speed = speed;
+    const double distance = held.Next({.vehicle = car,
+                                       .reference = reference,
+                                       .schedule = {},
+                                       .state = state,
+                                       .station = station,
+                                       .period = kPeriod});
+    const double wanted = Distance(car, path, station, speed);
+    EXPECT_GE(distance, wanted);
+    EXPECT_GE(station + distance, point - kRounding) << "at " << station;
+    point = station + distance;
+    steepest = std::max(steepest, last - wanted);
+    last = wanted;
+  }
+  EXPECT_GT(steepest, 10.0 * step);  // PreviewDistance itself jumps back.
+  EXPECT_NEAR(point - path.length(), last, step);
 }
 
 }  // namespace preview_distance_test
