@@ -51,8 +51,8 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "kinematic.plan.json",
                                                              "kinematic.tree.csv",
                                                              "mujoco-magic_formula.state.csv"}));
-  // Five files per plant and twenty-five others.
-  EXPECT_EQ(run_folder::AllNames().size(), 5 * DrivenPlantNames().size() + 25);
+  // Five files per plant and twenty-six others.
+  EXPECT_EQ(run_folder::AllNames().size(), 5 * DrivenPlantNames().size() + 26);
   EXPECT_STREQ(run_folder::kSweepCsv, "sweep.csv");
   EXPECT_STREQ(run_folder::kSweepJson, "sweep.json");
 }

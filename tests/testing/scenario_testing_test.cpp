@@ -197,9 +197,11 @@ TEST(ThreeTurns, IsDrivenOnContactsAsTheKinematicModelSays) {
   // The servo lags by 10 to 15 ms. At 0.15 rad/s, the steering angle is therefore up to 2.3 mrad
   // behind, and the yaw rate by v/L = 1.1 1/s times this angle. In turns of radius 16.8 m, with a
   // yaw rate of 0.18 rad/s, the heading is 2.7 mrad behind, which is 7 mm over the preview distance
-  // of 2.5 m. At 0.5 m/s^2, the slip of the tyres has a smaller effect.
+  // of 2.5 m. At 0.5 m/s^2, the slip of the tyres has a smaller effect. Without `slip`, the
+  // controller steers both cars by the same law.
   EXPECT_THAT(
-      Compare(RunScenario(File("three_turns"), {"control.distance=2.5", "vehicle.tyre=contact"}),
+      Compare(RunScenario(File("three_turns"),
+                          {"control.distance=2.5", "control.slip=false", "vehicle.tyre=contact"}),
               "kinematic", "mujoco"),
       DiffersByAtMost({.position_max = Tolerance(0.007),
                        .heading_max = Tolerance(0.0027),
