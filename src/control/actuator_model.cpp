@@ -206,33 +206,34 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
   double Steer(const ControlInput& input) override {
     const double road = std::exchange(road_, 1.0);
     slips_ = slips_ || RearAxleSlips(input);
-    VehicleParams vehicle = input.vehicle;
-    vehicle.friction_longitudinal *= road;
-    vehicle.friction_lateral *= road;
+    vehicle_ = input.vehicle;
+    vehicle_.friction_longitudinal *= road;
+    vehicle_.friction_lateral *= road;
     if (!slips_) {
-      vehicle.cornering_stiffness_front = 0.0;
-      vehicle.cornering_stiffness_rear = 0.0;
+      vehicle_.cornering_stiffness_front = 0.0;
+      vehicle_.cornering_stiffness_rear = 0.0;
     }
     if (input.vehicle.steering_response.ideal() && knowledge_ == ActuatorKnowledge::kModel) {
-      return SteerWithin(input, vehicle, input.state);
+      return SteerWithin(input, input.state);
     }
     if (knowledge_ == ActuatorKnowledge::kIgnore) {
-      vehicle.steering_response = {};
-      vehicle.steering_lag = 0.0;
-      return SteerWithin(input, vehicle, input.state);
+      vehicle_.steering_response = {};
+      vehicle_.steering_lag = 0.0;
+      return SteerWithin(input, input.state);
     }
     if (!model_) {
       model_.emplace(input.vehicle, input.period, input.state.steering_actuator);
     }
-    const VehicleState state = Predict(input, vehicle);
-    vehicle.steering_response = {};
-    vehicle.steering_response.time_constant = input.vehicle.steering_response.time_constant / kLead;
-    const ControlInput ahead = Ahead(input, vehicle, state);
+    const VehicleState state = Predict(input);
+    vehicle_.steering_response = {};
+    vehicle_.steering_response.time_constant =
+        input.vehicle.steering_response.time_constant / kLead;
+    const ControlInput ahead = Ahead(input, state);
     const PathBend bend = ahead.reference.path.BendAt(ahead.station);
     const double steady =
-        SteadyTurnOn(vehicle, bend.curvature, bend.direction * std::abs(ahead.state.speed))
+        SteadyTurnOn(vehicle_, bend.curvature, bend.direction * std::abs(ahead.state.speed))
             .steering;
-    return model_->Command(SteerWithin(input, vehicle, state), steady,
+    return model_->Command(SteerWithin(input, state), steady,
                            DeadZone(input.vehicle, input.state.speed, input.period));
   }
 
@@ -261,18 +262,17 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
  private:
   /// Returns the angle that the control law wants in the predicted `state` of the car, within
   /// AllowedSteering.
-  double SteerWithin(const ControlInput& input, VehicleParams vehicle, const VehicleState& state) {
-    const SteeringRange range = AllowedSteering(vehicle, state);
-    vehicle.steering_limit = std::max(-range.lowest, range.highest);
-    return std::clamp(inner_->Steer(Ahead(input, vehicle, state)), range.lowest, range.highest);
+  double SteerWithin(const ControlInput& input, const VehicleState& state) {
+    const SteeringRange range = AllowedSteering(vehicle_, state);
+    vehicle_.steering_limit = std::max(-range.lowest, range.highest);
+    return std::clamp(inner_->Steer(Ahead(input, state)), range.lowest, range.highest);
   }
 
   /// Returns the inputs of the controller for the predicted `state` of the car.
-  static ControlInput Ahead(const ControlInput& input, const VehicleParams& vehicle,
-                            const VehicleState& state) {
+  [[nodiscard]] ControlInput Ahead(const ControlInput& input, const VehicleState& state) const {
     const double moved = state.distance - input.state.distance;
     const double speed = std::abs(input.state.speed);
-    return {.vehicle = vehicle,
+    return {.vehicle = vehicle_,
             .reference = input.reference,
             .schedule = input.schedule,
             .state = state,
@@ -294,11 +294,10 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
         .s;
   }
 
-  /// Returns the state of the car `vehicle` at the end of the dead time.
-  [[nodiscard]] VehicleState Predict(const ControlInput& input,
-                                     const VehicleParams& vehicle) const {
+  /// Returns the car's state at the end of the dead time.
+  [[nodiscard]] VehicleState Predict(const ControlInput& input) const {
     const double error = input.state.steering_actuator - model_->angle();
-    PredictedCar car(vehicle, input.state);
+    PredictedCar car(vehicle_, input.state);
     SteeringFilter filter = model_->filter();
     const double step = input.period / kSubsteps;
     for (double left = input.vehicle.steering_response.dead_time; left > kSameTime; left -= step) {
@@ -316,8 +315,9 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
   std::unique_ptr<SteeringController> inner_;
   ActuatorKnowledge knowledge_;
   std::optional<ActuatorModel> model_;
-  bool slips_ = false;  // Whether the rear axle has ever moved sideways.
-  double road_ = 1.0;   // Factor of the road on the friction of the tyres, in the coming period.
+  VehicleParams vehicle_;  // The car that `inner` receives, kept for its memory.
+  bool slips_ = false;     // Whether the rear axle has ever moved sideways.
+  double road_ = 1.0;      // Factor of the road on the friction of the tyres, in the coming period.
 };
 
 }  // namespace
