@@ -95,7 +95,9 @@ std::vector<Vec2> WithFewestTightCorners(const VehicleParams& vehicle, const Rou
   for (double length = first.length; length <= longest && fewest > 0; length *= kLonger) {
     std::vector<Vec2> fewer = LeaveOutCloseWaypoints(points, choice);
     const int tight = TightCorners(fewer, choice);
-    if (tight < fewest && PassesNear(fewer, route.waypoints, choice.max_gap)) {
+    // With a point added behind the first waypoint, the path leads back unless all corners fit.
+    const bool may_help = tight == 0 || length == first.length;
+    if (tight < fewest && may_help && PassesNear(fewer, route.waypoints, choice.max_gap)) {
       best = std::move(fewer);
       fewest = tight;
     }
