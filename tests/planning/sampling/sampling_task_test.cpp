@@ -71,9 +71,18 @@ TEST(PlanWithLeadIn, TriesNoStraightStartTwice) {
 
 TEST(PlanWithLeadIn, TriesNoOtherWhereALongerOneDoesNotHelp) {
   EXPECT_EQ(AskedWhenRefused(Rolling(100.0), PlanStatus::kGoalBlocked).size(), 1U);
+}
+
+TEST(PlanWithLeadIn, TriesAShorterStartOfACarAtRest) {
   PlanRequest standing = Rolling(100.0);
   standing.start_speed = 0.0;
-  EXPECT_EQ(AskedWhenRefused(standing, PlanStatus::kTurnTooTight).size(), 1U);
+  const double radius = ReferenceCar().min_turning_radius();
+  EXPECT_EQ(AskedWhenRefused(standing, PlanStatus::kTurnTooTight),
+            (std::vector<Asked>{{4.0, 3},
+                                {4.0 + radius, 3},
+                                {4.0 + 0.5 * radius, 1},
+                                {4.0 + 0.25 * radius, 1},
+                                {2.0, 1}}));
 }
 
 TEST(PlanWithLeadIn, LeavesACarThatHeadsElsewhereByATurn) {
@@ -94,7 +103,7 @@ TEST(PlanWithLeadIn, LeavesACarThatHeadsElsewhereByATurn) {
   standing.waypoints[1].x() = 100.0;
   departures.clear();
   EXPECT_FALSE(PlanWithLeadIn(Options{}, standing, accept_turns, kLeadIns).ok());
-  EXPECT_EQ(departures.size(), 1U);
+  EXPECT_THAT(departures, testing::Each(testing::IsEmpty()));
 }
 
 TEST(PlanWithLeadIn, NamesTheStartSpeedThatFits) {
