@@ -8,15 +8,23 @@
 #include "src/control/preview_distance.h"
 #include "src/control/tracking.h"
 #include "src/control/turn_round.h"
+#include "trackbed/core/angle.h"
 
 namespace trackbed {
 namespace {
 
-/// Returns the heading error [rad] of the car in the steady turn on its path.
-double SteadyHeading(const ControlInput& input, const PathBend& bend) {
-  const double speed = bend.direction * std::abs(input.state.speed);
+/// Returns the heading error [rad] of the car in the steady turn on its path. The curvature of the
+/// turn is the mean over the next wheelbase, so that a short flaw of the path does not move the
+/// wheels.
+double SteadyHeading(const ControlInput& input, int direction) {
+  const Path& path = input.reference.path;
+  const double ahead = input.vehicle.wheelbase;
+  const double turned =
+      AngleDifference(path.At(input.station + ahead).pose.yaw, path.At(input.station).pose.yaw);
+  const double curvature = turned / (direction * ahead);
+  const double speed = direction * std::abs(input.state.speed);
   // A slip angle of SteadyTurnOn is the ratio of the lateral to the longitudinal speed.
-  return std::atan(SteadyTurnOn(input.vehicle, bend.curvature, speed).heading_error);
+  return std::atan(SteadyTurnOn(input.vehicle, curvature, speed).heading_error);
 }
 
 class Preview final : public SteeringController {
@@ -32,10 +40,9 @@ class Preview final : public SteeringController {
     if (const std::optional<double> steering = turn_round_.Steer(input, angle)) {
       return *steering;
     }
-    const PathBend here = input.reference.path.BendAt(input.station);
-    const int direction = here.direction;
+    const int direction = input.reference.path.BendAt(input.station).direction;
     // In the steady turn, the heading differs from the direction of motion.
-    const double u = angle + (options_.slip ? SteadyHeading(input, here) : 0.0);
+    const double u = angle + (options_.slip ? SteadyHeading(input, direction) : 0.0);
     // In reverse gear, steering to the right turns the direction of motion to the left.
     const double bend =
         direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
