@@ -13,6 +13,11 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/track/closed_spline.h"
 
+// The bank of a road as parameters of an identification: its values at evenly spaced knots of a
+// spline over the road. The road is the given track, or the path of the first record with edges
+// that all records stay within. An open road is mirrored at its end, so that it has a closed
+// spline. BankedGround makes the terrain for each set of values.
+
 namespace trackbed {
 namespace {
 

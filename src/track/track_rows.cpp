@@ -12,6 +12,10 @@
 
 #include "trackbed/core/csv_rows.h"
 
+// Reads the rows of a track. The columns are found by their usual names; without names, four
+// columns are TUM's, and two are x and y. Missing widths come from the scenario. All faults of the
+// rows are collected before the file is refused.
+
 namespace trackbed {
 namespace {
 
