@@ -13,7 +13,7 @@
 #include "trackbed/planning/common/turn_behind.h"
 #include "trackbed/world/world.h"
 
-// What planners of routes share: checks of their requests, stops at waypoints, and keys. A stop
+// Planners of routes share these checks of their requests, stops at waypoints, and keys. A stop
 // without a given heading faces along the circle through the stop before, the waypoint and the next
 // waypoint; the goal faces away from the last stop.
 
