@@ -15,8 +15,11 @@ namespace {
 
 /// Returns the heading error [rad] of the car in the steady turn on its path. The curvature of the
 /// turn is the mean over the next wheelbase, so that a short flaw of the path does not move the
-/// wheels.
+/// wheels. A car without tyre coefficients heads along its path.
 double SteadyHeading(const ControlInput& input, int direction) {
+  if (!HasTyres(input.vehicle)) {
+    return 0.0;
+  }
   const Path& path = input.reference.path;
   const double ahead = input.vehicle.wheelbase;
   const double turned =
