@@ -109,6 +109,20 @@ TEST_P(EverySearch, TellsThatNothingIsFeasible) {
   EXPECT_GE(result.violation, 0.25) << "no x keeps both: the middle of the gap violates by 0.25";
 }
 
+// NLopt's DIRECT reads uninitialized memory if its first evaluation stops it. Debian 13's NLopt
+// crashed then in one of forty runs; memory checkers report it everywhere.
+TEST_P(EverySearch, SurvivesEveryBudgetIfNothingIsFeasible) {
+  SearchProblem problem = Bowl();
+  problem.constraint_count = 1;
+  problem.constraints = [](Point, std::span<double> values) { values[0] = 1.0; };
+  SearchOptions options = With(GetParam().method);
+  for (options.evaluations = 1; options.evaluations <= 60; ++options.evaluations) {
+    const SearchResult result = Search(problem, options, 1);
+    EXPECT_EQ(result.status, SearchStatus::kInfeasible);
+    EXPECT_LE(result.evaluations, options.evaluations);
+  }
+}
+
 TEST_P(EverySearch, NeverCallsNoNumberASuccess) {
   SearchProblem problem = Bowl();
   problem.objective = [](Point) { return std::numeric_limits<double>::quiet_NaN(); };
