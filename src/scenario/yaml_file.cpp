@@ -280,7 +280,8 @@ SyntaxError Explain(const std::string& text, const YAML::Exception& error,
   if (said == Says::MAP_KEY) {
     return {mark, "text that starts with '? ' must be in quotes"};
   }
-  if (said == Says::UNKNOWN_ANCHOR) {
+  // Newer versions of yaml-cpp append the name of the anchor.
+  if (said.starts_with(Says::UNKNOWN_ANCHOR)) {
     return {mark, "the alias ('*') has no anchor ('&') above"};
   }
   return {mark, "not YAML: " + said};
