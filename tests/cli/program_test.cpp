@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 namespace trackbed {
 namespace {
 
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -445,8 +447,11 @@ TEST(Program, CtrlCInTheFilmLeavesTheVerdict) {
                                       "[ -s told ]", "INT");
   EXPECT_EQ(outcome.code, 130);
   EXPECT_THAT(ReadFile(folder.path() / "told"), StartsWith("winding: passed, in r/winding\n"));
-  EXPECT_EQ(ReadFile(folder.path() / "errors"),
-            "interrupted; no film was written\ninterrupted: 1 of 2 scenarios not run\n");
+  // On a busy machine a frame may take longer than the time that the program has to end.
+  EXPECT_THAT(ReadFile(folder.path() / "errors"),
+              AnyOf("interrupted; no film was written\ninterrupted: 1 of 2 scenarios not run\n",
+                    "interrupted: ended in the middle of its work\n"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "r/winding/video.mp4"));
 }
 
 }  // namespace
