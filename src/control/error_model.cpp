@@ -5,6 +5,7 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "src/control/ramped_path.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
@@ -164,9 +165,11 @@ Regulator SolveRegulator(const ErrorModel& model, const ErrorWeights& weights) {
   return regulator;
 }
 
-Ahead::Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model)
+Ahead::Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model,
+             const RampedPath* path)
     : input_(input),
       model_(model),
+      path_(path),
       station_(input.station),
       excess_speed_(std::abs(model.speed) - input.reference.speed.SpeedAt(input.station)),
       direction_(tracking.foot.direction),
@@ -190,7 +193,7 @@ Vector Ahead::Next() {
   const Motion from = MotionOn(curvature_);
   const double stride = std::abs(from.speed) * model_.period;
   station_ += stride;
-  const PathPoint next = input_.reference.path.At(station_);
+  const PathPoint next = path_ ? path_->At(station_) : input_.reference.path.At(station_);
   // Mean curvature over the step, computed from the heading change so that it includes curvature
   // jumps.
   const double mean = AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride);

@@ -9,6 +9,8 @@
 
 namespace trackbed {
 
+class RampedPath;
+
 /// Linear discrete-time model of a car's deviation from its path at constant speed u; the steering
 /// rate is constant in each time step. LQR and MPC are based on this model.
 ///
@@ -141,10 +143,12 @@ ErrorModel::Vector StateCost(const ErrorModel& model, const ErrorWeights& weight
 /// the steady turn satisfies z(k+1) = a z(k) + b w(k) + g(k). With kLinear, the speed on the path
 /// ahead is the car's present speed. Without kLinear, the speed on the path ahead is the planned
 /// speed plus the amount by which the car now exceeds the planned speed. The speed on the path
-/// ahead determines the length of a step and the steady turn x_0(k).
+/// ahead determines the length of a step and the steady turn x_0(k). With `path`, the car follows
+/// the ramped path instead of the path, and `tracking` is RampedPath::Track.
 class Ahead {
  public:
-  Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model);
+  Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model,
+        const RampedPath* path = nullptr);
 
   /// Returns the steady turn x_0 at the present step.
   [[nodiscard]] const ErrorModel::Vector& steady() const { return steady_; }
@@ -160,6 +164,7 @@ class Ahead {
 
   const ControlInput& input_;
   const ErrorModel& model_;
+  const RampedPath* path_;
   double station_;
   double excess_speed_;  // excess of the car's speed over the planned speed [m/s]
   int direction_;

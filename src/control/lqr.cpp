@@ -5,6 +5,7 @@
 
 #include "src/control/control_keys.h"
 #include "src/control/error_model.h"
+#include "src/control/ramped_path.h"
 #include "src/control/turn_round.h"
 
 namespace trackbed {
@@ -19,9 +20,13 @@ class Lqr final : public SteeringController {
       return angle_.Approach(input, *steering);
     }
     const VehicleParams& vehicle = input.vehicle;
-    const Tracking tracking = ProjectOntoPath(input);
+    const auto steps = static_cast<long>(std::ceil(options_.preview / input.period));
+    const double previewed =
+        std::abs(input.state.speed) * input.period * static_cast<double>(steps);
+    path_.Update(input, previewed);
+    const Tracking tracking = path_.Track();
     const ErrorModel model = MakeErrorModel(input, tracking, input.period, options_.tyres);
-    Ahead ahead(input, tracking, model);
+    Ahead ahead(input, tracking, model, &path_);
     ErrorModel::Vector z = ErrorState(input, tracking, options_.tyres) - ahead.steady();
     ErrorWeights weights = WeightsFor(vehicle, options_, model.speed, input.period);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z);
@@ -30,7 +35,6 @@ class Lqr final : public SteeringController {
     // Computes B^T (A_c^T)^k P from A_c^k B.
     const ErrorModel::Matrix closed = model.a - model.b * regulator.gain;
     ErrorModel::Vector reach = model.b;
-    const auto steps = static_cast<long>(std::ceil(options_.preview / input.period));
     for (long k = 0; k < steps; ++k) {
       const ErrorModel::Vector push = regulator.cost * ahead.Next();
       rate -= reach.dot(push) / regulator.input_cost;
@@ -42,6 +46,7 @@ class Lqr final : public SteeringController {
  private:
   LqrOptions options_;
   CommandedAngle angle_;
+  RampedPath path_;
   TurnRound turn_round_;
 };
 

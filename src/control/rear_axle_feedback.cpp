@@ -5,7 +5,7 @@
 
 #include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
-#include "src/control/tracking.h"
+#include "src/control/ramped_path.h"
 #include "src/control/turn_round.h"
 
 namespace trackbed {
@@ -35,7 +35,8 @@ class RearAxleFeedback final : public SteeringController {
       return *steering;
     }
     const VehicleParams& vehicle = input.vehicle;
-    const Tracking tracking = ProjectOntoPath(input);
+    path_.Update(input, WayInLag(input));
+    const Tracking tracking = path_.Track();
     const int direction = tracking.foot.direction;
     const double speed = direction * std::abs(input.state.speed);
     const double curvature = tracking.foot.curvature;
@@ -44,7 +45,7 @@ class RearAxleFeedback final : public SteeringController {
         tracking.heading_error - SteadyTurnOn(vehicle, curvature, speed).heading_error;
     const double d = options_.distance ? *options_.distance : DefaultDistance(input, e);
     const double parallel =
-        CurvatureAfterLag(input) * std::cos(psi) / std::max(1.0 - curvature * e, kNearCenter);
+        path_.CurvatureAfterLag() * std::cos(psi) / std::max(1.0 - curvature * e, kNearCenter);
     const double feedback = direction * 2.0 * psi / d + e * Sinc(psi) / (d * d);
     const double steering = SteadyTurnOn(vehicle, parallel - feedback, speed).steering;
     return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
@@ -52,6 +53,7 @@ class RearAxleFeedback final : public SteeringController {
 
  private:
   RearAxleFeedbackOptions options_;
+  RampedPath path_;
   TurnRound turn_round_;
 };
 

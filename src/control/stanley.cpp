@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/control/tracking.h"
+#include "src/control/ramped_path.h"
 #include "src/control/turn_round.h"
 
 namespace trackbed {
@@ -18,11 +18,12 @@ class Stanley final : public SteeringController {
       return *steering;
     }
     const VehicleParams& vehicle = input.vehicle;
-    const Tracking tracking = ProjectOntoPath(input);
+    path_.Update(input, WayInLag(input));
+    const Tracking tracking = path_.Track();
     const int direction = tracking.foot.direction;
     const double speed = std::abs(input.state.speed);
     const SteadyTurn turn = SteadyTurnOn(vehicle, tracking.foot.curvature, direction * speed);
-    const SteadyTurn ahead = SteadyTurnOn(vehicle, CurvatureAfterLag(input), direction * speed);
+    const SteadyTurn ahead = SteadyTurnOn(vehicle, path_.CurvatureAfterLag(), direction * speed);
     const double heading = tracking.heading_error - turn.heading_error;
     double offset = tracking.cross_track;
     if (direction > 0) {
@@ -40,6 +41,7 @@ class Stanley final : public SteeringController {
 
  private:
   StanleyOptions options_;
+  RampedPath path_;
   TurnRound turn_round_;
 };
 

@@ -15,8 +15,12 @@ Tracking ProjectOntoPath(const ControlInput& input) {
   return tracking;
 }
 
+double WayInLag(const ControlInput& input) {
+  return std::abs(input.state.speed) * input.vehicle.steering_response.time_constant;
+}
+
 double CurvatureAfterLag(const ControlInput& input) {
-  const double way = std::abs(input.state.speed) * input.vehicle.steering_response.time_constant;
+  const double way = WayInLag(input);
   const Path& path = input.reference.path;
   const PathBend here = path.BendAt(input.station);
   const PathBend ahead = path.BendAt(input.station + way);

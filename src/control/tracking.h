@@ -17,6 +17,9 @@ struct Tracking {
 
 Tracking ProjectOntoPath(const ControlInput& input);
 
+/// Returns the distance [m] that the car drives within SteeringResponse::time_constant.
+double WayInLag(const ControlInput& input);
+
 /// Returns the curvature of the path [1/m] at the place that the car reaches after the lag of its
 /// steering actuator (SteeringResponse::time_constant), but not beyond a cusp. A control law
 /// without preview that steers by this curvature turns the lagging wheels in time.

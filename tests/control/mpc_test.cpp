@@ -33,7 +33,7 @@ TEST(Mpc, IsTheRegulatorWhereNoLimitIsInTheWay) {
   const double period = 0.1;
   for (int i = 0; i < 100; ++i) {
     VehicleParams car = i % 2 == 0 ? ReferenceCar() : ReferenceCarWithTyres();
-    car.steering_rate = 100.0;
+    car.steering_rate = 1e6;  // the regulator sees ramps instead of steps of the curvature
     car.steering_limit = 1.5;
     const int direction = i % 5 == 0 ? -1 : 1;
     const double speed = direction * random.Uniform(1.0, 25.0);

@@ -1,0 +1,152 @@
+#include "src/control/ramped_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/core/angle.h"
+
+namespace trackbed {
+namespace {
+
+/// Ratio of the lengths of tail and ramp.
+constexpr double kTail = 2.0;
+/// Least ratio of the lengths of tail and ramp, with which the tail keeps within 1.25 times the
+/// steering rate.
+constexpr double kShortestTail = 1.0;
+
+/// Offset of the ramped path from the path, and its derivatives by the station.
+struct Offset {
+  double e = 0.0;
+  double slope = 0.0;
+  double bend = 0.0;
+};
+
+/// Largest second derivative of the polynomial (1 - u)^3 (1 + 3 u + 6 u^2).
+const double kTailBend = 10.0 / std::sqrt(3.0);
+
+/// Returns the offset for a step of height 1, at the distance x from the step. The part `before` of
+/// the offset of the ramp lies ahead of the step.
+Offset OffsetFrom(double x, double ramp, double tail, double before) {
+  const double side = x < 0.0 ? -1.0 : 1.0;
+  const double half = 0.5 * ramp;
+  const double d = std::abs(x);
+  const double end = (x < 0.0 ? -before : 1.0 - before) * ramp * ramp / 24.0;
+  if (d < half) {
+    // The bend is linear and vanishes at the end of the ramp, and so do its integrals there.
+    const double left = half - d;
+    return {.e = end - side * left * left * left / (6.0 * ramp),
+            .slope = left * left / (2.0 * ramp),
+            .bend = -side * left / ramp};
+  }
+  const double u = (d - half) / tail;
+  if (u >= 1.0) {
+    return {};
+  }
+  const double v = 1.0 - u;
+  return {.e = end * v * v * v * (1.0 + 3.0 * u + 6.0 * u * u),
+          .slope = -side * end * 30.0 * u * u * v * v / tail,
+          .bend = -end * 60.0 * u * v * (1.0 - 2.0 * u) / (tail * tail)};
+}
+
+}  // namespace
+
+void RampedPath::Update(const ControlInput& input, double ahead) {
+  input_ = &input;
+  steps_.clear();
+  const VehicleParams& vehicle = input.vehicle;
+  const SpeedProfile& planned = input.reference.speed;
+  const double speed = std::abs(input.state.speed);
+  const bool has_speeds = !planned.knots().empty();
+  const double excess = has_speeds ? speed - planned.SpeedAt(input.station) : 0.0;
+  const auto steering = [&](double curvature) {
+    return std::clamp(SteeringForCurvature(vehicle, curvature), -vehicle.steering_limit,
+                      vehicle.steering_limit);
+  };
+  const double last = input.station + ahead;
+  const double tightest = CurvatureForSteering(vehicle, vehicle.steering_limit);
+  const std::vector<Segment>& segments = input.reference.path.segments();
+  double station = 0.0;
+  double leg = 0.0;      // Station at which the present leg begins.
+  std::size_t kept = 0;  // Number of steps before the present leg.
+  const auto end_leg = [&] {
+    for (std::size_t i = kept; i < steps_.size(); ++i) {
+      Step& step = steps_[i];
+      const double room = std::min(step.station - step.tail, station - step.station);
+      step.ramp = std::min(step.ramp, room / (0.5 + kShortestTail));
+      step.tail = std::min(kTail * step.ramp, room - 0.5 * step.ramp);
+      // The tails of two steps may add.
+      const double ramp_by_tail = step.ramp / step.tail;
+      const double bend = 2.0 * kTailBend / 24.0 * ramp_by_tail * ramp_by_tail;
+      const auto share = [&](double curvature) {
+        const double left = std::max(tightest - std::abs(curvature), 0.0);
+        return std::min(left / (bend * std::abs(step.height)), 0.5);
+      };
+      const double ahead_share = share(step.from);
+      const double shares = ahead_share + share(step.from + step.height);
+      step.before = shares > 0.0 ? ahead_share / shares : 0.5;
+    }
+    kept = steps_.size();
+    leg = station;
+  };
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const Segment& segment = segments[i];
+    if (i > 0) {
+      const Segment& before = segments[i - 1];
+      if (before.direction != segment.direction) {
+        end_leg();
+      } else if (const double end = before.CurvatureAt(before.length); end != segment.curvature) {
+        const double v = has_speeds ? std::max(planned.SpeedAt(station) + excess, 0.0) : speed;
+        const double ramp =
+            v * std::abs(steering(segment.curvature) - steering(end)) / vehicle.steering_rate;
+        const double reach = (0.5 + kTail) * ramp;
+        if (station + reach > input.station && station - reach < last) {
+          steps_.push_back({.station = station,
+                            .from = end,
+                            .height = segment.curvature - end,
+                            .ramp = ramp,
+                            .tail = leg,  // until the end of the leg is known
+                            .before = 0.5,
+                            .direction = segment.direction});
+        }
+      }
+    }
+    station += segment.length;
+  }
+  end_leg();
+  std::erase_if(steps_, [](const Step& step) { return !(step.ramp > 0.0); });
+}
+
+PathPoint RampedPath::At(double s) const {
+  PathPoint point = input_->reference.path.At(s);
+  for (const Step& step : steps_) {
+    const auto [e, slope, bend] = OffsetFrom(s - step.station, step.ramp, step.tail, step.before);
+    if (step.direction != point.direction) {
+      continue;
+    }
+    const double yaw = point.pose.yaw;
+    point.pose.x -= step.height * e * std::sin(yaw);
+    point.pose.y += step.height * e * std::cos(yaw);
+    // In reverse, the path turns to the other side of the car's heading.
+    point.pose.yaw = WrapAngle(yaw + step.direction * step.height * slope);
+    point.curvature += step.height * bend;
+  }
+  return point;
+}
+
+Tracking RampedPath::Track() const {
+  Tracking tracking;
+  tracking.foot = At(input_->station);
+  const Pose2& pose = input_->state.pose;
+  tracking.cross_track = ToLocal(tracking.foot.pose, pose.position()).y();
+  tracking.heading_error = AngleDifference(pose.yaw, tracking.foot.pose.yaw);
+  return tracking;
+}
+
+double RampedPath::CurvatureAfterLag() const {
+  const double way = WayInLag(*input_);
+  const PathPoint here = At(input_->station);
+  const PathPoint ahead = At(input_->station + way);
+  return ahead.direction == here.direction ? ahead.curvature : here.curvature;
+}
+
+}  // namespace trackbed
