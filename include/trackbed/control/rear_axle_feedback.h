@@ -10,9 +10,10 @@ namespace trackbed {
 /// wheel position based feedback"), for forward and reverse paths.
 ///
 /// Symbols: e, psi cross-track and heading error of the rear axle [m, rad]; D = +1 forwards, -1
-/// backwards; kappa the path's curvature at the car; psi_0(kappa) the heading error of the steady
-/// turn on that curvature, 0 for a car without slip; d the option `distance` [m]. The commanded
-/// curvature is
+/// backwards; kappa the path's curvature at the car, with ramps instead of steps that the wheels
+/// cannot follow (docs/algorithms/control.md, "Ramped path"); psi_0(kappa) the heading error of the
+/// steady turn on that curvature, 0 for a car without slip; d the option `distance` [m]. The
+/// commanded curvature is
 ///   kappa_c = kappa cos(psi - psi_0)/(1 - kappa e) - D 2 (psi - psi_0)/d - e sinc(psi - psi_0)/d^2
 /// For a car without slip, the commanded steering angle is atan(L kappa_c). For a car with tyre
 /// coefficients, the commanded steering angle is that of a steady turn of the linear single-track
