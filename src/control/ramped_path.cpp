@@ -65,6 +65,7 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
   const double last = input.station + ahead;
   const double tightest = CurvatureForSteering(vehicle, vehicle.steering_limit);
   const std::vector<Segment>& segments = input.reference.path.segments();
+  steps_.reserve(segments.size());  // no more steps than segments
   double station = 0.0;
   double leg = 0.0;      // Station at which the present leg begins.
   std::size_t kept = 0;  // Number of steps before the present leg.

@@ -35,8 +35,8 @@ class RampedPath {
  public:
   /// Finds the steps that act between the car's station and `ahead` [m] beyond it. The speed v at a
   /// step is the planned one, plus the amount by which the car now exceeds its plan. `input` must
-  /// outlive the other calls. Takes no heap memory unless there are more steps than ever before.
-  /// Cost O(n) for a path of n segments.
+  /// outlive the other calls. Takes heap memory only if the path has more segments than each
+  /// before. Cost O(n) for a path of n segments.
   void Update(const ControlInput& input, double ahead);
 
   /// Returns the ramped path's point beside station `s` of the path, which is between the stations
