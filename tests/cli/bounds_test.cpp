@@ -217,13 +217,13 @@ TEST(WrongNumber, OfRoadsEndsInTime) {
 
 // --- signals -------------------------------------------------------------------------------------
 
-/// Sends a signal to the program one second after its start. Returns the outcome, and the time
-/// until the end [s].
+/// Sends a signal to the program as soon as the shell command `wait` ends. Returns the outcome, and
+/// the time from the signal to the end [s].
 std::pair<Outcome, double> Ended(const TempFolder& folder, const std::string& arguments,
-                                 const std::string& signal) {
+                                 const std::string& signal, const std::string& wait = "sleep 1") {
   const Outcome outcome = Shell(
-      folder, TRACKBED_PROGRAM " " + arguments +
-                  " > said 2>&1 & sleep 1; kill -0 $! || { echo ended before; exit 9; }; "
+      folder, TRACKBED_PROGRAM " " + arguments + " > said 2>&1 & " + wait +
+                  "; kill -0 $! || { echo ended before; exit 9; }; "
                   "begun=$(date +%s%N); kill -" +
                   signal + " $!; wait $!; code=$?; echo $(( $(date +%s%N) - begun )); exit $code");
   return {outcome, outcome.code == 9 ? 0.0 : 1e-9 * std::stod(outcome.output)};
@@ -268,8 +268,10 @@ TEST_P(SignalTo, EndsItWithinASecond) {
 
 TEST(Signal, LeavesTheLogOfARunWithoutMcap) {
   const TempFolder folder;
-  const auto ended = Ended(
-      folder, "run three_turns -o r --mcap --plant mujoco --set drive.timestep=0.0001", "TERM");
+  // The run creates its folder before the simulation.
+  const auto ended =
+      Ended(folder, "run three_turns -o r --mcap --plant mujoco --set drive.timestep=0.0001",
+            "TERM", "until [ -d r ]; do kill -0 $! && sleep 0.1 || break; done; sleep 1");
   EXPECT_EQ(ended.first.code, 130);
   EXPECT_TRUE(fs::exists(folder.path() / "r/mujoco.csv"));
   EXPECT_FALSE(fs::exists(folder.path() / "r/run.mcap"));
