@@ -149,11 +149,12 @@ TEST(DriveClock, PausesAllPlantsAtTheSameTime) {
       comes = true;
       clock.Advance(1, 0.0);
     });
-    // After this loop, the other plant most probably waits in Advance(). The test also passes if
-    // the plant does not wait yet.
-    for (int turn = 0; turn < 1000 || !comes; ++turn) {
+    while (!comes) {
       std::this_thread::yield();
     }
+    // Now the other plant most probably waits in Advance(). The test also passes if the plant does
+    // not wait yet.
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
     clock.Advance(0, 0.0);
     clock.Pause();
     const bool begins = other.wait_for(std::chrono::seconds(60)) == std::future_status::ready;
