@@ -48,11 +48,12 @@ def whole(name: str, value: object, least: int, most: Optional[int] = None) -> i
     """Returns the whole number `value` of the argument `name`, within its bounds."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} must be a whole number, not {type_name(value)}")
-    if value < least:
+    result = int(value)
+    if result < least:
         raise ValueError(f"{name} is {value}; must be at least {least}")
-    if most is not None and value > most:
+    if most is not None and result > most:
         raise ValueError(f"{name} is too large; must be at most {most}")
-    return int(value)
+    return result
 
 
 INT_MAX = 2**31 - 1
@@ -160,7 +161,7 @@ def array(name: str, value: object, shape: tuple[int, ...], finite: bool = True)
     """Returns the argument `name` as an array of float64 with the given shape."""
     result = doubles(name, value)
     if result.shape != shape:
-        raise ValueError(f"{name} has the shape {numpy.shape(value)}; must be {shape}")
+        raise ValueError(f"{name} has the shape {result.shape}; must be {shape}")
     if finite and not numpy.isfinite(result).all():
         raise ValueError(f"{name} has a value that is not finite")
     return result
@@ -172,6 +173,18 @@ def row(name: str, value: object) -> numpy.ndarray:
     if result.ndim != 1:
         raise ValueError(f"{name} has the shape {result.shape}; must be (n,)")
     return array(name, result, result.shape)
+
+
+def changes(options: object) -> Optional[Mapping[str, Any]]:
+    """Returns the keys and values that the options of reset() set in the scenario."""
+    changed = {} if options is None else dict(mapping("options", options, "names and values"))
+    own = changed.pop("set", None)
+    if changed:
+        raise ValueError(
+            f"options has the unknown key {next(iter(changed))!r}; allowed: 'set', with keys of the "
+            "scenario and their values"
+        )
+    return None if own is None else mapping("options['set']", own, "keys and values")
 
 
 def _plain(key: str, value: Any) -> Any:

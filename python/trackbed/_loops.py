@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn, Optional, Union
 
 import numpy
@@ -15,6 +15,7 @@ from ._arguments import (
     Overrides,
     Scenario,
     array,
+    changes,
     flag,
     instance,
     load,
@@ -27,6 +28,12 @@ from ._arguments import (
 from ._runs import Log, Run
 
 Observation = _trackbed.Observation
+
+
+_NEEDS_STEERING = (
+    "acceleration is given without steering; give both, or none of them to let the scenario's "
+    "controller drive"
+)
 
 
 def _moment(seen: Observation) -> str:
@@ -73,6 +80,8 @@ class Loop:
     Raises RunError if the scenario has no plan.
     """
 
+    _core: _trackbed.Loop
+
     def __init__(
         self,
         scenario: Scenario,
@@ -117,12 +126,24 @@ class Loop:
     def __repr__(self) -> str:
         return f"<Loop {self._prepared.name} on {self.plant}: {_moment(self.observation)}>"
 
-    def reset(self, seed: Optional[int] = None, set: Overrides = None) -> Observation:
+    def reset(
+        self,
+        seed: Optional[int] = None,
+        set: Overrides = None,
+        *,
+        options: Optional[Mapping[str, Any]] = None,
+    ) -> Observation:
         """Returns the car to its start, and returns the first observation.
 
         Without arguments, nothing is read or planned again. With `seed` or `set`, the scenario is
         read and planned again with these values instead of those of the constructor.
+        `options={"set": {...}}` is the same as `set={...}`, as in Gymnasium.
         """
+        own = changes(options)
+        if own is not None:
+            if set is not None:
+                raise ValueError("set and options['set'] are both given; give one of them")
+            set = own
         if seed is None and set is None:
             self._start(self._prepared, self.plant)
         else:
@@ -135,12 +156,14 @@ class Loop:
         """Simulates one control period, and returns what the controller sees after it.
 
         steering: commanded steering angle of the bicycle model [rad], positive to the left. Without
-            it, the scenario's controller steers and sets the speed.
+            it, the scenario's controller steers and sets the speed, and `acceleration` must be None.
         acceleration: commanded acceleration [m/s^2], positive if the car speeds up in the direction
             of its gear. Without it, the car follows the speeds of the plan.
 
         Raises RunError if the run has ended.
         """
+        if steering is None and acceleration is not None:
+            raise ValueError(_NEEDS_STEERING)
         try:
             return self._core.step(steering, acceleration)
         except TypeError:
@@ -237,13 +260,7 @@ class VectorLoop:
         log: bool = False,
     ) -> None:
         self.count = whole("count", count, 1)
-        if seeds is not None and not isinstance(seeds, (Sequence, numpy.ndarray)):
-            raise TypeError(f"seeds must be a list of whole numbers, not {type_name(seeds)}")
-        if seeds is not None and numpy.ndim(seeds) != 1:
-            raise ValueError(f"seeds has the shape {numpy.shape(seeds)}; must be ({self.count},)")
-        if seeds is not None and len(seeds) != self.count:
-            raise ValueError(f"seeds has {len(seeds)} values; must have count = {self.count}")
-        own = None if seeds is None else [whole(f"seeds[{i}]", s, 0) for i, s in enumerate(seeds)]
+        own = self._seeds(seeds)
         if threads is None:
             threads = len(os.sched_getaffinity(0))
         self._threads = whole("threads", threads, 1, INT_MAX)
@@ -269,11 +286,32 @@ class VectorLoop:
         ended = int(self.ended.sum())
         return f"<VectorLoop {first._prepared.name} on {first.plant}: {ended} of {self.count} ended>"
 
-    def reset(self) -> numpy.ndarray:
-        """Returns all cars to their starts, and returns the first observations."""
-        for loop in self.loops:
-            loop.reset()
+    def reset(
+        self,
+        seeds: Union[Sequence[int], numpy.ndarray, None] = None,
+        set: Overrides = None,
+    ) -> numpy.ndarray:
+        """Returns all cars to their starts, and returns the first observations.
+
+        Without arguments, nothing is read or planned again. With `seeds`, one for each car, or
+        `set`, every car reads and plans the scenario again with these values.
+        """
+        own = self._seeds(seeds)
+        for i, loop in enumerate(self.loops):
+            loop.reset(None if own is None else own[i], set)
         return self._core.observe()
+
+    def _seeds(self, seeds: object) -> Optional[list[int]]:
+        """Returns the seed of each car, after checking the argument `seeds`."""
+        if seeds is None:
+            return None
+        if isinstance(seeds, (str, bytes)) or not isinstance(seeds, (Sequence, numpy.ndarray)):
+            raise TypeError(f"seeds must be a list of whole numbers, not {type_name(seeds)}")
+        if numpy.ndim(seeds) != 1:
+            raise ValueError(f"seeds has the shape {numpy.shape(seeds)}; must be ({self.count},)")
+        if len(seeds) != self.count:
+            raise ValueError(f"seeds has {len(seeds)} values; must have count = {self.count}")
+        return [whole(f"seeds[{i}]", seed, 0) for i, seed in enumerate(seeds)]
 
     def step(
         self,
@@ -283,10 +321,13 @@ class VectorLoop:
         """Simulates one control period of every car that has not ended.
 
         steering [rad] and acceleration [m/s^2]: arrays with the shape (count,), as in Loop.step. An
-        acceleration of NaN follows the speeds of the plan.
+        acceleration of NaN follows the speeds of the plan. Without `steering`, the scenario's
+        controllers drive, and `acceleration` must be None.
 
         Returns the observations, an array of float64 with the shape (count, len(columns)).
         """
+        if steering is None and acceleration is not None:
+            raise ValueError(_NEEDS_STEERING)
         shape = (self.count,)
         angles = None if steering is None else array("steering", steering, shape)
         if acceleration is None:

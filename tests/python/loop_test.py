@@ -111,6 +111,11 @@ def test_reset_returns_to_the_start():
     seen = loop.reset(set={"mission.start.speed": 1.0})
     assert seen.speed_mps == 1.0
     assert loop.reset().speed_mps == 1.0
+    assert loop.reset(options={"set": {"mission.start.speed": 2.0}}).speed_mps == 2.0
+    with pytest.raises(ValueError, match="options has the unknown key 'mission.start.speed'"):
+        loop.reset(options={"mission.start.speed": 2.0})
+    with pytest.raises(ValueError, match=r"set and options\['set'\] are both given"):
+        loop.reset(set={}, options={"set": {}})
 
 
 def test_seed_selects_the_noise():
@@ -144,6 +149,7 @@ def test_ends_and_refuses_another_step():
         ((math.nan,), ValueError, "steering is nan; must be finite"),
         ((0.0, math.inf), ValueError, "acceleration is inf; must be finite"),
         (([0.0],), TypeError, "steering must be a number, not list"),
+        ((None, 1.0), ValueError, "acceleration is given without steering"),
     ],
 )
 def test_wrong_commands_are_named(arguments, error, text):
@@ -231,8 +237,11 @@ def test_vector_leaves_ended_loops_and_resets():
         (lambda v: v.step([0.1]), ValueError, r"steering has the shape \(1,\); must be \(3,\)"),
         (lambda v: v.step([0.1, 0.1, math.nan]), ValueError, "steering has a value that is not"),
         (lambda v: v.step(["a", "b", "c"]), TypeError, "steering must be an array of numbers"),
-        (lambda v: v.step(None, [[1.0]]), ValueError, "acceleration has the shape"),
-        (lambda v: v.step(None, [1.0, 1.0, math.inf]), ValueError, "acceleration has an infinite"),
+        (lambda v: v.step([0.0] * 3, [[1.0]]), ValueError, "acceleration has the shape"),
+        (lambda v: v.step([0.0] * 3, [1, 1, math.inf]), ValueError, "acceleration has an infinite"),
+        (lambda v: v.step(None, [1.0] * 3), ValueError, "acceleration is given without steering"),
+        (lambda v: v.reset([1, 2]), ValueError, "seeds has 2 values; must have count = 3"),
+        (lambda v: v.reset("123"), TypeError, "seeds must be a list of whole numbers, not str"),
         (lambda v: trackbed.VectorLoop("three_turns", "kinematic", 0), ValueError, "count is 0"),
         (lambda v: trackbed.VectorLoop("three_turns", "kinematic", 2, seeds=[1]), ValueError, "seeds"),
         (lambda v: trackbed.VectorLoop("three_turns", count=1, threads=0), ValueError, "threads is 0"),
@@ -241,6 +250,25 @@ def test_vector_leaves_ended_loops_and_resets():
 def test_vector_names_wrong_arguments(use, error, text):
     with pytest.raises(error, match=text):
         use(trackbed.VectorLoop("three_turns", "kinematic", 3))
+
+
+def test_vector_resets_with_other_seeds_and_values():
+    noise = {"disturb.noise": {"position": 0.1}}
+    vector = trackbed.VectorLoop("three_turns", "kinematic", 2, seeds=[1, 2], set=noise)
+    alone = [trackbed.Loop("three_turns", "kinematic", noise, seed=i) for i in (7, 8)]
+    seen = vector.reset(seeds=[7, 8], set=noise)
+    assert [row[vector.columns.index("x_m")] for row in seen] == [
+        loop.observation.x_m for loop in alone
+    ]
+
+
+def test_observations_are_copied_but_not_pickled():
+    seen = trackbed.Loop("three_turns", "kinematic").observation
+    assert copy.copy(seen) is seen
+    assert copy.deepcopy([seen])[0] is seen
+    with pytest.raises(TypeError, match=r"cannot be pickled; use seen.asdict\(\)"):
+        pickle.dumps(seen)
+    assert pickle.loads(pickle.dumps(seen.asdict()))["speed_mps"] == seen.speed_mps
 
 
 def test_one_loop_may_be_stepped_by_several_threads():
