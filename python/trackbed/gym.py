@@ -22,6 +22,7 @@ from ._arguments import (
     Overrides,
     Scenario,
     array,
+    changes,
     items,
     mapping,
     number,
@@ -50,56 +51,83 @@ COSTS: Mapping[str, float] = {"cross_track_m": 1.0, "heading_error_rad": 1.0}
 """Weights of squared columns that the environments subtract from the reward by default."""
 
 
-class _Task:
-    """Observations, rewards and pictures of both environments, from their arguments."""
+class _Tracking:
+    """Arguments, spaces, rewards and pictures of both environments."""
 
-    def __init__(self, arguments: Mapping[str, Any]) -> None:
-        columns = texts("observed", arguments["observed"])
-        self.observed = [_column("observed", name) for name in columns]
-        ahead = arguments["ahead"]
+    def __init__(
+        self,
+        scenario: Scenario = "three_turns",
+        plant: Optional[str] = None,
+        set: Overrides = None,
+        *,
+        observed: Sequence[str] = OBSERVED,
+        ahead: Floats = (2.0, 5.0, 10.0),
+        costs: Mapping[str, float] = COSTS,
+        rewards: Mapping[str, float] = {},
+        max_cross_track: float = 5.0,
+        max_acceleration: Optional[float] = None,
+        render_mode: Optional[str] = None,
+        size: tuple[int, int] = (640, 360),
+        camera: str = "chase",
+    ) -> None:
+        self._scenario, self._plant = scenario, plant
+        self._set = {} if set is None else dict(mapping("set", set, "keys and values"))
+        self._observed = [_column("observed", name) for name in texts("observed", observed)]
         if isinstance(ahead, (str, bytes)) or not isinstance(ahead, Iterable):
             raise TypeError(f"ahead must be a list of numbers, not {type_name(ahead)}")
-        self.ahead = numpy.array([number("ahead", d) for d in items("ahead", ahead)], dtype=float)
-        weights = mapping("costs", arguments["costs"], "columns and weights")
-        self.costs = {_column("costs", c): number(f"costs[{c!r}]", w) for c, w in weights.items()}
-        weights = mapping("rewards", arguments["rewards"], "metrics and weights")
-        self.rewards = {_metric(m): number(f"rewards[{m!r}]", w) for m, w in weights.items()}
-        self.max_cross_track = positive("max_cross_track", arguments["max_cross_track"])
-        acceleration = arguments["max_acceleration"]
-        self.max_acceleration = (
-            None if acceleration is None else positive("max_acceleration", acceleration)
+        self._ahead = numpy.array([number("ahead", d) for d in items("ahead", ahead)], dtype=float)
+        weights = mapping("costs", costs, "columns and weights")
+        self._costs = {_column("costs", c): number(f"costs[{c!r}]", w) for c, w in weights.items()}
+        weights = mapping("rewards", rewards, "metrics and weights")
+        self._rewards = {_metric(m): number(f"rewards[{m!r}]", w) for m, w in weights.items()}
+        self._max_cross_track = positive("max_cross_track", max_cross_track)
+        self._max_acceleration = (
+            None if max_acceleration is None else positive("max_acceleration", max_acceleration)
         )
-        self.render_mode = arguments["render_mode"]
-        if self.render_mode not in (None, "rgb_array"):
-            raise ValueError(f"render_mode is {self.render_mode!r}; must be None or 'rgb_array'")
-        self.size = pixels("size", arguments["size"])
-        self.camera = text("camera", arguments["camera"])
-        self.keeps_log = bool(self.rewards) or self.render_mode is not None
-        actions = 1 if self.max_acceleration is None else 2
-        width = len(self.observed) + len(self.ahead)
-        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (actions,), numpy.float32)
-        self.observation_space = gymnasium.spaces.Box(-numpy.inf, numpy.inf, (width,), numpy.float32)
+        if render_mode not in (None, "rgb_array"):
+            raise ValueError(f"render_mode is {render_mode!r}; must be None or 'rgb_array'")
+        self.render_mode = render_mode
+        self._size = pixels("size", size)
+        self._camera = text("camera", camera)
+        self._keeps_log = bool(self._rewards) or render_mode is not None
+        actions = 1 if self._max_acceleration is None else 2
+        width = len(self._observed) + len(self._ahead)
+        self._actions = gymnasium.spaces.Box(-1.0, 1.0, (actions,), numpy.float32)
+        self._observations = gymnasium.spaces.Box(-numpy.inf, numpy.inf, (width,), numpy.float32)
+        self._start()
 
-    def metadata(self, loop: Loop) -> dict[str, Any]:
+    def _start(self) -> None:
+        """Makes the cars and the spaces from the checked arguments."""
+        raise NotImplementedError
+
+    def _metadata(self, loop: Loop) -> dict[str, Any]:
         """Returns the properties of an environment with this loop."""
         if loop.path_length == 0.0:
             raise ValueError("scenario has no path to follow; it must have a plan section")
         return {"render_modes": ["rgb_array"], "render_fps": max(1, round(1.0 / loop.period))}
 
-    def reward_at_end(self, loop: Loop) -> float:
+    def _reset(
+        self, loop: Loop, seed: Optional[int], changed: Optional[Mapping[str, Any]]
+    ) -> Observation:
+        """Returns a loop to its start, with other values of the scenario if any are given."""
+        if seed is None and changed is None:
+            return loop.reset()
+        return loop.reset(seed, {**self._set, **(changed or {})})
+
+    def _reward_at_end(self, loop: Loop) -> float:
         """Returns the weighted sum of the metrics of a finished episode."""
-        if not self.rewards:
+        if not self._rewards:
             return 0.0
         values = loop.result().metric_values(loop.plant)
-        return sum(w * _value(name, values.get(name)) for name, w in self.rewards.items())
+        return sum(w * _value(name, values.get(name)) for name, w in self._rewards.items())
 
-    def draw(self, loop: Loop) -> numpy.ndarray:
+    def _draw(self, loop: Loop) -> numpy.ndarray:
         """Draws the car of a loop at the present moment."""
         run = loop.result()
-        return frame(run, float(run[loop.plant]["t_s"][-1]), self.size, camera=self.camera)
+        return frame(run, float(run[loop.plant]["t_s"][-1]), self._size, camera=self._camera)
 
 
-class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
+class PathTracking(_Tracking, gymnasium.Env[numpy.ndarray, numpy.ndarray]):
     """A car that follows the path of a scenario; a step is one control period.
 
     Action: an array of float32 in [-1, 1] with the shape (1,), or (2,) if `max_acceleration` is
@@ -130,29 +158,11 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 50}
 
-    def __init__(
-        self,
-        scenario: Scenario = "three_turns",
-        plant: Optional[str] = None,
-        set: Overrides = None,
-        *,
-        observed: Sequence[str] = OBSERVED,
-        ahead: Floats = (2.0, 5.0, 10.0),
-        costs: Mapping[str, float] = COSTS,
-        rewards: Mapping[str, float] = {},
-        max_cross_track: float = 5.0,
-        max_acceleration: Optional[float] = None,
-        render_mode: Optional[str] = None,
-        size: tuple[int, int] = (640, 360),
-        camera: str = "chase",
-    ) -> None:
-        self._task = task = _Task(locals())
-        self._set = {} if set is None else dict(mapping("set", set, "keys and values"))
-        self._loop = Loop(scenario, plant, set, log=task.keeps_log)
-        self.metadata = task.metadata(self._loop)
-        self.render_mode = task.render_mode
-        self.action_space = task.action_space
-        self.observation_space = task.observation_space
+    def _start(self) -> None:
+        self._loop = Loop(self._scenario, self._plant, self._set, log=self._keeps_log)
+        self.metadata = self._metadata(self._loop)
+        self.action_space = self._actions
+        self.observation_space = self._observations
 
     @property
     def loop(self) -> Loop:
@@ -160,10 +170,10 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
         return self._loop
 
     def _observe(self, seen: Observation) -> numpy.ndarray:
-        own = [getattr(seen, name) for name in self._task.observed]
-        points = self._loop.reference(seen.station_m + self._task.ahead)
+        own = [getattr(seen, name) for name in self._observed]
+        points = self._loop.reference(seen.station_m + self._ahead)
         values = numpy.concatenate([own, points["curvature_radpm"]])
-        return numpy.nan_to_num(values, nan=0.0).astype(numpy.float32)
+        return _observed_values(values)
 
     @staticmethod
     def _info(seen: Observation) -> dict[str, Any]:
@@ -173,39 +183,36 @@ class PathTracking(gymnasium.Env[numpy.ndarray, numpy.ndarray]):
         self, *, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None
     ) -> tuple[numpy.ndarray, dict[str, Any]]:
         super().reset(seed=None if seed is None else whole("seed", seed, 0))
-        own = _changes(options)
-        if seed is None and own is None:
-            seen = self._loop.reset()
-        else:
-            seen = self._loop.reset(seed, {**self._set, **(own or {})})
+        seen = self._reset(self._loop, seed, changes(options))
         return self._observe(seen), self._info(seen)
 
     def step(
         self, action: numpy.ndarray
     ) -> tuple[numpy.ndarray, float, bool, bool, dict[str, Any]]:
-        task = self._task
         command = numpy.clip(array("action", action, self.action_space.shape or ()), -1.0, 1.0)
         acceleration = None
-        if task.max_acceleration is not None:
-            acceleration = float(command[1]) * task.max_acceleration
+        if self._max_acceleration is not None:
+            acceleration = float(command[1]) * self._max_acceleration
         seen = self._loop.step(float(command[0]) * self._loop.steering_limit, acceleration)
-        cost = sum(w * _square(getattr(seen, c)) for c, w in task.costs.items())
+        cost = sum(w * _square(getattr(seen, c)) for c, w in self._costs.items())
         truncated = seen.status == "time_limit"
-        left_path = abs(seen.cross_track_m) > task.max_cross_track
+        left_path = abs(seen.cross_track_m) > self._max_cross_track
         terminated = bool(left_path or (seen.ended and not truncated))
         reward = -float(cost)
         if terminated or truncated:
-            reward += task.reward_at_end(self._loop)
+            reward += self._reward_at_end(self._loop)
         return self._observe(seen), reward, terminated, truncated, self._info(seen)
 
     def render(self) -> Any:
         if self.render_mode is None:
             gymnasium.logger.warn('render() needs gymnasium.make(..., render_mode="rgb_array")')
             return None
-        return self._task.draw(self._loop)
+        return self._draw(self._loop)
 
 
-class VectorPathTracking(gymnasium.vector.VectorEnv[numpy.ndarray, numpy.ndarray, numpy.ndarray]):
+class VectorPathTracking(
+    _Tracking, gymnasium.vector.VectorEnv[numpy.ndarray, numpy.ndarray, numpy.ndarray]
+):
     """Many cars of PathTracking, which are stepped together on several threads without the GIL.
 
     gymnasium.make_vec makes this class. Every car has the observations, rewards and ends that
@@ -218,40 +225,31 @@ class VectorPathTracking(gymnasium.vector.VectorEnv[numpy.ndarray, numpy.ndarray
     """
 
     def __init__(
-        self,
-        num_envs: int = 1,
-        scenario: Scenario = "three_turns",
-        plant: Optional[str] = None,
-        set: Overrides = None,
-        *,
-        observed: Sequence[str] = OBSERVED,
-        ahead: Floats = (2.0, 5.0, 10.0),
-        costs: Mapping[str, float] = COSTS,
-        rewards: Mapping[str, float] = {},
-        max_cross_track: float = 5.0,
-        max_acceleration: Optional[float] = None,
-        threads: Optional[int] = None,
-        render_mode: Optional[str] = None,
-        size: tuple[int, int] = (640, 360),
-        camera: str = "chase",
+        self, num_envs: int = 1, *arguments: Any, threads: Optional[int] = None, **named: Any
     ) -> None:
-        self._task = task = _Task(locals())
-        self._set = {} if set is None else dict(mapping("set", set, "keys and values"))
         self.num_envs = whole("num_envs", num_envs, 1)
+        self._threads = threads
+        super().__init__(*arguments, **named)
+
+    def _start(self) -> None:
         self._cars = VectorLoop(
-            scenario, plant, self.num_envs, set=set, threads=threads, log=task.keeps_log
+            self._scenario,
+            self._plant,
+            self.num_envs,
+            set=self._set,
+            threads=self._threads,
+            log=self._keeps_log,
         )
-        self.metadata = task.metadata(self._cars.loops[0])
+        self.metadata = self._metadata(self._cars.loops[0])
         modes = getattr(gymnasium.vector, "AutoresetMode", None)  # Since Gymnasium 1.1.
         if modes is not None:
             self.metadata["autoreset_mode"] = modes.NEXT_STEP
-        self.render_mode = task.render_mode
-        self.single_action_space = task.action_space
-        self.single_observation_space = task.observation_space
-        self.action_space = batch_space(task.action_space, self.num_envs)
-        self.observation_space = batch_space(task.observation_space, self.num_envs)
+        self.single_action_space = self._actions
+        self.single_observation_space = self._observations
+        self.action_space = batch_space(self._actions, self.num_envs)
+        self.observation_space = batch_space(self._observations, self.num_envs)
         self._column = {name: i for i, name in enumerate(VectorLoop.columns)}
-        self._observed = [self._column[name] for name in task.observed]
+        self._indices = [self._column[name] for name in self._observed]
         self._done = numpy.zeros(self.num_envs, dtype=bool)
 
     @property
@@ -260,9 +258,9 @@ class VectorPathTracking(gymnasium.vector.VectorEnv[numpy.ndarray, numpy.ndarray
         return self._cars.loops
 
     def _observe(self, seen: numpy.ndarray) -> numpy.ndarray:
-        ahead = self._cars.curvature_ahead(self._task.ahead)
-        values = numpy.concatenate([seen[:, self._observed], ahead], axis=1)
-        return numpy.nan_to_num(values, nan=0.0).astype(numpy.float32)
+        ahead = self._cars.curvature_ahead(self._ahead)
+        values = numpy.concatenate([seen[:, self._indices], ahead], axis=1)
+        return _observed_values(values)
 
     def _info(self, seen: numpy.ndarray, statuses: list[Optional[str]]) -> dict[str, Any]:
         every = numpy.ones(self.num_envs, dtype=bool)
@@ -279,7 +277,7 @@ class VectorPathTracking(gymnasium.vector.VectorEnv[numpy.ndarray, numpy.ndarray
         seed: Union[int, Sequence[Optional[int]], None] = None,
         options: Optional[dict[str, Any]] = None,
     ) -> tuple[numpy.ndarray, dict[str, Any]]:
-        own = _changes(options)
+        changed = changes(options)
         if seed is None:
             seeds: list[Optional[int]] = [None] * self.num_envs
         elif isinstance(seed, (Sequence, numpy.ndarray)) and not isinstance(seed, (str, bytes)):
@@ -292,10 +290,7 @@ class VectorPathTracking(gymnasium.vector.VectorEnv[numpy.ndarray, numpy.ndarray
             super().reset(seed=first)
             seeds = [first + i for i in range(self.num_envs)]
         for loop, one in zip(self._cars.loops, seeds):
-            if one is None and own is None:
-                loop.reset()
-            else:
-                loop.reset(one, {**self._set, **(own or {})})
+            self._reset(loop, one, changed)
         self._done[:] = False
         seen = self._cars.observations
         return self._observe(seen), self._info(seen, self._cars.statuses)
@@ -303,10 +298,10 @@ class VectorPathTracking(gymnasium.vector.VectorEnv[numpy.ndarray, numpy.ndarray
     def step(
         self, actions: numpy.ndarray
     ) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray, numpy.ndarray, dict[str, Any]]:
-        task, cars = self._task, self._cars
+        cars = self._cars
         commands = numpy.clip(array("actions", actions, self.action_space.shape or ()), -1.0, 1.0)
         limits = numpy.array([loop.steering_limit for loop in cars.loops])
-        rates = None if task.max_acceleration is None else commands[:, 1] * task.max_acceleration
+        rates = None if self._max_acceleration is None else commands[:, 1] * self._max_acceleration
         seen = cars.step(commands[:, 0] * limits, rates)
         restarted = self._done
         if restarted.any():
@@ -316,32 +311,23 @@ class VectorPathTracking(gymnasium.vector.VectorEnv[numpy.ndarray, numpy.ndarray
         statuses = cars.statuses
         truncated = numpy.array([status == "time_limit" for status in statuses])
         ended = numpy.array([status is not None for status in statuses])
-        left_path = numpy.abs(seen[:, self._column["cross_track_m"]]) > task.max_cross_track
+        left_path = numpy.abs(seen[:, self._column["cross_track_m"]]) > self._max_cross_track
         terminated = (left_path | (ended & ~truncated)) & ~restarted
         truncated &= ~restarted
         cost = numpy.zeros(self.num_envs)
-        for name, weight in task.costs.items():
+        for name, weight in self._costs.items():
             cost = cost + weight * _square(seen[:, self._column[name]])
         rewards = numpy.where(restarted, 0.0, -cost)
         self._done = terminated | truncated
         for i in numpy.flatnonzero(self._done):
-            rewards[i] += task.reward_at_end(cars.loops[i])
+            rewards[i] += self._reward_at_end(cars.loops[i])
         return self._observe(seen), rewards, terminated, truncated, self._info(seen, statuses)
 
     def render(self) -> Any:
         if self.render_mode is None:
             gymnasium.logger.warn('render() needs gymnasium.make_vec(..., render_mode="rgb_array")')
             return None
-        return tuple(self._task.draw(loop) for loop in self._cars.loops)
-
-
-def _changes(options: Optional[dict[str, Any]]) -> Optional[Mapping[str, Any]]:
-    """Returns the keys and values that the options of reset() set in the scenario."""
-    changed = {} if options is None else dict(mapping("options", options, "names and values"))
-    own = changed.pop("set", None)
-    if changed:
-        raise ValueError(f"options has the unknown key {next(iter(changed))!r}; allowed: 'set'")
-    return None if own is None else mapping("options['set']", own, "keys and values")
+        return tuple(self._draw(loop) for loop in self._cars.loops)
 
 
 def _column(argument: str, name: object) -> str:
@@ -357,6 +343,12 @@ def _metric(name: object) -> str:
         hint = similar(name, known) or f"; allowed: {', '.join(known)}"
         raise ValueError(f"rewards has the unknown metric {name!r}{hint}")
     return str(name)
+
+
+def _observed_values(values: numpy.ndarray) -> numpy.ndarray:
+    """Returns observed values as float32, with NaN as 0."""
+    result: numpy.ndarray = numpy.nan_to_num(values, nan=0.0).astype(numpy.float32)
+    return result
 
 
 def _square(values: Any) -> Any:

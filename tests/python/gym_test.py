@@ -1,5 +1,6 @@
 """The environment for Gymnasium; skipped where Gymnasium is not installed."""
 
+import inspect
 import warnings
 
 import numpy
@@ -199,6 +200,16 @@ def test_renders_the_moment():
 def test_wrong_arguments_are_named(arguments, error, text):
     with pytest.raises(error, match=text):
         trackbed.gym.PathTracking(**{"scenario": "three_turns", "plant": "kinematic", **arguments})
+
+
+def test_both_environments_have_the_same_arguments():
+    single = inspect.signature(trackbed.gym.PathTracking).parameters
+    envs = trackbed.gym.VectorPathTracking(2, "three_turns", "kinematic", threads=1, ahead=[1.0])
+    assert envs.single_observation_space.shape == (len(trackbed.gym.OBSERVED) + 1,)
+    assert single["ahead"].default == (2.0, 5.0, 10.0)
+    for made in (trackbed.gym.PathTracking, trackbed.gym.VectorPathTracking):
+        with pytest.raises(TypeError, match="unexpected keyword argument 'reward'"):
+            made(reward={})
 
 
 def test_wrong_actions_are_named():
