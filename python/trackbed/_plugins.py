@@ -217,6 +217,8 @@ class _ControllerObject:
 
     def step(self, seen: ControllerInput) -> tuple[float, Optional[float], Any]:
         command = self._own.step(seen)
+        if isinstance(command, numpy.ndarray) and command.ndim == 1:
+            command = command.tolist()
         acceleration = None
         if isinstance(command, (tuple, list)):
             if len(command) != 2:
@@ -281,10 +283,11 @@ def controller(
 
     def register(function: _F) -> _F:
         what = f"controller {own!r}"
-        is_class = isinstance(function, type)
-        if is_class:
+        if isinstance(function, type):
             require_method(what, function, "step", ["seen"])
-        parameters = parameters_of(what, function, [] if is_class else ["seen"])
+            parameters = parameters_of(what, function, [])
+        else:
+            parameters = parameters_of(what, function, ["seen"])
         specs = keys_of(what, parameters, keys, "control")
         register_plugin(
             "controller",

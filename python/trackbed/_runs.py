@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import importlib
 import os
 import shutil
 import tempfile
@@ -73,6 +74,12 @@ class Columns(Mapping[str, numpy.ndarray]):
 
     def __len__(self) -> int:
         return len(self._core.names)
+
+    def __getattr__(self, name: str) -> NoReturn:
+        hint = "" if name.startswith("_") else similar(name, self._core.names)
+        if not name.startswith("_") and name in self._core.names:
+            hint = f"; a column is read by {type(self).__name__.lower()}[{name!r}]"
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}{hint}")
 
     @property
     def rows(self) -> int:
@@ -163,7 +170,8 @@ class Run(Mapping[str, Log]):
     @property
     def metrics(self) -> dict[str, dict[str, Any]]:
         """The metrics of each plant, as in metrics.json, in SI units and radians."""
-        return self._all_metrics()["plants"]
+        result: dict[str, dict[str, Any]] = self._all_metrics()["plants"]
+        return result
 
     def metric_values(self, plant: str) -> dict[str, Any]:
         """Returns the metrics of a plant by their names in `expect.metrics`.
@@ -177,12 +185,14 @@ class Run(Mapping[str, Log]):
     @property
     def verdict(self) -> dict[str, Any]:
         """The verdict, with all checks, as in metrics.json."""
-        return self._all_metrics()["verdict"]
+        result: dict[str, Any] = self._all_metrics()["verdict"]
+        return result
 
     @property
     def comparisons(self) -> list[dict[str, Any]]:
         """The differences of every pair of plants at equal stations, as in metrics.json."""
-        return self._all_metrics()["between"]
+        result: list[dict[str, Any]] = self._all_metrics()["between"]
+        return result
 
     @property
     def passed(self) -> bool:
@@ -203,7 +213,9 @@ class Run(Mapping[str, Log]):
     @property
     def notes(self) -> list[str]:
         """Remarks on the plan, then remarks of the verdict."""
-        return self._core.plan_notes + self._core.notes
+        plan = self._core.plan_notes
+        repeated = {f"plan: {note}" for note in plan}  # The verdict repeats the notes of the plan.
+        return plan + [note for note in self._core.notes if note not in repeated]
 
     def write(self, folder: Union[str, os.PathLike[str]], *, mcap: bool = False) -> None:
         """Writes the run folder, as `trackbed run` does; with `mcap`, also run.mcap."""
@@ -351,7 +363,6 @@ def film(
 
 def _pandas() -> Any:
     try:
-        import pandas
+        return importlib.import_module("pandas")
     except ImportError:
         raise ImportError("to_pandas() needs pandas: pip install trackbed[pandas]") from None
-    return pandas

@@ -238,6 +238,7 @@ def raised(method, set):
         (lambda seen: "left", "the steering angle .* must be a number, not str"),
         (lambda seen: None, "the steering angle .* must be a number, not NoneType"),
         (lambda seen: (1.0, 2.0, 3.0), "step returned 3 values"),
+        (lambda seen: numpy.zeros(1), "step returned 1 values"),
         (lambda seen: 10**400, "the steering angle .* too large; must be finite"),
         (lambda seen: numpy.float32("nan"), r"the steering angle \[rad\] .*; must be finite"),
         (lambda seen: seen.nothing, "AttributeError.*nothing"),
@@ -247,6 +248,26 @@ def test_wrong_commands_are_named(step, text):
     trackbed.controller("test_wrong", replace=True)(step)
     with pytest.raises(trackbed.PluginError, match=text):
         trackbed.run("three_turns", plants="kinematic", set={"control": {"method": "test_wrong"}})
+
+
+def test_a_note_of_the_plan_is_shown_once():
+    remark = "drives straight on"
+    trackbed.planner("test_note", replace=True)(
+        lambda request: trackbed.PlannedPath([[0, 0], [40, 0]], notes=[remark])
+    )
+    set = {"plan": {"method": "test_note"}, "drive.time_limit": 1}
+    notes = trackbed.run("three_turns", "kinematic", set).notes
+    assert [note for note in notes if remark in note] == [remark]
+
+
+def test_an_array_is_a_command():
+    commands = {"array": lambda seen: numpy.array([0.1, 1.0]), "tuple": lambda seen: (0.1, 1.0)}
+    driven = {}
+    for name, step in commands.items():
+        trackbed.controller("test_command", replace=True)(step)
+        control = {"control": {"method": "test_command"}, "drive.time_limit": 2}
+        driven[name] = trackbed.run("three_turns", "kinematic", control)["kinematic"]["x_m"]
+    numpy.testing.assert_array_equal(driven["array"], driven["tuple"])
 
 
 @pytest.mark.parametrize(

@@ -333,6 +333,8 @@ def test_metric_values_are_those_of_the_file():
         run.metric_values("kinematik")
     with pytest.raises(KeyError, match="no column 'cross_track'; did you mean 'cross_track_m'"):
         run["kinematic"]["cross_track"]
+    with pytest.raises(AttributeError, match=r"a column is read by log\['cross_track_m'\]"):
+        run["kinematic"].cross_track_m
 
 
 def test_pictures_bear_the_name_of_the_run():
