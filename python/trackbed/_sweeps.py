@@ -98,9 +98,11 @@ class Sweep(Mapping[str, numpy.ndarray]):
 
     def _repr_html_(self) -> Optional[str]:
         try:
-            return self.to_pandas()._repr_html_()
+            table = self.to_pandas()
         except ImportError:
             return None
+        result: Optional[str] = table._repr_html_()
+        return result
 
     def __reduce__(self) -> NoReturn:
         raise TypeError("a Sweep cannot be pickled; use sweep.to_pandas() or dict(sweep)")

@@ -146,7 +146,7 @@ class Observation:
     def clearance_m(self) -> float: ...
     @property
     def status(self) -> Optional[str]:
-        """How the run ended, such as "arrived"; None while it goes on."""
+        """How the run ended, such as "arrived"; None while it continues."""
     @property
     def ended(self) -> bool: ...
     def asdict(self) -> dict[str, Any]:
