@@ -131,9 +131,10 @@ class PathTracking(_Tracking, gymnasium.Env[numpy.ndarray, numpy.ndarray]):
     """A car that follows the path of a scenario; a step is one control period.
 
     Action: an array of float32 in [-1, 1] with the shape (1,), or (2,) if `max_acceleration` is
-        given: the steering angle as a fraction of the car's largest angle, positive to the left, and
-        the acceleration as a fraction of `max_acceleration`, positive if the car speeds up in the
-        direction of its gear. Without an acceleration, the car follows the speeds of the plan.
+        given. The first number is the steering angle as a fraction of the car's largest angle,
+        positive to the left. The second is the acceleration as a fraction of `max_acceleration`,
+        positive if the car speeds up in the direction of its gear. Without an acceleration, the car
+        follows the speeds of the plan.
     Observation: an array of float32 with the columns `observed` of VectorLoop.columns, in SI units,
         followed by the curvature [1/m] of the path at the distances `ahead` [m] before the car. NaN
         is observed as 0.
