@@ -114,7 +114,8 @@ class CornerChoice {
   /// Returns the cost of the points between two points; none if one of them must not be left out.
   [[nodiscard]] std::optional<Cost> LeftOut(std::size_t from, std::size_t to) const {
     Cost cost;
-    if (points_[from] == points_[to] || (from == 0 && !KeepsDirection(to))) {
+    if (points_[from] == points_[to] ||
+        (from == 0 && limits_.keeps_first_direction && !KeepsDirection(to))) {
       return std::nullopt;
     }
     for (std::size_t i = from + 1; i < to; ++i) {

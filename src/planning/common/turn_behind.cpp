@@ -144,10 +144,10 @@ RoundedCorners TurnBehindSharpCorners(const VehicleParams& vehicle, std::vector<
   return rounded;
 }
 
-/// Returns the polyline, and then the polyline with longer and longer first legs, which continue
-/// straight beyond the first point. On the longer legs, a rolling car can slow down to the lowest
-/// speed.
-std::vector<std::vector<Vec2>> WithLongerStarts(const std::vector<Vec2>& polyline,
+/// Returns the polyline, and then the polyline with an added corner on its first leg or straight
+/// beyond it, farther and farther from the start. Up to this corner, a rolling car can slow down to
+/// the lowest speed.
+std::vector<std::vector<Vec2>> WithCornersAhead(const std::vector<Vec2>& polyline,
                                                 const CornerLimits& limits) {
   std::vector<std::vector<Vec2>> starts{polyline};
   const Vec2 leg = polyline[1] - polyline[0];
@@ -156,10 +156,8 @@ std::vector<std::vector<Vec2>> WithLongerStarts(const std::vector<Vec2>& polylin
   const double braking = std::max(0.0, squares) / (2.0 * limits.deceleration);
   for (const double radii : {0.1, 0.2, 0.4, 0.8, 1.6}) {
     const double length = braking + radii / limits.max_curvature;
-    if (length > leg.norm()) {
-      starts.push_back(polyline);
-      starts.back().insert(starts.back().begin() + 1, polyline[0] + length * leg.normalized());
-    }
+    starts.push_back(polyline);
+    starts.back().insert(starts.back().begin() + 1, polyline[0] + length * leg.normalized());
   }
   return starts;
 }
@@ -181,7 +179,7 @@ RoundedCorners RoundCornersOrTurnBehind(const VehicleParams& vehicle,
     return as_given;
   }
   std::vector<std::vector<Vec2>> candidates;
-  for (const std::vector<Vec2>& points : WithLongerStarts(polyline, limits)) {
+  for (const std::vector<Vec2>& points : WithCornersAhead(polyline, limits)) {
     std::vector<Vec2> fewer = LeaveOutCloseWaypoints(vehicle, points, limits);
     if (fewer != polyline) {
       candidates.push_back(std::move(fewer));

@@ -83,7 +83,7 @@ FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& wa
         fillet::WithoutCloseWaypoints(vehicle, fillet::MakeRoute(waypoints), speed, options);
     plan = PlanRoute(vehicle, route, speed, options, seed);
     for (int i = 1; i + 1 < static_cast<int>(waypoints.size()); ++i) {
-      if (std::find(route.numbers.begin(), route.numbers.end(), i) == route.numbers.end()) {
+      if (fillet::IsLeftOut(route, waypoints, i)) {
         plan.left_out.push_back(i);
       }
     }

@@ -29,9 +29,6 @@ struct Route {
 
 Route MakeRoute(const std::vector<Vec2>& waypoints);
 
-/// Share of the car's width within which a path passes a point unnoticed.
-inline constexpr double kShareOfWidth = 0.25;
-
 /// Returns the least part of a leg that eq. (C.40) reserves for a turn at `speed`, over all radii
 /// within `bounds` [m]. The wheels are straight between turns.
 double LeastSteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
@@ -43,6 +40,9 @@ double LeastSteeringRoom(const VehicleParams& vehicle, double speed, double inte
 /// direction of the first leg stay the same.
 Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, double speed,
                             const FilletOptions& options);
+
+/// Whether a route by WithoutCloseWaypoints leaves out the waypoint `i` of the mission.
+bool IsLeftOut(const Route& route, const std::vector<Vec2>& waypoints, int i);
 
 /// Returns the turns of the route, each with waypoint, angles and the length of the shorter
 /// adjacent leg.

@@ -7,6 +7,7 @@
 
 #include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/core/angle.h"
+#include "trackbed/planning/common/fewer_corners.h"
 #include "trackbed/planning/common/waypoint_miss.h"
 
 // Computes the limits of a turn's radius (Skackauskas, dissertation, eqs. (C.34) and (C.40)).
@@ -206,7 +207,7 @@ double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double s
                   double radius) {
   const double travel = SteeringForCurvature(vehicle, 1.0 / radius) - NeutralTowardTurn(turn);
   return std::abs(SteeringDistance(vehicle, travel, speed)) -
-         std::sqrt(24.0 * radius * kShareOfWidth * vehicle.width);
+         std::sqrt(24.0 * radius * kUnnoticedShareOfWidth * vehicle.width);
 }
 
 /// Lowers the speed of a turn, at most to `min_speed`, until the steering ramp to the largest

@@ -11,7 +11,8 @@
 // waypoints very near to a line, at which the car would slow down for rounding. A second pass
 // leaves out waypoints at which no turn fits at all. If the first waypoint is too close to the
 // start for a turn, the path continues straight beyond the waypoint, because the car begins in the
-// direction of the first leg; the turn follows there.
+// direction of the first leg; the turn follows there. If the path leaves out the first waypoint, it
+// may turn on the first leg.
 
 namespace trackbed::fillet {
 namespace {
@@ -61,8 +62,8 @@ bool PassesNear(const std::vector<Vec2>& points, const std::vector<Vec2>& waypoi
   });
 }
 
-/// Returns the numbers of the waypoints that are points of the route. An added point behind the
-/// first waypoint has the number of this waypoint.
+/// Returns the numbers of the waypoints that are points of the route. An added point has the number
+/// of the first waypoint.
 std::vector<int> NumbersOf(const std::vector<Vec2>& points, const std::vector<Vec2>& waypoints) {
   std::vector<int> numbers;
   std::size_t next = 0;
@@ -92,17 +93,27 @@ std::vector<Vec2> WithFewestTightCorners(const VehicleParams& vehicle, const Rou
   const double longest = std::max(first.length, 2.0 * vehicle.min_turning_radius());
   // Not a factor of two, so that added points do not coincide with evenly spaced waypoints.
   constexpr double kLonger = 1.9;
-  for (double length = first.length; length <= longest && fewest > 0; length *= kLonger) {
+  // Distances of the added point from the start. The first trial adds none.
+  std::vector<double> distances{0.0, first.length / kLonger};
+  for (double length = kLonger * first.length; length <= longest; length *= kLonger) {
+    distances.push_back(length);
+  }
+  for (const double distance : distances) {
+    if (fewest == 0) {
+      break;
+    }
+    points = given;
+    if (distance > 0.0) {
+      points.insert(points.begin() + 1, points[0] + distance * first.direction);
+    }
     std::vector<Vec2> fewer = LeaveOutCloseWaypoints(points, choice);
     const int tight = TightCorners(fewer, choice);
-    // With a point added behind the first waypoint, the path leads back unless all corners fit.
-    const bool may_help = tight == 0 || length == first.length;
+    // With an added point, the path may lead back unless all corners fit.
+    const bool may_help = tight == 0 || distance == 0.0;
     if (tight < fewest && may_help && PassesNear(fewer, route.waypoints, choice.max_gap)) {
       best = std::move(fewer);
       fewest = tight;
     }
-    points = given;
-    points.insert(points.begin() + 1, points[0] + kLonger * length * first.direction);
   }
   return best;
 }
@@ -132,11 +143,11 @@ Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, do
   double lowest = speed;
   if (options.without_room == InfeasibleTurnPolicy::kSlowDown) {
     // About the rounding of coordinates to a decimeter.
-    constexpr double kRounding = 0.25 * kShareOfWidth;
+    constexpr double kRounding = 0.25 * kUnnoticedShareOfWidth;
     points = WithFewestTightCorners(vehicle, route, points, choice_at(speed, kRounding));
     lowest = 0.5 * std::min(options.min_speed, speed);
   }
-  const WaypointChoice choice = choice_at(lowest, kShareOfWidth);
+  const WaypointChoice choice = choice_at(lowest, kUnnoticedShareOfWidth);
   std::vector<Vec2> fewer = WithFewestTightCorners(vehicle, route, points, choice);
   if (TightCorners(fewer, choice) == 0) {
     points = std::move(fewer);
@@ -147,6 +158,17 @@ Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, do
   Route shorter = MakeRoute(points);
   shorter.numbers = NumbersOf(points, route.waypoints);
   return shorter;
+}
+
+bool IsLeftOut(const Route& route, const std::vector<Vec2>& waypoints, int i) {
+  const auto number = std::find(route.numbers.begin(), route.numbers.end(), i);
+  if (number == route.numbers.end()) {
+    return true;
+  }
+  // An added point behind the first waypoint keeps it on the route, a point before it does not.
+  const Vec2& point = route.waypoints[static_cast<std::size_t>(number - route.numbers.begin())];
+  const Vec2& given = waypoints[static_cast<std::size_t>(i)];
+  return (point - waypoints[0]).norm() < (given - waypoints[0]).norm();
 }
 
 }  // namespace trackbed::fillet

@@ -192,5 +192,20 @@ TEST(RoundCornersOrTurnBehind, IsRoundCornersWithoutABound) {
       RoundCorners(ReferenceCar(), route, limits, NothingAround()).path.segments());
 }
 
+TEST(RoundCornersOrTurnBehind, TurnsOnTheFirstLegToASecondClick) {
+  // The goal is 0.36 m from the first waypoint, at which no corner fits. The turn is on the first
+  // leg, up to the heading atan(0.2/10.3) at least. The line from the start to the goal passes the
+  // waypoint at 10 sin of this heading, 0.194 m, and a later turn passes it nearer.
+  const std::vector<Vec2> route{{0, 0}, {10, 0}, {10.3, 0.2}};
+  const RoundedCorners rounded =
+      RoundCornersOrTurnBehind(ReferenceCar(), route, Limits(route, 4.5), NothingAround());
+  ASSERT_EQ(rounded.status, PlanStatus::kOk) << rounded.reason;
+  // The path is at least as long as the line to the goal, and at most as long as the polyline.
+  EXPECT_LE(rounded.path.length(), 10.0 + std::hypot(0.3, 0.2));
+  EXPECT_GE(rounded.path.length(), std::hypot(10.3, 0.2));
+  EXPECT_LE(SampledDistance(rounded.path, route[1]),
+            10.0 * 0.2 / std::hypot(10.3, 0.2) + Tolerance(kHalfSample));
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -201,5 +201,21 @@ TEST(NearlyStraight, DoesNotSlowDownForRoundingToCentimeters) {
   EXPECT_THAT(plan.left_out, ::testing::Not(IsEmpty()));
 }
 
+TEST(NearlyStraight, LeavesOutAPointThatWasClickedTwice) {
+  // The second click is the goal, less than half a meter from the first. No turn fits between them,
+  // so the path turns on the first leg instead, and leaves out waypoint 1.
+  for (const Vec2& apart : {Vec2(0.3, 0.2), Vec2(0.0, 0.2), Vec2(-0.2, -0.1)}) {
+    const std::vector<Vec2> route{{0, 0}, {10, 0}, Vec2(10, 0) + apart};
+    FilletOptions options;
+    options.without_room = InfeasibleTurnPolicy::kSlowDown;
+    const FilletPlan plan = PlanFillets(ReferenceCar(), route, 3.0, options);
+    ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+    EXPECT_THAT(plan.left_out, ElementsAre(1));
+    EXPECT_LE(plan.path.length(), 10.0 + apart.norm());
+    const Vec2 end = plan.path.At(plan.path.length()).pose.position();
+    EXPECT_NEAR((end - route.back()).norm(), 0.0, Tolerance(1e-9));
+  }
+}
+
 }  // namespace nearly_straight_test
 }  // namespace trackbed
