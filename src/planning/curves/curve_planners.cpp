@@ -7,6 +7,7 @@
 
 #include "src/planning/curves/continuous_or_steps.h"
 #include "src/planning/curves/continuous_route.h"
+#include "src/planning/curves/detours.h"
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/curves/drivable_curve.h"
@@ -220,7 +221,12 @@ Plan PlanWithCurvature(const Options& options, const PlanRequest& request, Curve
 }
 
 Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
-  return PlanWithCurvature(options, request, CurveMotion::kForwards, DubinsWords);
+  const auto length = [](const Pose2& from, const Pose2& to, double radius) {
+    return Dubins(from, to, radius).length;
+  };
+  return WithoutDetours(request, length, [&](const PlanRequest& own) {
+    return PlanWithCurvature(options, own, CurveMotion::kForwards, DubinsWords);
+  });
 }
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
@@ -235,11 +241,12 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
     });
     return all;
   };
-  return PlanWithCurvature(options, request,
-                           options.curvature == CurveCurvature::kContinuous
-                               ? CurveMotion::kContinuous
-                               : CurveMotion::kHybrid,
-                           words);
+  const CurveMotion motion = options.curvature == CurveCurvature::kContinuous
+                                 ? CurveMotion::kContinuous
+                                 : CurveMotion::kHybrid;
+  return WithoutDetours(request, ReedsSheppLength, [&](const PlanRequest& own) {
+    return PlanWithCurvature(options, own, motion, words);
+  });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "src/planning/curves/continuous_or_steps.h"
 #include "src/planning/curves/continuous_route.h"
+#include "src/planning/curves/detours.h"
 #include "src/planning/grid/clothoid_costs.h"
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/route.h"
@@ -238,7 +239,7 @@ int Expansions(const Plan& plan) {
   return sum;
 }
 
-Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
+Plan PlanOnce(const HybridAStarOptions& options, const PlanRequest& request) {
   for (Plan refused : {CheckPoses(request), CheckRadius(request.vehicle, options.radius)}) {
     if (!refused.ok()) {
       return refused;
@@ -261,6 +262,14 @@ Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
   own.curvature = CurveCurvature::kCuspSteps;
   own.budget = std::min(own.budget, kClothoidPoses + Expansions(steps));
   return ContinuousOrSteps(PlanClothoids(own, request), std::move(steps), request);
+}
+
+Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
+  const auto forwards = [](const Pose2& from, const Pose2& to, double radius) {
+    return Dubins(from, to, radius).length;
+  };
+  return WithoutDetours(request, options.reverse ? CurveLength(ReedsSheppLength) : forwards,
+                        [&](const PlanRequest& own) { return PlanOnce(options, own); });
 }
 
 bool MayReverse(const PlannerOptions& options) {

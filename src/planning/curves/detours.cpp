@@ -1,0 +1,218 @@
+// Plans routes again whose paths have loops.
+//
+// 1. The headings of the shortest route: dynamic programming over sixteen directions, and the
+//    default one, at each waypoint. Start and goal keep their headings.
+// 2. Fewer waypoints: LeaveOutCloseWaypoints for corners of several radii, because curves of
+//    continuous curvature need more room than arcs, and more the faster the car is.
+// The shortest path of bounded curvature through a sequence of points is the problem of Goaoc, Kim
+// and Lazard 2013, who solve it by convex optimization for distant points.
+#include "src/planning/curves/detours.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "src/planning/curves/continuous_or_steps.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/common/fewer_corners.h"
+#include "trackbed/planning/common/waypoint_miss.h"
+
+namespace trackbed {
+namespace {
+
+/// Number of directions at a waypoint.
+constexpr int kDirections = 16;
+
+/// A heading at a stop with the shortest route to it.
+struct HeadingChoice {
+  double yaw = 0.0;        // [rad]
+  double length = 0.0;     // of the route [m]
+  std::size_t before = 0;  // index of the choice at the stop before
+};
+
+/// The choices of headings at stop `i`, the given one first.
+std::vector<HeadingChoice> HeadingsAt(const std::vector<Pose2>& stops, std::size_t i) {
+  std::vector<HeadingChoice> choices{{.yaw = stops[i].yaw}};
+  if (i > 0 && i + 1 < stops.size()) {
+    for (int k = 0; k < kDirections; ++k) {
+      choices.push_back({.yaw = WrapAngle(2.0 * kPi * k / kDirections)});
+    }
+  }
+  return choices;
+}
+
+/// Returns the length of the shortest route through stops with these headings [m].
+double RouteLength(const std::vector<Pose2>& stops, double radius, const CurveLength& length) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    sum += length(stops[i - 1], stops[i], radius);
+  }
+  return sum;
+}
+
+/// Returns the stops with the headings of the shortest route.
+std::vector<Pose2> WithShortestHeadings(std::vector<Pose2> stops, double radius,
+                                        const CurveLength& length) {
+  std::vector<std::vector<HeadingChoice>> choices;
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    choices.push_back(HeadingsAt(stops, i));
+    for (HeadingChoice& own : choices.back()) {
+      if (i == 0) {
+        continue;
+      }
+      own.length = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < choices[i - 1].size(); ++k) {
+        const HeadingChoice& before = choices[i - 1][k];
+        const double total = before.length + length({stops[i - 1].x, stops[i - 1].y, before.yaw},
+                                                    {stops[i].x, stops[i].y, own.yaw}, radius);
+        if (total < own.length) {
+          own.length = total;
+          own.before = k;
+        }
+      }
+    }
+  }
+  for (std::size_t i = stops.size(), k = 0; i-- > 0;) {
+    stops[i].yaw = choices[i][k].yaw;
+    k = choices[i][k].before;
+  }
+  return stops;
+}
+
+class DetourPlanner {
+ public:
+  DetourPlanner(const PlanRequest& request, const CurveLength& length,
+                const std::function<Plan(const PlanRequest&)>& plan)
+      : request_(request),
+        length_(length),
+        plan_(plan),
+        radius_(request.vehicle.min_turning_radius()) {}
+
+  [[nodiscard]] Plan Make() {
+    Plan best = plan_(request_);
+    if (request_.waypoints.size() < 2 || !IsDetour(best)) {
+      return best;
+    }
+    if (request_.headings.empty() && request_.waypoints.size() > 2) {
+      TryOtherHeadings(best, request_);
+      TryFewerWaypoints(best);
+    }
+    NoteRollingStart(best);
+    return best;
+  }
+
+ private:
+  [[nodiscard]] static double LengthOf(const Plan& plan) {
+    return plan.ok() ? plan.reference.path.length() : std::numeric_limits<double>::infinity();
+  }
+
+  [[nodiscard]] bool IsDetour(const Plan& plan) const {
+    Vec2 at = request_.start.position();
+    double straight = 0.0;
+    for (std::size_t i = 1; i < request_.waypoints.size(); ++i) {
+      straight += (request_.waypoints[i] - at).norm();
+      at = request_.waypoints[i];
+    }
+    return LengthOf(plan) >= straight + radius_;
+  }
+
+  /// Whether a plan is shorter by a radius, and not slower.
+  [[nodiscard]] bool IsBetter(const Plan& plan, const Plan& best) const {
+    return plan.ok() && (!best.ok() || (LengthOf(plan) + radius_ <= LengthOf(best) &&
+                                        DrivingTime(plan, request_.vehicle) <=
+                                            DrivingTime(best, request_.vehicle)));
+  }
+
+  /// Replaces `best` by a shorter plan for the request with other headings.
+  void TryOtherHeadings(Plan& best, PlanRequest request) const {
+    const std::vector<Pose2> stops = PlannedStops(request);
+    const std::vector<Pose2> shortest = WithShortestHeadings(stops, radius_, length_);
+    if (RouteLength(shortest, radius_, length_) + radius_ > RouteLength(stops, radius_, length_)) {
+      return;
+    }
+    for (const Pose2& stop : shortest) {
+      request.headings.push_back(stop.yaw);
+    }
+    Plan other = plan_(request);
+    if (IsBetter(other, best)) {
+      best = std::move(other);
+    }
+  }
+
+  void TryFewerWaypoints(Plan& best) const {
+    std::vector<Vec2> tried = request_.waypoints;
+    const double with_all = LengthOf(best);
+    for (const double room : {1.0, 4.0, 16.0}) {
+      const double near = kUnnoticedShareOfWidth * request_.vehicle.width;
+      std::vector<Vec2> fewer = LeaveOutCloseWaypoints(
+          request_.waypoints, {.waypoints = request_.waypoints,
+                               .max_gap = near,
+                               .room = [&](double turn) -> CornerRoom {
+                                 return {.tangent = room * radius_ * std::tan(0.5 * turn),
+                                         .gap = 0.0};
+                               },
+                               .keeps_first_direction = false});
+      if (fewer == tried || fewer == request_.waypoints) {
+        continue;
+      }
+      tried = fewer;
+      PlanRequest request = request_;
+      request.waypoints = std::move(fewer);
+      Plan plan = plan_(request);
+      TryOtherHeadings(plan, request);
+      const auto miss =
+          plan.ok() ? LargestWaypointMiss(plan.reference.path, request_.waypoints) : std::nullopt;
+      if (miss && miss->distance <= near && IsBetter(plan, best)) {
+        best = std::move(plan);
+        best.notes.push_back(DescribeLeftOut(request.waypoints, *miss, with_all, LengthOf(best)));
+      }
+    }
+  }
+
+  [[nodiscard]] std::string DescribeLeftOut(const std::vector<Vec2>& kept, const WaypointMiss& miss,
+                                            double with_all, double length) const {
+    const std::size_t left_out = request_.waypoints.size() - kept.size();
+    return fmt::format(
+        "{} left out, because {}; the path passes {} at {:.3g} m; to drive through every waypoint, "
+        "set mission.headings",
+        left_out == 1 ? "1 waypoint is" : fmt::format("{} waypoints are", left_out),
+        std::isfinite(with_all) ? fmt::format("the path through all waypoints would be {:.4g} m "
+                                              "long instead of {:.4g} m",
+                                              with_all, length)
+                                : "no path leads through all waypoints",
+        DescribeWaypoint(miss.waypoint, miss.at), miss.distance);
+  }
+
+  /// Adds a note if a car at rest would not drive the detour.
+  void NoteRollingStart(Plan& best) const {
+    if (!best.ok() || !IsDetour(best) || request_.start_speed == 0.0) {
+      return;
+    }
+    PlanRequest request = request_;
+    request.start_speed = 0.0;
+    const Plan at_rest = plan_(request);
+    if (IsBetter(at_rest, best)) {
+      best.notes.push_back(
+          fmt::format("the path is {:.4g} m long, because the car starts at {:.3g} m/s; with "
+                      "mission.start.speed: 0, it is {:.4g} m long",
+                      LengthOf(best), request_.start_speed, LengthOf(at_rest)));
+    }
+  }
+
+  const PlanRequest& request_;
+  const CurveLength& length_;
+  const std::function<Plan(const PlanRequest&)>& plan_;
+  double radius_;  // smallest of the car [m]
+};
+
+}  // namespace
+
+Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
+                    const std::function<Plan(const PlanRequest&)>& plan) {
+  return DetourPlanner(request, length, plan).Make();
+}
+
+}  // namespace trackbed

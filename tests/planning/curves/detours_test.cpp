@@ -1,0 +1,143 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "tests/planning/routes.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/common/route.h"
+#include "trackbed/planning/common/waypoint_miss.h"
+#include "trackbed/planning/curves/curve_planners.h"
+#include "trackbed/planning/grid/hybrid_astar.h"
+
+// Routes on which curves through all waypoints would have loops.
+namespace trackbed {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+struct DetourPlannerCase {
+  const char* name;
+  PlannerEntry entry;
+};
+
+std::vector<DetourPlannerCase> DetourPlanners() {
+  return {{"dubins", DubinsPlanner()},
+          {"reeds_shepp", ReedsSheppPlanner()},
+          {"hybrid_astar", HybridAStarPlanner()}};
+}
+
+PlanRequest DetourRequest(std::vector<Vec2> waypoints, double start_speed) {
+  PlanRequest request;
+  request.vehicle = ReferenceCar();
+  const Vec2 leg = waypoints[1] - waypoints[0];
+  request.start = {waypoints[0].x(), waypoints[0].y(), std::atan2(leg.y(), leg.x())};
+  request.waypoints = std::move(waypoints);
+  request.start_speed = start_speed;
+  request.speed = {.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  return request;
+}
+
+double PolylineLength(const std::vector<Vec2>& points) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    sum += (points[i] - points[i - 1]).norm();
+  }
+  return sum;
+}
+
+TEST(Detours, LeaveOutAPointThatWasClickedTwice) {
+  // A second click 0.1 to 0.4 m from the first, in all directions: before, between and behind other
+  // waypoints. The path must be shorter than the lines through all waypoints and one turning
+  // radius, and pass each waypoint within a quarter of the car's width.
+  for (const DetourPlannerCase& planner : DetourPlanners()) {
+    for (int eighth = 0; eighth < 8; eighth += 3) {
+      const Vec2 apart = (0.1 + 0.04 * eighth) * Direction(0.1 + eighth * kPi / 4.0);
+      for (const std::vector<Vec2>& points :
+           {std::vector<Vec2>{{0, 0}, {30, 0}, Vec2(30, 0) + apart},
+            std::vector<Vec2>{{0, 0}, {20, 0}, Vec2(20, 0) + apart, {50, 6}}}) {
+        const double start_speed = eighth % 2 == 0 ? 0.0 : 3.0;
+        const PlanRequest request = DetourRequest(points, start_speed);
+        const Plan plan = planner.entry.plan(request, planner.entry.defaults);
+        SCOPED_TRACE(testing::Message()
+                     << planner.name << " from " << start_speed << " m/s, direction " << eighth);
+        ASSERT_TRUE(plan.ok()) << plan.reason;
+        EXPECT_LT(plan.reference.path.length(),
+                  PolylineLength(points) + request.vehicle.min_turning_radius());
+        const auto miss = LargestWaypointMiss(plan.reference.path, points);
+        ASSERT_TRUE(miss);
+        EXPECT_LE(miss->distance, 0.25 * request.vehicle.width);
+        if (miss->distance > kSameMiss) {
+          EXPECT_THAT(plan.notes, Contains(HasSubstr("left out")));
+        }
+      }
+    }
+  }
+}
+
+TEST(Detours, DriveThroughWaypointsWithHeadings) {
+  // With headings, each waypoint is a pose that the path meets. No path without a loop does: the
+  // second pose is 0.2 m beside the first.
+  for (const DetourPlannerCase& planner : DetourPlanners()) {
+    PlanRequest request = DetourRequest({{0, 0}, {30, 0}, {30, 0.2}}, 0.0);
+    request.headings = {0.0, 0.0, 0.0};
+    const Plan plan = planner.entry.plan(request, planner.entry.defaults);
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const auto miss = LargestWaypointMiss(plan.reference.path, request.waypoints);
+    ASSERT_TRUE(miss);
+    // The clothoids end within 1e-9 m for each turning radius of length.
+    EXPECT_LE(miss->distance, Tolerance(1e-7)) << planner.name;
+    EXPECT_THAT(plan.notes, Not(Contains(HasSubstr("left out"))));
+  }
+}
+
+TEST(Detours, ChooseHeadingsWithoutLoops) {
+  // The oracle is the plan through the default headings, given explicitly. Free headings must never
+  // be worse, and must save a loop on some of the routes. A tenth of a millimeter covers rounding
+  // of paths of some hundred meters.
+  const PlannerEntry dubins = DubinsPlanner();
+  Random random(4811);
+  int shorter = 0;
+  for (int i = 0; i < 10; ++i) {
+    PlanRequest request = DetourRequest(RandomRoute(random, 4, 8.0, 20.0, 2.0), 0.0);
+    const Plan free = dubins.plan(request, dubins.defaults);
+    for (const Pose2& stop : PlannedStops(request)) {
+      request.headings.push_back(stop.yaw);
+    }
+    const Plan given = dubins.plan(request, dubins.defaults);
+    ASSERT_TRUE(free.ok() && given.ok()) << free.reason << given.reason;
+    EXPECT_LE(free.reference.path.length(), given.reference.path.length() + Tolerance(1e-4));
+    EXPECT_LE(LargestWaypointMiss(free.reference.path, request.waypoints)->distance,
+              0.25 * request.vehicle.width);
+    const double saved = given.reference.path.length() - free.reference.path.length();
+    shorter += saved > request.vehicle.min_turning_radius() ? 1 : 0;
+  }
+  EXPECT_GE(shorter, 1);
+}
+
+TEST(Detours, NameARollingStartAsTheCause) {
+  // From 10 m/s, the car needs 33 m to brake at 1.5 m/s^2, so it cannot turn to the goal 6 m beside
+  // a point 12 m ahead without a loop. From rest it can.
+  PlanRequest request = DetourRequest({{0, 0}, {12, 6}}, 10.0);
+  request.start.yaw = 0.0;
+  const PlannerEntry dubins = DubinsPlanner();
+  const Plan rolling = dubins.plan(request, dubins.defaults);
+  ASSERT_TRUE(rolling.ok()) << rolling.reason;
+  EXPECT_THAT(rolling.notes, Contains(HasSubstr("because the car starts at 10 m/s; with "
+                                                "mission.start.speed: 0, it is")));
+  request.start_speed = 0.0;
+  const Plan at_rest = dubins.plan(request, dubins.defaults);
+  ASSERT_TRUE(at_rest.ok()) << at_rest.reason;
+  EXPECT_LT(at_rest.reference.path.length() + request.vehicle.min_turning_radius(),
+            rolling.reference.path.length());
+  EXPECT_THAT(at_rest.notes, Not(Contains(HasSubstr("because the car starts"))));
+}
+
+}  // namespace
+}  // namespace trackbed
