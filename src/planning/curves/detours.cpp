@@ -82,6 +82,27 @@ std::vector<Pose2> WithShortestHeadings(std::vector<Pose2> stops, double radius,
   return stops;
 }
 
+double LengthOf(const Plan& plan) {
+  return plan.ok() ? plan.reference.path.length() : std::numeric_limits<double>::infinity();
+}
+
+/// Whether a path is longer than the lines between the waypoints by the smallest turning radius.
+bool IsDetour(const Plan& plan, const PlanRequest& request) {
+  Vec2 at = request.start.position();
+  double straight = 0.0;
+  for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
+    straight += (request.waypoints[i] - at).norm();
+    at = request.waypoints[i];
+  }
+  return LengthOf(plan) >= straight + request.vehicle.min_turning_radius();
+}
+
+/// Whether a plan is shorter by the smallest turning radius, and not slower.
+bool IsBetter(const Plan& plan, const Plan& best, const VehicleParams& car) {
+  return plan.ok() && (!best.ok() || (LengthOf(plan) + car.min_turning_radius() <= LengthOf(best) &&
+                                      DrivingTime(plan, car) <= DrivingTime(best, car)));
+}
+
 class DetourPlanner {
  public:
   DetourPlanner(const PlanRequest& request, const CurveLength& length,
@@ -93,7 +114,7 @@ class DetourPlanner {
 
   [[nodiscard]] Plan Make() {
     Plan best = plan_(request_);
-    if (request_.waypoints.size() < 2 || !IsDetour(best)) {
+    if (request_.waypoints.size() < 2 || !IsDetour(best, request_)) {
       return best;
     }
     if (request_.headings.empty() && request_.waypoints.size() > 2) {
@@ -105,27 +126,6 @@ class DetourPlanner {
   }
 
  private:
-  [[nodiscard]] static double LengthOf(const Plan& plan) {
-    return plan.ok() ? plan.reference.path.length() : std::numeric_limits<double>::infinity();
-  }
-
-  [[nodiscard]] bool IsDetour(const Plan& plan) const {
-    Vec2 at = request_.start.position();
-    double straight = 0.0;
-    for (std::size_t i = 1; i < request_.waypoints.size(); ++i) {
-      straight += (request_.waypoints[i] - at).norm();
-      at = request_.waypoints[i];
-    }
-    return LengthOf(plan) >= straight + radius_;
-  }
-
-  /// Whether a plan is shorter by a radius, and not slower.
-  [[nodiscard]] bool IsBetter(const Plan& plan, const Plan& best) const {
-    return plan.ok() && (!best.ok() || (LengthOf(plan) + radius_ <= LengthOf(best) &&
-                                        DrivingTime(plan, request_.vehicle) <=
-                                            DrivingTime(best, request_.vehicle)));
-  }
-
   /// Replaces `best` by a shorter plan for the request with other headings.
   void TryOtherHeadings(Plan& best, PlanRequest request) const {
     const std::vector<Pose2> stops = PlannedStops(request);
@@ -137,7 +137,7 @@ class DetourPlanner {
       request.headings.push_back(stop.yaw);
     }
     Plan other = plan_(request);
-    if (IsBetter(other, best)) {
+    if (IsBetter(other, best, request_.vehicle)) {
       best = std::move(other);
     }
   }
@@ -165,7 +165,7 @@ class DetourPlanner {
       TryOtherHeadings(plan, request);
       const auto miss =
           plan.ok() ? LargestWaypointMiss(plan.reference.path, request_.waypoints) : std::nullopt;
-      if (miss && miss->distance <= near && IsBetter(plan, best)) {
+      if (miss && miss->distance <= near && IsBetter(plan, best, request_.vehicle)) {
         best = std::move(plan);
         best.notes.push_back(DescribeLeftOut(request.waypoints, *miss, with_all, LengthOf(best)));
       }
@@ -188,13 +188,13 @@ class DetourPlanner {
 
   /// Adds a note if a car at rest would not drive the detour.
   void NoteRollingStart(Plan& best) const {
-    if (!best.ok() || !IsDetour(best) || request_.start_speed == 0.0) {
+    if (!best.ok() || !IsDetour(best, request_) || request_.start_speed == 0.0) {
       return;
     }
     PlanRequest request = request_;
     request.start_speed = 0.0;
     const Plan at_rest = plan_(request);
-    if (IsBetter(at_rest, best)) {
+    if (IsBetter(at_rest, best, request_.vehicle)) {
       best.notes.push_back(
           fmt::format("the path is {:.4g} m long, because the car starts at {:.3g} m/s; with "
                       "mission.start.speed: 0, it is {:.4g} m long",
@@ -213,6 +213,38 @@ class DetourPlanner {
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
                     const std::function<Plan(const PlanRequest&)>& plan) {
   return DetourPlanner(request, length, plan).Make();
+}
+
+Plan WithLessCornerRoom(const PlanRequest& request, double corner_room,
+                        const std::function<Plan(const PlanRequest&, double)>& plan) {
+  Plan best = plan(request, corner_room);
+  PlanRequest left = request;
+  for (const double share : {0.3, 0.0}) {
+    const PlanStatus status = best.status;
+    const bool may_help =
+        best.ok() ? best.partial.empty() && IsDetour(best, request)
+                  : status == PlanStatus::kNoPath || status == PlanStatus::kTurnTooTight ||
+                        status == PlanStatus::kCollides || status == PlanStatus::kBudgetUsedUp ||
+                        status == PlanStatus::kStartBlocked;
+    left.max_samples = request.max_samples - best.diagnostics.samples;
+    if (!may_help || corner_room == 0.0 || request.obstacles.empty() || left.max_samples <= 0) {
+      break;
+    }
+    Plan own = plan(left, share * corner_room);
+    const long samples = best.diagnostics.samples + own.diagnostics.samples;
+    if (own.partial.empty() && IsBetter(own, best, request.vehicle)) {
+      own.notes.push_back(fmt::format(
+          "corner_room is reduced from {:.3g} m to {:.3g} m: {}", corner_room, share * corner_room,
+          best.ok() ? fmt::format("the path is {:.4g} m long instead of {:.4g} m", LengthOf(own),
+                                  LengthOf(best))
+                    : "with more, there is no path"));
+      best = std::move(own);
+      best.diagnostics.samples = samples;
+      break;
+    }
+    best.diagnostics.samples = samples;
+  }
+  return best;
 }
 
 }  // namespace trackbed

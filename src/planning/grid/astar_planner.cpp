@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/planning/curves/detours.h"
 #include "src/planning/sampling/prune_waypoints.h"
 #include "src/planning/sampling/sampling_task.h"
 #include "trackbed/geometry/box_index.h"
@@ -172,7 +173,7 @@ class GridPlanner {
   OccupancyGrid grid_;
 };
 
-Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
+Plan PlanOnGrid(const AStarOptions& options, const PlanRequest& request) {
   for (Plan refused : {CheckRoute(request), route::CheckStart(request, options.safe_distance)}) {
     if (!refused.ok()) {
       return refused;
@@ -227,6 +228,15 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
           request.start_speed > 0.0
               ? fmt::format(" and leaves room to slow down from {:.3g} m/s", request.start_speed)
               : ""));
+}
+
+Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
+  const double room = options.corners == Corners::kRound ? options.corner_room : 0.0;
+  return WithLessCornerRoom(request, room, [&](const PlanRequest& own, double corner_room) {
+    AStarOptions with = options;
+    with.corner_room = corner_room;
+    return PlanOnGrid(with, own);
+  });
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "src/planning/curves/detours.h"
 #include "src/planning/sampling/prune_waypoints.h"
 #include "src/planning/sampling/sampling_task.h"
 #include "trackbed/core/error.h"
@@ -333,7 +334,17 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
                  "{} trees, time limit {}", options.trees, options.time_limit.value_or(0.0));
   // With a time limit, try only one lead-in, because each lead-in would use the whole time limit
   // again.
-  return PlanWithLeadIn(options, request, PlanTrees, options.time_limit ? 1 : kLeadIns);
+  const int lead_ins = options.time_limit ? 1 : kLeadIns;
+  // A time limit is for one search, and the shortest path need not be the best one in the wind.
+  const bool is_calm = request.wind.velocity == Vec2(0.0, 0.0) && request.wind.gusts.empty();
+  const bool has_room = options.corners == Corners::kRound && !options.time_limit &&
+                        (is_calm || options.wind_weight == 0.0);
+  return WithLessCornerRoom(request, has_room ? options.corner_room : 0.0,
+                            [&](const PlanRequest& own, double corner_room) {
+                              RrtPlannerOptions with = options;
+                              with.corner_room = has_room ? corner_room : options.corner_room;
+                              return PlanWithLeadIn(with, own, PlanTrees, lead_ins);
+                            });
 }
 
 }  // namespace

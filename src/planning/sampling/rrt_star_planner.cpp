@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "src/planning/curves/detours.h"
 #include "src/planning/sampling/sampling_task.h"
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/box_index.h"
@@ -136,7 +137,12 @@ Plan PlanStar(const RrtStarPlannerOptions& options, const PlanRequest& request) 
     return refused;
   }
   TRACKBED_CHECK(options.trees > 0, "{} trees", options.trees);
-  return PlanWithLeadIn(options, request, PlanStarTrees, kLeadIns);
+  const double room = options.corners == Corners::kRound ? options.corner_room : 0.0;
+  return WithLessCornerRoom(request, room, [&](const PlanRequest& own, double corner_room) {
+    RrtStarPlannerOptions with = options;
+    with.corner_room = corner_room;
+    return PlanWithLeadIn(with, own, PlanStarTrees, kLeadIns);
+  });
 }
 
 }  // namespace
