@@ -101,7 +101,7 @@ TEST(Sweep, LeavesCellsEmptyThatARunHasNoValueFor) {
       "at s = 3 m, t = 1 s\"\n"
       "\"[kinematic, mujoco]\",3,40,no_plan,,,turn_too_tight,no plan (turn_too_tight): turn of "
       "56.31 deg at waypoint 2: radius 40 m needs 21.41 m of each leg; half of the shorter leg is "
-      "18.03 m\n");
+      "18.03 m; set plan.radius to at most 33.685\n");
 }
 
 TEST(Sweep, FindsTheHighestValueThatPasses) {

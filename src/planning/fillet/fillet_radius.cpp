@@ -143,6 +143,23 @@ std::string DescribeMiss(double max_miss, const FilletTurn& turn, double radius)
       miss, max_miss, turn.heading_change * 180.0 / kPi, radius, RemedyForMiss(miss));
 }
 
+/// Describes a turn whose legs are too short for the radius `radius` [m], with a remedy: a smaller
+/// radius if the car can turn on it, otherwise a longer leg or another planner.
+std::string DescribeShortLeg(const FilletTurn& turn, double radius, double min_turning_radius) {
+  const double half_leg = 0.5 * turn.shorter_leg;
+  const double per_leg = std::tan(0.5 * turn.interior_angle);
+  const double millimeters = 1000.0 * half_leg * per_leg;
+  // Rounded so that the remedy is sufficient.
+  const std::string remedy =
+      half_leg * per_leg >= min_turning_radius
+          ? fmt::format("set plan.radius to at most {:.10g}", 0.001 * std::floor(millimeters))
+          : fmt::format("make the shorter leg at least {:.10g} m long, or use plan.method: dubins",
+                        0.01 * std::ceil(200.0 * radius / per_leg));
+  return fmt::format(
+      "radius {:.4g} m needs {:.4g} m of each leg; half of the shorter leg is {:.4g} m; {}", radius,
+      radius / per_leg, half_leg, remedy);
+}
+
 /// Returns the radii that equation C.40 permits. If equation C.40 permits no radius at the
 /// mission's speed, first raises the upper bound to the radius that leaves most room, at most to
 /// `largest`, and then lowers the speed of the turn. Returns none if only equation C.34 is to limit
@@ -275,11 +292,7 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
   }
   const auto half_leg = HalfLegRadii(turn.interior_angle, turn.shorter_leg, bounds);
   if (!half_leg) {
-    throw refuse(
-        PlanStatus::kTurnTooTight,
-        fmt::format(
-            "radius {:.4g} m needs {:.4g} m of each leg; half of the shorter leg is {:.4g} m",
-            bounds.low, bounds.low / std::tan(turn.interior_angle / 2.0), turn.shorter_leg / 2.0));
+    throw refuse(PlanStatus::kTurnTooTight, DescribeShortLeg(turn, bounds.low, r_min));
   }
   RadiusLimits limits{*half_leg, ActiveConstraint::kMinRadius, ActiveConstraint::kHalfLeg,
                       RadiusConstraint::kHalfLeg};

@@ -111,7 +111,7 @@ HybridAStarResult FirstRollingLeg(const Route& route) {
     found.status = PlanStatus::kStartBlocked;
     found.reason = fmt::format(
         "an obstacle is too close to the first {:.3g} m, in which the car slows down for its first "
-        "turn",
+        "turn; at rest (mission.start.speed: 0), it needs no such length",
         lead.length);
   }
   // The length on which the car slows down counts twice: the car needs up to twice the time.

@@ -217,5 +217,25 @@ TEST(NearlyStraight, LeavesOutAPointThatWasClickedTwice) {
   }
 }
 
+TEST(ShortLegs, AreRefusedWithARemedyThatWorks) {
+  // A turn by 90 degrees of radius r needs r of each leg, so half of the leg of 8 m fits 4 m.
+  const std::vector<Vec2> route{{0, 0}, {40, 0}, {40, 8}};
+  FilletOptions options;
+  const FilletPlan tight = PlanFillets(ReferenceCar(), route, 1.0, options);
+  ASSERT_EQ(tight.status, PlanStatus::kTurnTooTight);
+  EXPECT_THAT(tight.reason, ::testing::HasSubstr("make the shorter leg at least 10.2 m long"));
+  options.constraint = RadiusConstraint::kHalfLeg;
+  EXPECT_EQ(PlanFillets(ReferenceCar(), {{0, 0}, {40, 0}, {40, 10.2}}, 1.0, options).status,
+            PlanStatus::kOk);
+  // With a given radius, a smaller one is the remedy.
+  options.radius = 9.0;
+  const std::vector<Vec2> longer{{0, 0}, {40, 0}, {40, 12}};
+  const FilletPlan wide = PlanFillets(ReferenceCar(), longer, 1.0, options);
+  ASSERT_EQ(wide.status, PlanStatus::kTurnTooTight);
+  EXPECT_THAT(wide.reason, ::testing::HasSubstr("set plan.radius to at most "));
+  options.radius = 5.999;
+  EXPECT_EQ(PlanFillets(ReferenceCar(), longer, 1.0, options).status, PlanStatus::kOk);
+}
+
 }  // namespace nearly_straight_test
 }  // namespace trackbed
