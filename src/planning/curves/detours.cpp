@@ -218,6 +218,9 @@ Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
 Plan WithLessCornerRoom(const PlanRequest& request, double corner_room,
                         const std::function<Plan(const PlanRequest&, double)>& plan) {
   Plan best = plan(request, corner_room);
+  if (request.max_samples < kMaxSamples) {
+    return best;
+  }
   PlanRequest left = request;
   for (const double share : {0.3, 0.0}) {
     const PlanStatus status = best.status;

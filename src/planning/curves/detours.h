@@ -29,8 +29,9 @@ Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
 /// or none of it. Less clearance is tried if there is no path, or if the path is longer than the
 /// straight lines between the waypoints by the car's smallest turning radius or more, as around a
 /// gate that the car fits through. It is taken only if it makes a path possible, or the path
-/// shorter by this radius or more and not slower. A note then says so. If `corner_room` is 0, or
-/// the samples of the request are used up, costs one plan; otherwise up to three.
+/// shorter by this radius or more and not slower. A note then says so.
+/// Costs one plan if `corner_room` is 0 or the request allows fewer samples than by default, as for
+/// detours; otherwise up to three.
 Plan WithLessCornerRoom(const PlanRequest& request, double corner_room,
                         const std::function<Plan(const PlanRequest&, double corner_room)>& plan);
 
