@@ -208,7 +208,7 @@ void AddPlan(const RunResult& result, ResultWriter& writer) {
 }
 
 void AddLog(const RunLog& log, ResultWriter& writer) {
-  writer.Add(run_folder::LogCsv(log.plant), ToTable(log).ToCsv());
+  writer.Add(run_folder::LogCsv(log.plant), CsvParts(log));
   writer.Add(run_folder::StateCsv(log.plant), log.configurations.ToCsv());
   if (!log.changes.empty()) {
     writer.Add(run_folder::NewPlansCsv(log.plant),

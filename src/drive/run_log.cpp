@@ -1,6 +1,7 @@
 #include "trackbed/drive/run_log.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "trackbed/scenario/log_columns.h"
 
@@ -56,6 +57,95 @@ void AddAids(const AidState& aids, std::vector<double>& cells) {
   }
 }
 
+/// Tells which groups of columns the table of a log has.
+struct Groups {
+  bool tracked = false;
+  bool obstacles = false;
+  bool noise = false;
+  bool wheels = false;
+  bool trailer = false;
+  bool gaps = false;
+};
+
+Groups GroupsOf(const RunLog& log) {
+  if (log.rows.empty()) {
+    return {};
+  }
+  const LogRow& first = log.rows.front();
+  return {.tracked = first.tracking.has_value(),
+          .obstacles = first.clearance.has_value(),
+          .noise = first.measured.has_value(),
+          .wheels = first.state.wheels.has_value(),
+          .trailer = first.trailer.has_value(),
+          .gaps = std::any_of(log.rows.begin(), log.rows.end(),
+                              [](const LogRow& row) { return !row.valid; })};
+}
+
+Table EmptyTable(const RunLog& log, const Groups& groups) {
+  const AidState aids = log.rows.empty() ? AidState{} : log.rows.front().aids.value_or(AidState{});
+  return Table(LogColumns({.path = groups.tracked,
+                           .obstacles = groups.obstacles,
+                           .noise = groups.noise,
+                           .wheels = groups.wheels,
+                           .abs = aids.abs_active.has_value(),
+                           .esc = aids.esc.has_value(),
+                           .differential = aids.differential_torque.has_value(),
+                           .trailer = groups.trailer,
+                           .gaps = groups.gaps,
+                           .origin = log.origin != Vec2::Zero(),
+                           .controller = log.controller_columns}));
+}
+
+/// Returns the cells of a row of the log, in the order of EmptyTable.
+std::vector<double> CellsOf(const RunLog& log, const Groups& groups, const LogRow& row) {
+  const VehicleState& state = row.state;
+  std::vector<double> cells{state.time,
+                            state.pose.x,
+                            state.pose.y,
+                            state.pose.yaw,
+                            state.speed,
+                            state.lateral_speed,
+                            state.yaw_rate,
+                            state.roll,
+                            state.pitch,
+                            state.longitudinal_acceleration,
+                            state.lateral_acceleration,
+                            state.sideslip,
+                            row.command.steering,
+                            state.steering_actuator,
+                            state.steering,
+                            row.tracking ? row.tracking->s : state.distance};
+  if (groups.tracked) {
+    cells.insert(cells.end(), {row.tracking->cross_track, row.tracking->heading_error});
+  }
+  if (groups.obstacles) {
+    cells.insert(cells.end(), {*row.clearance, state.obstacle_force});
+  }
+  if (groups.noise) {
+    cells.insert(cells.end(), {row.measured->x, row.measured->y, row.measured->yaw});
+  }
+  if (groups.wheels) {
+    for (const WheelState& wheel : *state.wheels) {
+      cells.insert(cells.end(), {wheel.normal_force, wheel.longitudinal_force, wheel.lateral_force,
+                                 wheel.slip_angle, wheel.slip_ratio, wheel.friction_use});
+    }
+  }
+  if (row.aids) {
+    AddAids(*row.aids, cells);
+  }
+  if (groups.trailer) {
+    cells.insert(cells.end(), {row.trailer->angle, row.trailer->rate});
+  }
+  if (groups.gaps) {
+    cells.push_back(row.valid ? 1.0 : 0.0);
+  }
+  if (log.origin != Vec2::Zero()) {
+    cells.insert(cells.end(), {log.origin.x(), log.origin.y()});
+  }
+  cells.insert(cells.end(), row.controller.begin(), row.controller.end());
+  return cells;
+}
+
 }  // namespace
 
 std::optional<OrientedBox> TrailerFootprint(const RunLog& log, const LogRow& row) {
@@ -67,75 +157,29 @@ std::optional<OrientedBox> TrailerFootprint(const RunLog& log, const LogRow& row
 }
 
 Table ToTable(const RunLog& log) {
-  const bool tracked = !log.rows.empty() && log.rows.front().tracking.has_value();
-  const bool obstacles = !log.rows.empty() && log.rows.front().clearance.has_value();
-  const bool wheels = !log.rows.empty() && log.rows.front().state.wheels.has_value();
-  const AidState aids = log.rows.empty() ? AidState{} : log.rows.front().aids.value_or(AidState{});
-  const bool trailer = !log.rows.empty() && log.rows.front().trailer.has_value();
-  const bool noise = !log.rows.empty() && log.rows.front().measured.has_value();
-  const bool gaps =
-      std::any_of(log.rows.begin(), log.rows.end(), [](const LogRow& row) { return !row.valid; });
-  Table table(LogColumns({.path = tracked,
-                          .obstacles = obstacles,
-                          .noise = noise,
-                          .wheels = wheels,
-                          .abs = aids.abs_active.has_value(),
-                          .esc = aids.esc.has_value(),
-                          .differential = aids.differential_torque.has_value(),
-                          .trailer = trailer,
-                          .gaps = gaps,
-                          .origin = log.origin != Vec2::Zero(),
-                          .controller = log.controller_columns}));
+  const Groups groups = GroupsOf(log);
+  Table table = EmptyTable(log, groups);
   for (const LogRow& row : log.rows) {
-    const VehicleState& state = row.state;
-    std::vector<double> cells{state.time,
-                              state.pose.x,
-                              state.pose.y,
-                              state.pose.yaw,
-                              state.speed,
-                              state.lateral_speed,
-                              state.yaw_rate,
-                              state.roll,
-                              state.pitch,
-                              state.longitudinal_acceleration,
-                              state.lateral_acceleration,
-                              state.sideslip,
-                              row.command.steering,
-                              state.steering_actuator,
-                              state.steering,
-                              row.tracking ? row.tracking->s : state.distance};
-    if (tracked) {
-      cells.insert(cells.end(), {row.tracking->cross_track, row.tracking->heading_error});
-    }
-    if (obstacles) {
-      cells.insert(cells.end(), {*row.clearance, state.obstacle_force});
-    }
-    if (noise) {
-      cells.insert(cells.end(), {row.measured->x, row.measured->y, row.measured->yaw});
-    }
-    if (wheels) {
-      for (const WheelState& wheel : *state.wheels) {
-        cells.insert(cells.end(),
-                     {wheel.normal_force, wheel.longitudinal_force, wheel.lateral_force,
-                      wheel.slip_angle, wheel.slip_ratio, wheel.friction_use});
-      }
-    }
-    if (row.aids) {
-      AddAids(*row.aids, cells);
-    }
-    if (trailer) {
-      cells.insert(cells.end(), {row.trailer->angle, row.trailer->rate});
-    }
-    if (gaps) {
-      cells.push_back(row.valid ? 1.0 : 0.0);
-    }
-    if (log.origin != Vec2::Zero()) {
-      cells.insert(cells.end(), {log.origin.x(), log.origin.y()});
-    }
-    cells.insert(cells.end(), row.controller.begin(), row.controller.end());
-    table.AddRow(cells);
+    table.AddRow(CellsOf(log, groups, row));
   }
   return table;
+}
+
+std::function<std::string()> CsvParts(const RunLog& log) {
+  constexpr std::size_t kRowsOfAPart = 1024;
+  return [&log, groups = GroupsOf(log), next = std::size_t{0}, begun = false]() mutable {
+    if (begun && next == log.rows.size()) {
+      return std::string();
+    }
+    Table part = EmptyTable(log, groups);
+    const std::size_t end = std::min(next + kRowsOfAPart, log.rows.size());
+    for (; next < end; ++next) {
+      part.AddRow(CellsOf(log, groups, log.rows[next]));
+    }
+    const std::string text = part.ToCsv();
+    // Only the first part has the line of names.
+    return std::exchange(begun, true) ? text.substr(text.find('\n') + 1) : text;
+  };
 }
 
 }  // namespace trackbed

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -102,5 +103,10 @@ std::optional<OrientedBox> TrailerFootprint(const RunLog& log, const LogRow& row
 /// for a path or for tyres only if the run has a path or tyres, and columns `origin_x_m` and
 /// `origin_y_m` only if the run has a local origin.
 Table ToTable(const RunLog& log);
+
+/// Returns a function that returns the text of `<plant>.csv` in parts, ToTable(log).ToCsv(); an
+/// empty part ends the text. A part has at most 1024 rows, so that neither the table nor the text
+/// of a long log is in memory as a whole. The log must outlive the function.
+std::function<std::string()> CsvParts(const RunLog& log);
 
 }  // namespace trackbed
