@@ -1,8 +1,20 @@
 #include "src/drive/recorder.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace trackbed {
+namespace {
+
+/// Returns the largest number of rows of a run, but at most the bound of scenarios.
+std::size_t MostRows(const LoopConfig& config) {
+  constexpr double kMostRows = 2e6;
+  return static_cast<std::size_t>(
+      std::clamp(config.time_limit / config.control_period + 2.0, 0.0, kMostRows));
+}
+
+}  // namespace
 
 Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller_columns,
                    bool keeps_rows)
@@ -17,7 +29,13 @@ Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller
       keeps_rows_(keeps_rows),
       hooks_(config.hooks),
       configurations_(config.configuration_columns, config.world, config.state_period),
-      collisions_(config.world, config.vehicle, config.trailer) {}
+      collisions_(config.world, config.vehicle, config.trailer) {
+  if (keeps_rows_) {
+    // A vector that grows holds its rows twice while they move. Reserved rows only take addresses
+    // until they are written.
+    log_.rows.reserve(MostRows(config));
+  }
+}
 
 void Recorder::Sample(const Plant& plant, double time) {
   configurations_.Record(plant, time);

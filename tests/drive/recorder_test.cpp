@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -141,6 +142,44 @@ TEST(Recorder, KeepsRowsChangesAndColumns) {
   ASSERT_EQ(log.changes.size(), 1U);
   EXPECT_EQ(log.changes[0].station, 6.0);
   EXPECT_FALSE(log.contact_time);
+}
+
+/// A log of `count` rows at different times, each with a value of the controller.
+RunLog LogOfRows(int count) {
+  RunLog log{.plant = "unicycle", .controller_columns = {"gain"}, .configurations = Table({"t_s"})};
+  for (int i = 0; i < count; ++i) {
+    LogRow row{.controller = {0.1 * i}};
+    row.state.time = 0.02 * i;
+    row.valid = i != count - 1;  // adds a column that the first rows do not ask for
+    log.rows.push_back(row);
+  }
+  return log;
+}
+
+TEST(Recorder, ReservesTheRowsOfTheRun) {
+  LoopConfig config = Config();
+  config.time_limit = 100.0;  // 5001 rows, one of them at the end
+  Recorder recorder(config, {});
+  for (int i = 0; i < 5001; ++i) {
+    recorder.AddRow(recorder.BeginRow({}, {}, {}));
+  }
+  const RunLog log = recorder.Finish(DriveStatus::kTimeLimit);
+  EXPECT_LE(log.rows.capacity(), 5002U);
+  EXPECT_EQ(log.rows.size(), 5001U);
+}
+
+TEST(CsvParts, JoinToTheTextOfTheTable) {
+  for (const int count : {0, 1, 1023, 1024, 1025, 2048, 3000}) {
+    const RunLog log = LogOfRows(count);
+    const auto next = CsvParts(log);
+    std::string text;
+    for (std::string part = next(); !part.empty(); part = next()) {
+      EXPECT_LE(std::count(part.begin(), part.end(), '\n'), 1025) << "of " << count;
+      text += part;
+    }
+    EXPECT_EQ(text, ToTable(log).ToCsv()) << count;
+    EXPECT_EQ(next(), "") << count;
+  }
 }
 
 }  // namespace
