@@ -162,6 +162,21 @@ class RefusalCheck {
     }
   }
 
+  /// Returns the turn at a waypoint [rad] without the waypoints that are so close to it that a path
+  /// may leave them out.
+  double TurnWithoutNeighbors(std::size_t i) {
+    const std::vector<Point>& points = record_.mission.waypoints;
+    std::vector<Point> before;
+    std::vector<Point> behind;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const bool is_end = k == 0 || k + 1 == points.size();
+      if (k != i && (is_end || Length(points[k], points[i]) > 0.25 * record_.car.width)) {
+        (k < i ? before : behind).push_back(points[k]);
+      }
+    }
+    return TurnAt({before.back(), points[i], behind.front()}, 1).angle;
+  }
+
   void CheckFillet() {
     const std::string& status = record_.status;
     const auto at = NumberBehind(record_.reason, "at waypoint ");
@@ -175,7 +190,8 @@ class RefusalCheck {
     constexpr double kRounding = 1e-6;
     bool is_true = false;
     if (status == "u_turn") {
-      is_true = turn.angle > kHalfTurn - kRounding;
+      is_true = std::max(turn.angle, TurnWithoutNeighbors(static_cast<std::size_t>(*at))) >
+                kHalfTurn - kRounding;
     } else if (status == "turn_too_tight") {
       is_true = radius * std::tan(0.5 * turn.angle) > turn.half_leg * (1.0 - kRounding);
     } else if (status == "no_room_for_steering") {
