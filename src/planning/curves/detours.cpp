@@ -114,7 +114,8 @@ class DetourPlanner {
 
   [[nodiscard]] Plan Make() {
     Plan best = plan_(request_);
-    if (request_.waypoints.size() < 2 || !IsDetour(best, request_)) {
+    if (request_.waypoints.size() < 2 || best.status == PlanStatus::kDuplicateWaypoints ||
+        !IsDetour(best, request_)) {
       return best;
     }
     if (request_.headings.empty() && request_.waypoints.size() > 2) {
