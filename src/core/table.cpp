@@ -58,7 +58,8 @@ std::string NotANumber(const std::string& cell) {
 struct Reader {
   std::string file;
   Selection selection;
-  // Receives the rows. If `take` is empty, the rows are added to the table.
+  // Receives the rows, if all needed columns are there. If `take` is empty, the rows are added to
+  // the table.
   std::function<void(const std::vector<double>& numbers, int line)> take{};
   std::optional<Table> table{};
   std::vector<int> lines{};           // Line of the file from which each row of the table was read.
@@ -66,6 +67,7 @@ struct Reader {
   std::vector<std::size_t> taken{};   // For each column of the table, its index in `header`.
   std::vector<std::string> cells{};   // Cells of the current row.
   int line = 1;                       // Line of the file on which the current row begins.
+  bool has_needed = true;             // Whether the file has all needed columns.
   ProblemList problems{};
 
   void AddError(std::string key, std::string message) {
@@ -115,6 +117,7 @@ struct Reader {
     }
     for (const std::string& name : selection.needed) {
       if (std::find(columns.begin(), columns.end(), name) == columns.end()) {
+        has_needed = false;
         const std::string near = NearestSpelling(name, header);
         AddError("", fmt::format("no column '{}'; {}", name,
                                  near.empty() ? fmt::format("columns: {}", fmt::join(header, ", "))
@@ -154,7 +157,9 @@ struct Reader {
       row.push_back(value);
     }
     if (take) {
-      take(row, line);
+      if (has_needed) {
+        take(row, line);
+      }
       return;
     }
     table->AddRow(row);

@@ -263,5 +263,19 @@ TEST(ReadCsvExcerpt, WantsFiniteNumbers) {
             "t.csv:4: cell 2 (b): 'x' is not a number");
 }
 
+TEST(ReadCsvNumbers, PassesNoRowsOfAFileWithoutANeededColumn) {
+  const TempFolder folder;
+  const std::filesystem::path file = folder.Write("t.csv", "a,b\n1,2\n3,x\n");
+  int rows = 0;
+  try {
+    ReadCsvNumbers(file, {"a", "b", "c"}, ',', [&](const std::vector<double>&, int) { ++rows; });
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("t.csv:1: no column 'c'; columns: a, b"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("t.csv:3: cell 2 (b): 'x' is not a number"));
+  }
+  EXPECT_EQ(rows, 0);
+}
+
 }  // namespace
 }  // namespace trackbed
