@@ -44,7 +44,7 @@ std::vector<double> Weights(const ChordPoints& fitted, double period) {
 
 SmoothingSpline::SmoothingSpline(const ChordPoints& fitted, double period,
                                  const EndHeadings& headings)
-    : period_(period), knots_(fitted.u), weights_(Weights(fitted, period)) {
+    : knots_(fitted.u), weights_(Weights(fitted, period)) {
   TRACKBED_CHECK(knots_.size() >= (period > 0.0 ? 3U : 2U), "{} points", knots_.size());
   const auto count = static_cast<Eigen::Index>(knots_.size());
   if (period > 0.0) {

@@ -63,7 +63,6 @@ class SmoothingSpline {
   void AddData(const ChordPoints& fitted, const EndHeadings& headings);
   void AddPenalty();
 
-  double period_;
   std::vector<double> knots_;
   std::vector<double> weights_;
   Eigen::Array<double, 1, Eigen::Dynamic> all_knots_;

@@ -24,9 +24,9 @@ class MujocoErrorScope {
  private:
   // The handlers that the thread had before: one handler since MuJoCo 3.10, two handlers in older
   // versions.
-  void (*log_)(const mjLogMessage_*) = nullptr;
-  void (*error_)(const char*) = nullptr;
-  void (*warning_)(const char*) = nullptr;
+  [[maybe_unused]] void (*log_)(const mjLogMessage_*) = nullptr;
+  [[maybe_unused]] void (*error_)(const char*) = nullptr;
+  [[maybe_unused]] void (*warning_)(const char*) = nullptr;
 };
 
 }  // namespace trackbed

@@ -15,7 +15,7 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
                                                  double distance, double look_ahead,
                                                  double offset) {
   constexpr double kStep = 0.1;  // [s]
-  constexpr double kClearanceTolerance =
+  constexpr double kTolerance =
       1e-2;  // tolerance [m], needed because planners check the clearance only at samples
   // Use only the part of the profile ahead of the car, because a stop behind the car could make all
   // later times infinite.
@@ -25,7 +25,7 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
   const auto too_near = [&](double time, const MovingBox& obstacle) {
     const OrientedBox footprint =
         FootprintAt(vehicle, Compose(reference.path.At(station_at(time)).pose, {0.0, offset, 0.0}));
-    return Separation(footprint, obstacle.At(time)) < distance - kClearanceTolerance;
+    return Separation(footprint, obstacle.At(time)) < distance - kTolerance;
   };
   const auto steps = static_cast<int>(std::ceil(look_ahead / kStep));
   for (int i = 0; i <= steps; ++i) {
