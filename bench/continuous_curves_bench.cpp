@@ -124,10 +124,10 @@ void Register() {
         std::pair("HcReedsShepp", &ContinuousCurves::HybridReedsShepp)}) {
     for (const bool steered : {false, true}) {
       RegisterGuarded(std::string(name) + (steered ? "/steered" : "/straight"),
-                      [=](benchmark::State& state) {
+                      [steered, curves = shortest](benchmark::State& state) {
                         const Pairs pairs = RandomPairs(steered);
                         for (auto _ : state) {
-                          state.SetIterationTime(OurSeconds(pairs, shortest));
+                          state.SetIterationTime(OurSeconds(pairs, curves));
                         }
                       })
           ->UseManualTime()

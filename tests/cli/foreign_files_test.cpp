@@ -41,7 +41,7 @@ struct Verb {
                          ///< or elsewhere
   NameParts parts{};
 
-  friend void PrintTo(const Verb& verb, std::ostream* out) { *out << verb.name; }
+  friend void PrintTo(const Verb& verb, std::ostream* to) { *to << verb.name; }
 };
 
 std::vector<Verb> Verbs() {

@@ -25,7 +25,7 @@ TEST(RoadData, HasThePavementAndThePaint) {
   EXPECT_EQ(band.at("right").back(), -3.5);
   ASSERT_EQ(roads.at("lines").size(), 12U);  // dashes every 9 m over 100 m
   const auto& dash = roads.at("lines")[1];
-  EXPECT_EQ(dash.at("points"), nlohmann::json({9.0, 0.0, 10.5, 0.0, 12.0, 0.0}));
+  EXPECT_EQ(dash.at("points"), nlohmann::ordered_json({9.0, 0.0, 10.5, 0.0, 12.0, 0.0}));
   EXPECT_EQ(dash.at("width"), 0.15);
   EXPECT_TRUE(dash.at("yellow"));
 }
