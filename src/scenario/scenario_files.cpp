@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <system_error>
 
@@ -21,8 +22,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Appends the scenario files in `folder`, then the scenario files in its subfolders.
-void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::path>& files) {
+using Accepts = std::function<bool(const fs::path&)>;
+
+/// Returns whether a YAML file is a scenario (or a study, if `content` asks for studies). Reads the
+/// file.
+bool IsContent(const fs::path& file, FolderContent content) {
+  const bool is_study = IsStudy(file) || IsIdentification(file);
+  return (content == FolderContent::kScenariosAndStudies || !is_study) && !IsLogMap(file) &&
+         !IsRosMap(file) && !IsNavPathYaml(file);
+}
+
+/// Appends the YAML files in `folder` that `accepts` accepts, then those in its subfolders.
+void AddFilesIn(const fs::path& folder, const Accepts& accepts, std::vector<fs::path>& files) {
   std::vector<fs::path> own;
   std::vector<fs::path> folders;
   std::error_code error;
@@ -38,9 +49,7 @@ void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::p
         folders.push_back(path);
       }
     } else if (extension == ".yaml" || extension == ".yml") {
-      const bool is_study = IsStudy(path) || IsIdentification(path);
-      if ((content == FolderContent::kScenariosAndStudies || !is_study) && !IsLogMap(path) &&
-          !IsRosMap(path) && !IsNavPathYaml(path)) {
+      if (accepts(path)) {
         own.push_back(path);
       }
     }
@@ -52,18 +61,29 @@ void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::p
   std::sort(folders.begin(), folders.end());
   files.insert(files.end(), own.begin(), own.end());
   for (const fs::path& inner : folders) {
-    AddFilesIn(inner, content, files);
+    AddFilesIn(inner, accepts, files);
   }
+}
+
+/// Returns the accepted files among those that are shipped with Trackbed.
+std::vector<fs::path> ShippedFiles(const Accepts& accepts) {
+  std::vector<fs::path> files;
+  const Accepts installed = [&](const fs::path& file) {
+    return file.parent_path().filename() != "validation" && accepts(file);
+  };
+  AddFilesIn(DataFolder() / "scenarios", installed, files);
+  return files;
+}
+
+/// Returns the path of a shipped file inside of the folder of scenarios, without its extension.
+fs::path NameOf(const fs::path& file) {
+  return file.lexically_relative(DataFolder() / "scenarios").replace_extension();
 }
 
 }  // namespace
 
 std::vector<fs::path> ShippedScenarios(FolderContent content) {
-  std::vector<fs::path> files;
-  AddFilesIn(DataFolder() / "scenarios", content, files);
-  std::erase_if(files,
-                [](const fs::path& file) { return file.parent_path().filename() == "validation"; });
-  return files;
+  return ShippedFiles([content](const fs::path& file) { return IsContent(file, content); });
 }
 
 fs::path FindScenario(const fs::path& name) {
@@ -71,16 +91,11 @@ fs::path FindScenario(const fs::path& name) {
   if (fs::exists(fs::symlink_status(name, ignored)) || name.has_extension() || name.is_absolute()) {
     return name;
   }
-  const fs::path shipped = DataFolder() / "scenarios";
-  std::vector<std::string> names;
-  std::vector<fs::path> found;
-  for (const fs::path& file : ShippedScenarios(FolderContent::kScenariosAndStudies)) {
-    const fs::path inside = file.lexically_relative(shipped).replace_extension();
-    names.push_back(inside.filename().string());
-    if (inside == name || inside.filename() == name) {
-      found.push_back(file);
-    }
-  }
+  const std::vector<fs::path> found = ShippedFiles([&](const fs::path& file) {
+    const fs::path inside = NameOf(file);
+    return (inside == name || inside.filename() == name) &&
+           IsContent(file, FolderContent::kScenariosAndStudies);
+  });
   if (found.size() == 1) {
     return found.front();
   }
@@ -88,6 +103,10 @@ fs::path FindScenario(const fs::path& name) {
     throw InputError(Problem{.file = name.string(),
                              .message = fmt::format("is the name of {} and of {}",
                                                     found[0].string(), found[1].string())});
+  }
+  std::vector<std::string> names;
+  for (const fs::path& file : ShippedScenarios(FolderContent::kScenariosAndStudies)) {
+    names.push_back(NameOf(file).filename().string());
   }
   const std::string nearest = NearestSpelling(name.string(), names);
   throw InputError(Problem{
@@ -102,7 +121,8 @@ std::vector<fs::path> ScenarioFiles(const std::vector<std::string>& paths, Folde
   for (const std::string& path : paths) {
     const std::size_t before = found.size();
     if (fs::is_directory(path)) {
-      AddFilesIn(path, content, found);
+      AddFilesIn(
+          path, [content](const fs::path& file) { return IsContent(file, content); }, found);
     }
     if (found.size() == before) {
       found.push_back(FindScenario(path));

@@ -19,7 +19,7 @@ std::vector<std::filesystem::path> ShippedScenarios(FolderContent content);
 /// returns an existing file, or a name with an extension, unchanged. Any other name refers to a
 /// shipped scenario or study, such as "three_turns", "studies/robustness" or "robustness". Throws
 /// InputError if several shipped files match the name. For an unknown name, FindScenario throws
-/// InputError that suggests the most similar name.
+/// InputError that suggests the most similar name. FindScenario reads only files of this name.
 std::filesystem::path FindScenario(const std::filesystem::path& name);
 
 /// Returns the scenario files that `paths` name, without duplicates. Each path that is not a folder
