@@ -64,6 +64,18 @@ bool Conflict(const std::string& a, const std::string& b) {
   return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
 }
 
+/// Returns why a metric cannot have the path `path` beside the existing path `other`.
+std::string TakenReason(const std::string& path, const std::string& other) {
+  if (path == other) {
+    return fmt::format("metrics.json already has '{}'; choose another name", path);
+  }
+  if (other.starts_with(path + ".")) {
+    return fmt::format("'{}' is a section of metrics.json, with '{}'; choose another name", path,
+                       other);
+  }
+  return fmt::format("'{0}' is a value in metrics.json, so no name may begin with '{0}.'", other);
+}
+
 void CheckEntry(const MetricEntry& entry) {
   const auto refuse = [&](const std::string& why) {
     throw InputError(Problem{.message = fmt::format("metric '{}': {}", entry.path, why)});
@@ -85,7 +97,7 @@ void CheckEntry(const MetricEntry& entry) {
   for (const std::string& path : EntryPaths(entry)) {
     for (const std::string& other : taken) {
       if (Conflict(path, other)) {
-        refuse(fmt::format("conflicts with the metric '{}'", other));
+        refuse(TakenReason(path, other));
       }
     }
   }

@@ -101,17 +101,23 @@ std::string Refused(MetricEntry entry) {
 
 TEST(RegisterMetric, RefusesWhatIsTakenOrMalformed) {
   EXPECT_EQ(Refused({.path = "cross_track.max", .label = "A", .measure = HalfWay}),
-            "metric 'cross_track.max': conflicts with the metric 'cross_track.max'");
-  for (const char* taken :
-       {"cross_track", "status.text", "clearance_min_s", "turns", "maneuver.x"}) {
+            "metric 'cross_track.max': metrics.json already has 'cross_track.max'; choose another "
+            "name");
+  EXPECT_EQ(Refused({.path = "cross_track", .label = "A", .measure = HalfWay}),
+            "metric 'cross_track': 'cross_track' is a section of metrics.json, with "
+            "'cross_track.rms'; choose another name");
+  EXPECT_EQ(Refused({.path = "status.text", .label = "A", .measure = HalfWay}),
+            "metric 'status.text': 'status' is a value in metrics.json, so no name may begin with "
+            "'status.'");
+  for (const char* taken : {"clearance_min_s", "turns", "maneuver.x"}) {
     EXPECT_THAT(Refused({.path = taken, .label = "A", .measure = HalfWay}),
-                HasSubstr("conflicts with"))
+                HasSubstr("metrics.json"))
         << taken;
   }
   // A metric with a station is refused for the same reason.
   EXPECT_THAT(
       Refused({.path = "cross_track.max", .label = "A", .measure = HalfWay, .located = true}),
-      HasSubstr("conflicts with"));
+      HasSubstr("already has"));
   for (const char* malformed : {"", "Max", "a..b", "a.", "1a", "a[0]", "a b"}) {
     EXPECT_THAT(Refused({.path = malformed, .label = "A", .measure = HalfWay}),
                 HasSubstr("must be words of a-z"))
@@ -145,7 +151,7 @@ TEST(RegisterMetric, MakesAMetricLikeAnyOther) {
   EXPECT_EQ(CollectOutputs(run).at("metrics.kinematic.test_half_way_s"), "1.5");
   EXPECT_EQ(DescribeMetric("test_half_way")->label, "Half way");
   EXPECT_THAT(Refused({.path = "test_half_way", .label = "A", .measure = HalfWay}),
-              HasSubstr("conflicts with the metric 'test_half_way'"));
+              HasSubstr("already has 'test_half_way'"));
 }
 
 }  // namespace metric_registry_test

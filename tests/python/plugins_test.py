@@ -399,7 +399,7 @@ def test_interrupts_are_raised_unchanged():
         (lambda: trackbed.plant("test_x")(lambda s: 1), TypeError, "must be a class"),
         (lambda: trackbed.plant("kinematic")(Bicycle), ValueError, "already registered"),
         (lambda: trackbed.metric("test_x")(lambda: 1), TypeError, r"\(log\) or \(log, path\)"),
-        (lambda: trackbed.metric("cross_track")(calm), ValueError, "conflicts with the metric"),
+        (lambda: trackbed.metric("cross_track")(calm), ValueError, "is a section of metrics.json"),
         (lambda: trackbed.Key(min="a"), TypeError, "min must be a number"),
     ],
 )
