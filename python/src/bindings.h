@@ -65,8 +65,8 @@ class WithoutGil {
   const py::gil_scoped_release release_;
 };
 
-/// Asks Python about once in 20 ms, while a run is simulated without the GIL, whether a signal such
-/// as Ctrl-C has arrived. Only the main thread of Python handles signals.
+/// Asks Python about once in 20 ms, while a run is simulated or filmed without the GIL, whether a
+/// signal such as Ctrl-C has arrived. Only the main thread of Python handles signals.
 class Signals {
  public:
   /// Returns whether a signal handler has raised an exception, such as KeyboardInterrupt.

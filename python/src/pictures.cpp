@@ -56,12 +56,25 @@ py::array_t<std::uint8_t> Frame(const fs::path& folder, double time, int width, 
                                    image.pixels.data());
 }
 
+/// Ends a film whose frames are not all drawn.
+struct FilmInterrupted {};
+
 void Film(const fs::path& folder, const fs::path& output, int width, int height, double fps,
           const std::string& camera, const std::string& quality) {
-  const WithoutGil release;
-  const std::lock_guard lock(RenderMutex());
-  RenderFilm(folder, output,
-             {.width = width, .height = height, .fps = fps, .camera = camera, .quality = quality});
+  Signals signals;
+  try {
+    const WithoutGil release;
+    const std::lock_guard lock(RenderMutex());
+    const FilmOptions options{
+        .width = width, .height = height, .fps = fps, .camera = camera, .quality = quality};
+    RenderFilm(folder, output, options, [&](double /*fraction*/) {
+      if (signals.Raised()) {
+        throw FilmInterrupted();
+      }
+    });
+  } catch (const FilmInterrupted&) {
+    signals.Rethrow();
+  }
 }
 
 }  // namespace

@@ -347,7 +347,11 @@ def film(
     camera: str = "chase",
     quality: str = "draft",
 ) -> None:
-    """Films the run; the extension of `file` is .mp4, .webp, .apng or .png (one file per frame)."""
+    """Films the run; the extension of `file` is .mp4, .webp, .apng or .png (one file per frame).
+
+    `size` is (width, height), at least (64, 64), and even for .mp4. `fps` is the number of frames per
+    second of the run, 1 to 240. Ctrl-C ends the film, which is then not written.
+    """
     instance("run", run, Run)
     width, height = pixels("size", size)
     _trackbed.film(

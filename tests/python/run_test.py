@@ -343,3 +343,24 @@ def test_pictures_bear_the_name_of_the_run():
     numpy.testing.assert_array_equal(
         trackbed.frame(run, 0.5, (160, 90)), trackbed.frame(other, 0.5, numpy.array([160, 90]))
     )
+
+
+def test_a_table_is_no_array(run):
+    for table in (run, run["mujoco"], run.path):
+        with pytest.raises(TypeError, match="is a mapping of names, not an array"):
+            numpy.array(table)
+        with pytest.raises(TypeError, match="is a mapping of names, not an array"):
+            numpy.asarray(table, dtype=float)
+    with pytest.raises(AttributeError, match=r"the log of a plant is read by run\['mujoco'\]"):
+        run.mujoco
+
+
+def test_ctrl_c_interrupts_a_film(run, tmp_path):
+    # The film has 14 000 frames, at least 2 ms each: it takes above 28 s without an interruption.
+    timer = threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    start = time.process_time()
+    with pytest.raises(KeyboardInterrupt):
+        trackbed.film(run, tmp_path / "film.webp", (64, 64), fps=240)
+    assert time.process_time() - start < 14.0
+    assert list(tmp_path.iterdir()) == []
