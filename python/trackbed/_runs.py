@@ -8,7 +8,7 @@ import os
 import shutil
 import tempfile
 import weakref
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NoReturn, Optional, TypeVar, Union
 
 import numpy
@@ -28,6 +28,22 @@ from ._arguments import (
     text,
     whole,
 )
+
+
+def no_attribute(owner: Any, name: str, items: Sequence[str], what: str) -> AttributeError:
+    """Returns the error for an unknown attribute, which may be meant as one of the items."""
+    hint = similar(name, items)
+    if name in items:
+        hint = f"; {what} is read by {type(owner).__name__.lower()}[{name!r}]"
+    return AttributeError(f"{type(owner).__name__!r} object has no attribute {name!r}{hint}")
+
+
+def no_array(owner: Any, instead: str) -> TypeError:
+    """Returns the error for the conversion of a mapping to one array, which NumPy would fill with
+    the names."""
+    return TypeError(
+        f"a {type(owner).__name__} is a mapping of names, not an array of numbers; use {instead}"
+    )
 
 
 class _Arrays:
@@ -76,10 +92,11 @@ class Columns(Mapping[str, numpy.ndarray]):
         return len(self._core.names)
 
     def __getattr__(self, name: str) -> NoReturn:
-        hint = "" if name.startswith("_") else similar(name, self._core.names)
-        if not name.startswith("_") and name in self._core.names:
-            hint = f"; a column is read by {type(self).__name__.lower()}[{name!r}]"
-        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}{hint}")
+        names = [] if name.startswith("_") else self._core.names
+        raise no_attribute(self, name, names, "a column")
+
+    def __array__(self, *arguments: Any, **named: Any) -> NoReturn:
+        raise no_array(self, "to_pandas(), or numpy.column_stack([table[name] for name in names])")
 
     @property
     def rows(self) -> int:
@@ -140,6 +157,13 @@ class Run(Mapping[str, Log]):
             assert core is not None
             self._logs[plant] = Log(core, plant)
         return self._logs[plant]
+
+    def __getattr__(self, name: str) -> NoReturn:
+        plants = [] if name.startswith("_") else self.plants
+        raise no_attribute(self, name, plants, "the log of a plant")
+
+    def __array__(self, *arguments: Any, **named: Any) -> NoReturn:
+        raise no_array(self, "run[plant][column], or run.to_pandas()")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.plants)
@@ -329,7 +353,7 @@ def frame(
     """Draws the run at the time `t` [s], off-screen.
 
     Returns an array of uint8 with the shape (height, width, 3): red, green and blue, from the top
-    left. `size` is (width, height). `camera` and `quality` are those of `trackbed render`.
+    left. `size` is (width, height), at least (64, 64). `camera` and `quality` are those of `trackbed render`.
     """
     instance("run", run, Run)
     width, height = pixels("size", size)

@@ -14,7 +14,7 @@ import numpy
 
 from . import _trackbed
 from ._arguments import INT_MAX, Overrides, Scenario, flag, number, overrides, path, similar, whole
-from ._runs import _pandas
+from ._runs import _pandas, no_array
 
 
 class Sweep(Mapping[str, numpy.ndarray]):
@@ -83,6 +83,9 @@ class Sweep(Mapping[str, numpy.ndarray]):
             if end is not None and time.monotonic() >= end:
                 return False
         return True
+
+    def __array__(self, *arguments: Any, **named: Any) -> NoReturn:
+        raise no_array(self, "sweep[column], or sweep.to_pandas()")
 
     def stop(self) -> None:
         """Ends the study after the runs' present control period. The finished rows remain."""
