@@ -60,6 +60,23 @@ Answer ReadAnswer(const py::dict& given) {
                     Kept());
 }
 
+/// Returns why a path with a reversal is refused, with a remedy for the points of a planner.
+std::string ReversalReason(const FittedPath& fitted) {
+  const HeadingJump& first = fitted.reversals.front();
+  std::string text = fmt::format("the path turns back on itself by {:.3g} rad at ({:.6g}, {:.6g})",
+                                 std::abs(first.angle), first.position.x(), first.position.y());
+  text += fitted.given.yaw.empty()
+              ? "; if the car reverses there, return points of shape (n, 3) with the car's yaw"
+              : "; the yaw of the points says that the car keeps its direction of motion there";
+  if (fitted.noise_deviation) {
+    text += fmt::format(
+        "; if this is noise of the points, return a PlannedPath with max_deviation "
+        "{:.2g}",
+        std::max(*fitted.noise_deviation, fitted.options.max_deviation));
+  }
+  return text;
+}
+
 /// Fits a path to the points and plans along it, as the planner `path_file` does.
 Plan PlanAlong(const Plugin& plugin, const PlanRequest& request, Answer answer) {
   PathFileOptions options;
@@ -84,6 +101,9 @@ Plan PlanAlong(const Plugin& plugin, const PlanRequest& request, Answer answer) 
     Refuse(plugin, "cannot be fitted: " + error.problems().front().message);
   }
   Plan plan = PathFilePlanner().plan(request, options);
+  if (plan.status == PlanStatus::kUTurn && !options.path->reversals.empty()) {
+    plan.reason = ReversalReason(*options.path);
+  }
   plan.notes.insert(plan.notes.end(), answer.notes.begin(), answer.notes.end());
   return plan;
 }

@@ -299,6 +299,15 @@ def test_wrong_paths_are_named(answer, text):
         ([1, 2], "state must return a dict of columns, not list"),
     ],
 )
+def test_a_path_that_turns_back_names_a_remedy_for_its_points():
+    zigzag = [[0, 0], [5, 0], [0, 1], [20, 1]]
+    trackbed.planner("test_zigzag", replace=True)(lambda request: zigzag)
+    plan = trackbed.run("three_turns", "kinematic", {"plan": {"method": "test_zigzag"}}).plan
+    assert plan["status"] == "u_turn"
+    assert "turns back on itself by 2.94 rad at (5, 0); if the car reverses" in plan["reason"]
+    assert "return points of shape (n, 3)" in plan["reason"]
+
+
 def test_wrong_states_are_named(state, text):
     class Wrong:
         def __init__(self, setup):
