@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import os
 from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn, Optional, Union
@@ -111,7 +112,7 @@ class Loop:
         self.plant = plant
 
     def __copy__(self) -> Loop:
-        result = Loop.__new__(Loop)
+        result = type(self).__new__(type(self))
         result.__dict__.update({k: v for k, v in self.__dict__.items() if k != "_core"})
         result._start(self._prepared, self.plant)
         result._core.restore(self._core.save())
@@ -242,6 +243,8 @@ class VectorLoop:
     count: number of cars.
     seeds: one seed for each car; by default, all cars have the scenario's seed.
     threads: number of threads; by default, the number of processors.
+
+    A copy (copy.copy, copy.deepcopy) has other cars in the same states.
     log: whether every loop keeps all rows of its log.
     """
 
@@ -275,6 +278,22 @@ class VectorLoop:
                 loop._start(first._prepared, first.plant)
             else:
                 loop = Loop(scenario, plant, set, seed=own[i], log=log)
+        self._join()
+
+    def __copy__(self) -> VectorLoop:
+        result = type(self).__new__(type(self))
+        result.__dict__.update({k: v for k, v in self.__dict__.items() if k != "_core"})
+        result.loops = [copy.copy(loop) for loop in self.loops]
+        result._join()
+        return result
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> VectorLoop:
+        return self.__copy__()
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a VectorLoop cannot be pickled; make the loops in each process")
+
+    def _join(self) -> None:
             self.loops.append(loop)
         self._core = _trackbed.VectorLoop([loop._core for loop in self.loops], self._threads)
 
