@@ -41,6 +41,13 @@ class Columns {
 /// Converts JSON to dictionaries, lists, numbers and texts.
 py::object ToPython(const nlohmann::ordered_json& json);
 
+/// Makes a copy the object itself, for a class whose objects do not change.
+template <typename Class>
+void CopyAsItself(Class& bound) {
+  bound.def("__copy__", [](const py::object& self) { return self; });
+  bound.def("__deepcopy__", [](const py::object& self, const py::dict&) { return self; });
+}
+
 /// Counts the functions of the package that run without the GIL. Python code can register plug-ins
 /// only while no such function runs, because the registries are not thread-safe.
 class RunningFunction {

@@ -156,9 +156,7 @@ void BindObservation(py::module_& module) {
   });
   observation.def_property_readonly("ended",
                                     [](const Observation& o) { return o.status.has_value(); });
-  // An observation does not change, so a copy is the same object.
-  observation.def("__copy__", [](const py::object& self) { return self; });
-  observation.def("__deepcopy__", [](const py::object& self, const py::dict&) { return self; });
+  CopyAsItself(observation);
   observation.def("__reduce__", [](const Observation&) -> py::tuple {
     throw py::type_error("an Observation cannot be pickled; use seen.asdict()");
   });

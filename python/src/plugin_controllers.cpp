@@ -94,11 +94,13 @@ struct MakeControllerEntry {
   }
 };
 
-py::dict ReferenceOf(const ControllerInput& seen, const Numbers& stations) {
+py::dict ReferenceOf(const ControllerInput& seen, const py::object& stations) {
   if (seen.input == nullptr) {
     throw std::runtime_error("reference() can only be called until step returns");
   }
-  return ReferenceAt([&](const auto& use) { use(seen.input->reference); }, stations);
+  const py::object row =
+      py::module_::import("trackbed._arguments").attr("row")("stations", stations);
+  return ReferenceAt([&](const auto& use) { use(seen.input->reference); }, row.cast<Numbers>());
 }
 
 }  // namespace
@@ -118,7 +120,7 @@ void BindControllerInput(py::module_& module) {
                                                                              "ControllerInput")
       .def_readonly("period", &ControllerInput::period)
       .def_readonly("vehicle", &ControllerInput::vehicle)
-      .def("reference", &ReferenceOf);
+      .def("reference", &ReferenceOf, py::arg("stations"));
   module.attr("log_columns") = LogColumns(
       LogContents{.path = true, .obstacles = true, .noise = true, .wheels = true, .gaps = true});
 }

@@ -198,8 +198,9 @@ void RegisterPythonPlanner(const py::dict& given) {
 }
 
 void BindPlannerRequest(py::module_& module) {
-  py::class_<VehicleParams>(module, "Vehicle")
-      .def_readonly("name", &VehicleParams::name)
+  py::class_<VehicleParams> vehicle(module, "Vehicle");
+  CopyAsItself(vehicle);
+  vehicle.def_readonly("name", &VehicleParams::name)
       .def_readonly("wheelbase", &VehicleParams::wheelbase)
       .def_readonly("cg_to_rear", &VehicleParams::cg_to_rear)
       .def_readonly("mass", &VehicleParams::mass)

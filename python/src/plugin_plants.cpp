@@ -159,8 +159,9 @@ void RegisterPythonPlant(const py::dict& given) {
 }
 
 void BindPlantSetup(py::module_& module) {
-  py::class_<PlantStart, std::shared_ptr<PlantStart>>(module, "PlantSetup")
-      .def_readonly("timestep", &PlantStart::timestep)
+  py::class_<PlantStart, std::shared_ptr<PlantStart>> setup(module, "PlantSetup");
+  CopyAsItself(setup);
+  setup.def_readonly("timestep", &PlantStart::timestep)
       .def_readonly("friction", &PlantStart::friction)
       .def_readonly("vehicle", &PlantStart::vehicle)
       .def_property_readonly("x_m", [](const PlantStart& s) { return s.start.pose.x; })

@@ -33,6 +33,8 @@ def type_name(value: object) -> str:
 
 def number(name: str, value: object) -> float:
     """Returns the finite number `value` of the argument `name`."""
+    if isinstance(value, numpy.ndarray) and value.ndim == 0:
+        value = value.item()
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number, not {type_name(value)}")
     try:

@@ -163,16 +163,15 @@ class Loop:
 
         Raises RunError if the run has ended.
         """
-        if steering is None and acceleration is not None:
-            raise ValueError(_NEEDS_STEERING)
+        if steering is None:
+            if acceleration is not None:
+                raise ValueError(_NEEDS_STEERING)
+        elif type(steering) is not float:
+            steering = number("steering", steering)
+        if acceleration is not None and type(acceleration) is not float:
+            acceleration = number("acceleration", acceleration)
         try:
             return self._core.step(steering, acceleration)
-        except TypeError:
-            if steering is not None:
-                number("steering", steering)
-            if acceleration is not None:
-                number("acceleration", acceleration)
-            raise
         except _trackbed.PreconditionError:
             number("steering", steering)
             if acceleration is not None:
@@ -243,9 +242,9 @@ class VectorLoop:
     count: number of cars.
     seeds: one seed for each car; by default, all cars have the scenario's seed.
     threads: number of threads; by default, the number of processors.
+    log: whether every loop keeps all rows of its log.
 
     A copy (copy.copy, copy.deepcopy) has other cars in the same states.
-    log: whether every loop keeps all rows of its log.
     """
 
     columns: tuple[str, ...] = tuple(_trackbed.observation_columns)
@@ -278,6 +277,7 @@ class VectorLoop:
                 loop._start(first._prepared, first.plant)
             else:
                 loop = Loop(scenario, plant, set, seed=own[i], log=log)
+            self.loops.append(loop)
         self._join()
 
     def __copy__(self) -> VectorLoop:
@@ -294,7 +294,6 @@ class VectorLoop:
         raise TypeError("a VectorLoop cannot be pickled; make the loops in each process")
 
     def _join(self) -> None:
-            self.loops.append(loop)
         self._core = _trackbed.VectorLoop([loop._core for loop in self.loops], self._threads)
 
     def __len__(self) -> int:

@@ -232,7 +232,10 @@ class _ControllerObject:
             acceleration = returned("step", acceleration, "the acceleration [m/s^2]")
         values = None
         if self.columns:
-            values = array("values", self._own.values, (len(self.columns),), finite=False).tolist()
+            own = getattr(self._own, "values", None)
+            if own is None:
+                raise TypeError(f"step must set values, one number for each of {self.columns}")
+            values = array("values", own, (len(self.columns),), finite=False).tolist()
         return steering, acceleration, values
 
     def copy(self) -> _ControllerObject:

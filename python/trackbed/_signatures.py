@@ -196,8 +196,8 @@ def returned(what: str, value: object, meaning: str) -> float:
         raise ValueError(f"{what} returned {meaning} {shown}; must be finite") from None
 
 
-def require_method(what: str, own: type, name: str, parameters: Sequence[str]) -> int:
-    """Checks that a class has a method, and returns the number of its positional parameters."""
+def require_method(what: str, own: type, name: str, parameters: Sequence[str]) -> None:
+    """Checks that a class has a method with these parameters."""
     method = getattr(own, name, None)
     wanted = f"{name}({', '.join(('self', *parameters))})"
     if not callable(method):
@@ -205,9 +205,10 @@ def require_method(what: str, own: type, name: str, parameters: Sequence[str]) -
     found = [
         p
         for p in inspect.signature(method).parameters.values()
-        if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)
+        if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) or p.name in parameters
     ]
     needed = [p for p in found if p.default is inspect.Parameter.empty]
-    if not len(needed) <= len(parameters) + 1 <= len(found):
+    bound = isinstance(inspect.getattr_static(own, name), (staticmethod, classmethod))
+    count = len(parameters) + (0 if bound else 1)
+    if not len(needed) <= count <= len(found):
         raise TypeError(f"{what}: {name} must have the parameters of {wanted}")
-    return len(found) - 1

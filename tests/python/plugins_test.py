@@ -206,6 +206,52 @@ def test_loop_state_copies_a_controller_and_a_plant():
     assert first == second
 
 
+def test_loop_state_copies_what_a_plugin_has_kept():
+    trackbed.controller("test_keeps", replace=True)(Keeps)
+    trackbed.plant("test_keeps", replace=True)(KeepsSetup)
+    loop = trackbed.Loop("three_turns", "test_keeps", set={"control": {"method": "test_keeps"}})
+    loop.step()
+    state, there = loop.state, loop.observation.x_m
+    loop.step()
+    assert loop.observation.x_m > there
+    loop.state = state
+    assert loop.observation.x_m == there
+
+
+class Keeps:
+    def step(self, seen):
+        self.seen, self.vehicle = seen, seen.vehicle
+        return 0.1 / self.vehicle.wheelbase
+
+
+class KeepsSetup:
+    def __init__(self, setup):
+        self.setup, self.x = setup, setup.x_m
+
+    @staticmethod
+    def speed():
+        return 3.0
+
+    def step(self, steering, acceleration, *, gear):
+        self.x += gear * self.speed() * self.setup.timestep
+
+    def state(self):
+        return {"x_m": self.x, "y_m": 0.0, "yaw_rad": 0.0, "speed_mps": self.speed()}
+
+
+def test_methods_may_be_static():
+    class Static:
+        columns = ["test_unset"]
+
+        @staticmethod
+        def step(seen):
+            return numpy.array(0.0)
+
+    trackbed.controller("test_static", replace=True)(Static)
+    with pytest.raises(trackbed.PluginError, match=r"step must set values, .* of \['test_unset'\]"):
+        trackbed.run("three_turns", "kinematic", {"control": {"method": "test_static"}})
+
+
 def test_vector_loops_are_single_loops():
     change = {"control": {"method": "test_gain"}}
     cars = trackbed.VectorLoop("three_turns", plant="test_bicycle", count=8, set=change, threads=4)
@@ -242,12 +288,24 @@ def raised(method, set):
         (lambda seen: 10**400, "the steering angle .* too large; must be finite"),
         (lambda seen: numpy.float32("nan"), r"the steering angle \[rad\] .*; must be finite"),
         (lambda seen: seen.nothing, "AttributeError.*nothing"),
+        (lambda seen: seen.reference("a"), "stations must be an array of numbers, not str"),
+        (lambda seen: seen.reference([math.nan]), "stations has a value that is not finite"),
+        (lambda seen: seen.reference(1.0), r"stations has the shape \(\); must be \(n,\)"),
     ],
 )
 def test_wrong_commands_are_named(step, text):
     trackbed.controller("test_wrong", replace=True)(step)
     with pytest.raises(trackbed.PluginError, match=text):
         trackbed.run("three_turns", plants="kinematic", set={"control": {"method": "test_wrong"}})
+
+
+def test_a_path_that_turns_back_names_a_remedy_for_its_points():
+    zigzag = [[0, 0], [5, 0], [0, 1], [20, 1]]
+    trackbed.planner("test_zigzag", replace=True)(lambda request: zigzag)
+    plan = trackbed.run("three_turns", "kinematic", {"plan": {"method": "test_zigzag"}}).plan
+    assert plan["status"] == "u_turn"
+    assert "turns back on itself by 2.94 rad at (5, 0); if the car reverses" in plan["reason"]
+    assert "return points of shape (n, 3)" in plan["reason"]
 
 
 def test_a_note_of_the_plan_is_shown_once():
@@ -299,15 +357,6 @@ def test_wrong_paths_are_named(answer, text):
         ([1, 2], "state must return a dict of columns, not list"),
     ],
 )
-def test_a_path_that_turns_back_names_a_remedy_for_its_points():
-    zigzag = [[0, 0], [5, 0], [0, 1], [20, 1]]
-    trackbed.planner("test_zigzag", replace=True)(lambda request: zigzag)
-    plan = trackbed.run("three_turns", "kinematic", {"plan": {"method": "test_zigzag"}}).plan
-    assert plan["status"] == "u_turn"
-    assert "turns back on itself by 2.94 rad at (5, 0); if the car reverses" in plan["reason"]
-    assert "return points of shape (n, 3)" in plan["reason"]
-
-
 def test_wrong_states_are_named(state, text):
     class Wrong:
         def __init__(self, setup):
