@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import itertools
 import numbers
 import re
 import sys
@@ -16,6 +17,7 @@ from ._arguments import flag, mapping, number, text, texts, type_name
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 METRIC_NAME = re.compile(r"[a-z][a-z0-9_]*(\.[a-z][a-z0-9_]*)*")
 _registered: dict[tuple[str, str], dict[str, Any]] = {}
+_registrations = itertools.count()
 
 
 _text = text
@@ -177,7 +179,13 @@ def register_plugin(
         register({**plugin, **properties})
     except _trackbed.PreconditionError as error:
         raise ValueError(f"{kind} {name!r} ({place}): {error}") from None
-    _registered[(kind, name)] = {"place": place, "properties": properties}
+    number = next(_registrations)
+    _registered[(kind, name)] = {"place": place, "properties": properties, "number": number}
+
+
+def latest_registration() -> int:
+    """Returns the number of the latest registration, which no other state of the plug-ins has."""
+    return max((known["number"] for known in _registered.values()), default=-1)
 
 
 def name_of(kind: str, name: object, pattern: re.Pattern[str] = NAME) -> str:

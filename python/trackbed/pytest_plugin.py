@@ -16,19 +16,24 @@ from typing import Any, Callable, Optional
 import pytest
 
 import trackbed
-from trackbed import _arguments, _trackbed
+from trackbed import _arguments, _signatures, _trackbed
 
 _SECTIONS = re.compile(r"^(vehicle|mission|plan|control|world|disturb|drive|record|expect)\s*:", re.M)
 
 
+TrackbedRun = Callable[..., trackbed.Run]
+"""Type of the fixture trackbed_run."""
+
+
 @pytest.fixture(scope="session")
-def trackbed_run() -> Callable[..., trackbed.Run]:
+def trackbed_run() -> TrackbedRun:
     """Runs scenarios as trackbed.run does, each only once in a session.
 
     Call it with the arguments of trackbed.run. A second call with the same arguments returns the
-    same run.
+    same run, unless the scenario's file or a plug-in has changed. Changes of other files that the
+    scenario names are not noticed.
     """
-    runs: dict[tuple[str, tuple[str, ...]], trackbed.Run] = {}
+    runs: dict[tuple[str, str, int], trackbed.Run] = {}
 
     def run(
         scenario: _arguments.Scenario,
@@ -37,8 +42,8 @@ def trackbed_run() -> Callable[..., trackbed.Run]:
         *,
         seed: Optional[int] = None,
     ) -> trackbed.Run:
-        overrides = _arguments.overrides(set, plants, seed)
-        key = (str(scenario), tuple(overrides))
+        content = _arguments.load(scenario, set, plants, seed).yaml
+        key = (os.path.abspath(scenario), content, _signatures.latest_registration())
         if key not in runs:
             runs[key] = trackbed.run(scenario, plants, set, seed=seed)
         return runs[key]

@@ -110,6 +110,39 @@ def test_fixture_runs_a_scenario_once(pytester):
     assert "_checks.py" not in result.stdout.str()
 
 
+def test_fixture_notices_changed_scenarios_and_plugins(pytester):
+    pytester.makepyfile(
+        """
+        import trackbed
+
+        TEXT = (
+            "schema: 1\\nname: x\\nmission: {speed: %d, duration: 1}\\n"
+            "control: {method: %s}\\ndrive: {plants: [kinematic]}\\n"
+        )
+
+        def test_file(trackbed_run, tmp_path, monkeypatch):
+            for folder, speed in (("a", 2), ("b", 3), ("b", 4)):
+                (tmp_path / folder).mkdir(exist_ok=True)
+                monkeypatch.chdir(tmp_path / folder)
+                with open("x.yaml", "w") as file:
+                    file.write(TEXT % (speed, "constant_steering, steering: 0"))
+                run = trackbed_run("x.yaml")
+                assert run["kinematic"]["speed_mps"][0] == speed
+                assert trackbed_run("x.yaml") is run
+
+        def test_plugin(trackbed_run, tmp_path, monkeypatch):
+            monkeypatch.chdir(tmp_path)
+            with open("x.yaml", "w") as file:
+                file.write(TEXT % (2, "own"))
+            for angle in (0.1, 0.2):
+                trackbed.controller("own", needs_plan=False, replace=True)(lambda seen: angle)
+                run = trackbed_run("x.yaml")
+                assert run["kinematic"]["steering_command_rad"][0] == angle
+        """
+    )
+    pytester.runpytest_subprocess(*ARGUMENTS).assert_outcomes(passed=2)
+
+
 def test_collects_scenarios_with_expectations(pytester, scenarios):
     folder = pytester.mkdir("scenarios")
     shutil.copy(scenarios / "three_turns.yaml", folder / "good.yaml")
