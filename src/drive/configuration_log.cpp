@@ -37,6 +37,19 @@ void ConfigurationLog::Record(const Plant& plant, double time) {
   if (time + 5e-7 < period_ * static_cast<double>(next_)) {
     return;
   }
+  AddRow(plant, time);
+  next_ = static_cast<long>(std::floor((time + 5e-7) / period_)) + 1;
+}
+
+void ConfigurationLog::RecordEnd(const Plant& plant, double time) {
+  const std::size_t rows = table_.rows();
+  if (table_.columns().size() > 1 && !plant.diverged() &&
+      (rows == 0 || table_.at(rows - 1, 0) + 5e-7 < time)) {
+    AddRow(plant, time);
+  }
+}
+
+void ConfigurationLog::AddRow(const Plant& plant, double time) {
   const std::vector<double> configuration = plant.Configuration();
   row_.assign(1, time);
   row_.insert(row_.end(), configuration.begin(), configuration.end());
@@ -44,7 +57,6 @@ void ConfigurationLog::Record(const Plant& plant, double time) {
     row_[moving.column] = MotionAt(moving.obstacle, time).displacement.*moving.coordinate;
   }
   table_.AddRow(row_);
-  next_ = static_cast<long>(std::floor((time + 5e-7) / period_)) + 1;
 }
 
 void ConfigurationLog::AddMoving(const std::string& column, const Obstacle& obstacle,

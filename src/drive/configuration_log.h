@@ -11,8 +11,8 @@
 
 namespace trackbed {
 
-/// Logs the plant's configuration vector once per logging period: at the first physics step at or
-/// after each multiple of the period.
+/// Logs the plant's configuration vector once per logging period, at the first physics step at or
+/// after each multiple of the period, and at the end of the run.
 class ConfigurationLog {
  public:
   /// `columns` names the components of the plant's configuration vector. If `columns` is empty,
@@ -20,7 +20,11 @@ class ConfigurationLog {
   /// obstacles, even if the plant does not simulate the obstacles.
   ConfigurationLog(const std::vector<std::string>& columns, const World& world, double period);
 
+  /// Logs the configuration at `time` [s] if a logging period has passed.
   void Record(const Plant& plant, double time);
+  /// Logs the configuration at the end of the run, at `time` [s], unless Record has logged it
+  /// or the plant has diverged.
+  void RecordEnd(const Plant& plant, double time);
 
   /// Returns the table of configurations logged so far.
   [[nodiscard]] const Table& table() const { return table_; }
@@ -35,6 +39,7 @@ class ConfigurationLog {
     double Pose2::*coordinate = nullptr;
   };
 
+  void AddRow(const Plant& plant, double time);
   void AddMoving(const std::string& column, const Obstacle& obstacle, double Pose2::*coordinate);
 
   double period_;

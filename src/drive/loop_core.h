@@ -67,10 +67,14 @@ class LoopCore {
   void Step(SteeringController& controller, bool follow_schedule);
 
   /// Moves the log out of this loop, whose run must have ended.
-  RunLog TakeLog() { return recorder_.Finish(*status_, termination_.cause()); }
+  RunLog TakeLog() {
+    recorder_.SampleEnd(*plant_, row_.state.time);
+    return recorder_.Finish(*status_, termination_.cause());
+  }
   /// Returns a copy of the log so far; the status is "interrupted" if the run has not ended.
   [[nodiscard]] RunLog CopyLog() const {
-    return recorder_.Copy(status_.value_or(DriveStatus::kInterrupted), termination_.cause());
+    return recorder_.Copy(status_.value_or(DriveStatus::kInterrupted), termination_.cause(),
+                          *plant_, row_.state.time);
   }
 
  private:

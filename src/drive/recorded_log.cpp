@@ -91,6 +91,7 @@ RunLog RecordedLog(const Scenario& scenario, const CarModel& car) {
       configurations.Record(recorded, time(step));
     }
   }
+  configurations.RecordEnd(recorded, log.rows.back().state.time);
   log.configurations = configurations.Take();
   return log;
 }

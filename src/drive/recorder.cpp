@@ -73,12 +73,15 @@ RunLog Recorder::Finish(DriveStatus status, std::string cause) {
   return std::move(log_);
 }
 
-RunLog Recorder::Copy(DriveStatus status, std::string cause) const {
+RunLog Recorder::Copy(DriveStatus status, std::string cause, const Plant& plant,
+                      double time) const {
   RunLog log = log_;
   log.status = status;
   log.cause = std::move(cause);
   log.contact_time = contact_time();
-  log.configurations = configurations_.table();
+  ConfigurationLog configurations = configurations_;
+  configurations.RecordEnd(plant, time);
+  log.configurations = configurations.Take();
   return log;
 }
 

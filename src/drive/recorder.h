@@ -36,10 +36,14 @@ class Recorder {
     return collisions_.contact_time();
   }
 
+  /// Records the plant's configuration at the end of the run, at `time` [s]. Call it before Finish.
+  void SampleEnd(const Plant& plant, double time) { configurations_.RecordEnd(plant, time); }
   /// Completes the log and moves it out of this recorder.
   RunLog Finish(DriveStatus status, std::string cause = "");
-  /// Returns a copy of the log so far, completed with `status` and `cause`.
-  [[nodiscard]] RunLog Copy(DriveStatus status, std::string cause) const;
+  /// Returns a copy of the log so far, completed with `status`, `cause` and the plant's
+  /// configuration at `time` [s].
+  [[nodiscard]] RunLog Copy(DriveStatus status, std::string cause, const Plant& plant,
+                            double time) const;
 
  private:
   RunLog log_;

@@ -104,6 +104,26 @@ TEST(Recorder, LogsConfigurationsAtTheirPeriod) {
   EXPECT_EQ(log.configurations.Column("x_m"), (std::vector<double>{0.0, 10.0, 20.0, 30.0}));
 }
 
+TEST(Recorder, LogsTheConfigurationAtTheEndOnce) {
+  LoopConfig config = Config();
+  Unicycle plant({});
+  Recorder recorder(config, {});
+  for (const double time : {0.0, 0.1, 0.15}) {
+    plant.state().pose.x = time;
+    recorder.Sample(plant, time);
+  }
+  const auto copied = [&] {
+    return recorder.Copy(DriveStatus::kInterrupted, "", plant, 0.15).configurations.Column("x_m");
+  };
+  EXPECT_EQ(copied(), (std::vector<double>{0.0, 0.1, 0.15}));
+  EXPECT_EQ(copied(), (std::vector<double>{0.0, 0.1, 0.15}));
+  plant.state().pose.x = 0.2;
+  recorder.Sample(plant, 0.2);
+  recorder.SampleEnd(plant, 0.2);
+  EXPECT_EQ(recorder.Finish(DriveStatus::kArrived).configurations.Column("x_m"),
+            (std::vector<double>{0.0, 0.1, 0.2}));
+}
+
 TEST(Recorder, LogsWhereMovingObstaclesAreWhateverThePlantKnows) {
   LoopConfig config = Config();
   config.world.obstacles = {Box(), Box({2.0, -1.0})};

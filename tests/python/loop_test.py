@@ -328,6 +328,7 @@ def test_a_result_ends_with_the_present_moment():
     assert last.result()["kinematic"]["t_s"].tolist()[-1] == last.observation.t_s
 
 
+        trackbed.frame(loop.result(), seen.t_s, (64, 64))
 def test_a_copy_goes_its_own_way():
     loop = trackbed.Loop("three_turns", "kinematic")
     loop.step(0.1)
