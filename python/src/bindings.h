@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,9 @@ class Columns {
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   [[nodiscard]] std::size_t rows() const { return rows_; }
-  /// Returns a column, whose memory is constant as long as this object exists; nullptr if the table
-  /// has no such column.
-  [[nodiscard]] const double* Find(const std::string& name) const;
+  /// Returns a column, whose memory is constant as long as this object exists (nullptr for a table
+  /// without rows); nullopt if the table has no such column.
+  [[nodiscard]] std::optional<const double*> Find(const std::string& name) const;
 
  private:
   std::vector<std::string> names_;

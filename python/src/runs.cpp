@@ -23,11 +23,12 @@ Columns::Columns(const Table& table) : names_(table.columns()), rows_(table.rows
   }
 }
 
-const double* Columns::Find(const std::string& name) const {
+std::optional<const double*> Columns::Find(const std::string& name) const {
   const auto found = std::find(names_.begin(), names_.end(), name);
-  return found == names_.end()
-             ? nullptr
-             : cells_.data() + static_cast<std::size_t>(found - names_.begin()) * rows_;
+  if (found == names_.end()) {
+    return std::nullopt;
+  }
+  return cells_.data() + static_cast<std::size_t>(found - names_.begin()) * rows_;
 }
 
 py::object ToPython(const nlohmann::ordered_json& json) {
@@ -107,12 +108,12 @@ void BindColumns(py::module_& module) {
       .def_property_readonly("rows", &Columns::rows)
       .def("column", [](const py::object& self, const std::string& name) {
         const auto& columns = self.cast<const Columns&>();
-        const double* column = columns.Find(name);
-        if (column == nullptr) {
+        const std::optional<const double*> column = columns.Find(name);
+        if (!column) {
           throw py::key_error(name);
         }
         // The array refers to the memory of `self`, and keeps it alive.
-        py::array_t<double> array(static_cast<py::ssize_t>(columns.rows()), column, self);
+        py::array_t<double> array(static_cast<py::ssize_t>(columns.rows()), *column, self);
         array.attr("setflags")(py::arg("write") = false);
         return array;
       });

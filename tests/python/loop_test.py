@@ -119,6 +119,13 @@ def test_reset_returns_to_the_start():
         loop.reset(set={}, options={"set": {}})
 
 
+def test_a_log_without_rows_has_columns():
+    log = trackbed.Loop("three_turns", "kinematic").log
+    assert log.rows == 0 and log["x_m"].shape == (0,)
+    assert log["x_m"].flags.writeable is False
+    assert pickle.loads(pickle.dumps(log))["x_m"].shape == (0,)
+
+
 def test_seed_selects_the_noise():
     noise = {"disturb.noise": {"position": 0.1}}
     loop = trackbed.Loop("three_turns", "kinematic", set=noise, seed=1)
@@ -321,6 +328,7 @@ def test_a_result_ends_with_the_present_moment():
         log = loop.result()["kinematic"]
         seen = loop.observation
         assert (log.rows, log["t_s"][-1], log["x_m"][-1]) == (steps + 1, seen.t_s, seen.x_m)
+        trackbed.frame(loop.result(), seen.t_s, (64, 64))
         loop.step(0.1)
     last = trackbed.Loop("three_turns", "kinematic", log=False)
     last.step()
@@ -328,7 +336,6 @@ def test_a_result_ends_with_the_present_moment():
     assert last.result()["kinematic"]["t_s"].tolist()[-1] == last.observation.t_s
 
 
-        trackbed.frame(loop.result(), seen.t_s, (64, 64))
 def test_a_copy_goes_its_own_way():
     loop = trackbed.Loop("three_turns", "kinematic")
     loop.step(0.1)
