@@ -101,6 +101,20 @@ std::string OriginError(const YAML::Node& node) {
   return is_whole ? "" : "must be two whole numbers [x, y], such as [500000, 5200000]";
 }
 
+/// Throws InputError if a file is a study: each of its keys would be an unknown key.
+void RefuseStudy(const YAML::Node& root, const std::string& file) {
+  const YAML::Node named = root["scenario"];
+  if (named && !root["mission"] && !root["drive"]) {
+    const YAML::Mark mark = named.Mark();
+    throw InputError(Problem{.file = file,
+                             .line = mark.line + 1,
+                             .column = mark.column + 1,
+                             .key = "scenario",
+                             .message = "the file is a study, which has many runs of this "
+                                        "scenario; run it by `sweep`, or give the scenario"});
+  }
+}
+
 }  // namespace
 
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
@@ -108,6 +122,7 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
                        const MetricPaths& metrics,
                        const std::vector<std::filesystem::path>& asset_folders) {
   YAML::Node root = LoadYaml(yaml, name);
+  RefuseStudy(root, name);
   ReaderContext context{.file = name, .overridden = {}, .problems = {}};
   for (const Override& override_text : overrides) {
     context.overridden.push_back(ApplyOverride(root, override_text));

@@ -386,8 +386,14 @@ bool IsStudy(const std::filesystem::path& file) {
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides,
                 const MetricPaths& metrics,
                 const std::vector<std::filesystem::path>& asset_folders) {
-  Study study =
-      StudyReader(file, LoadYaml(ReadInput(file), file.string(), "a study"), asset_folders).Read();
+  const YAML::Node root = LoadYaml(ReadInput(file), file.string(), "a study");
+  if (!root["scenario"] && root["mission"]) {
+    throw InputError(Problem{.file = file.string(),
+                             .key = "scenario",
+                             .message = "missing: the file is a scenario; a study names it, and "
+                                        "the values to run it with"});
+  }
+  Study study = StudyReader(file, root, asset_folders).Read();
   study.overrides = overrides;
   study.metrics = metrics;
   study.asset_folders = asset_folders;

@@ -7,6 +7,7 @@
 #include "trackbed/control/preview.h"
 #include "trackbed/core/error.h"
 #include "trackbed/scenario/keys.h"
+#include "trackbed/scenario/scenario.h"
 #include "trackbed/scenario/study_check.h"
 #include "trackbed/scenario/study_reader.h"
 
@@ -476,6 +477,18 @@ TEST_F(Studies, AreToldFromScenariosByTheirScenario) {
   EXPECT_FALSE(IsStudy(folder_.path() / "small.yaml"));
   EXPECT_FALSE(IsStudy(folder_.Write("b.yaml", "scenario: [x\n")));
   EXPECT_FALSE(IsStudy(folder_.path() / "none.yaml"));
+  EXPECT_EQ(ErrorsOfText(kScenario),
+            "study.yaml: scenario: missing: the file is a scenario; a study names it, and the "
+            "values to run it with");
+  try {
+    ParseScenario("schema: 1\nname: x\nscenario: small.yaml\nvary: {}\n", "x.yaml", ".");
+    ADD_FAILURE() << "a study was read as a scenario";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "x.yaml:3:11: scenario: the file is a study, which has many runs of this scenario; "
+        "run it by `sweep`, or give the scenario");
+  }
   EXPECT_EQ(ErrorsOfText("- 1\n"),
             "study.yaml:1:1: a study must be a section of 'key: value' lines");
 }
