@@ -18,10 +18,7 @@ def _split(arguments: list[str]) -> tuple[list[str], list[str]]:
     rest = iter(arguments)
     for argument in rest:
         if argument == "--import":
-            module = next(rest, None)
-            if module is None:
-                raise SystemExit("--import needs the name of a Python module, such as my_planner")
-            modules.append(module)
+            modules.append(next(rest, ""))
         elif argument.startswith("--import="):
             modules.append(argument[len("--import=") :])
         else:
@@ -31,6 +28,9 @@ def _split(arguments: list[str]) -> tuple[list[str], list[str]]:
 
 def _import(name: str) -> None:
     """Imports a module by its name, from the working folder or the path of Python."""
+    if not name:
+        print("--import needs the name of a Python module, such as my_planner", file=sys.stderr)
+        raise SystemExit(_BAD_INPUT)
     if name.endswith(".py") or os.sep in name:
         print(
             f"--import: '{name}' is a file; give the name of the module, "

@@ -208,19 +208,28 @@ def _plain(key: str, value: Any) -> Any:
     )
 
 
+# Characters that YAML reads only as escapes, or as ends of lines.
+_ESCAPES = {c: f"\\u{c:04x}" for c in (*range(0x7F, 0xA0), 0x2028, 0x2029, 0xFEFF)}
+
+
+def _json(value: Any) -> str:
+    """Returns JSON that is YAML, too: YAML knows no pairs of escapes for characters beyond U+FFFF."""
+    return json.dumps(value, ensure_ascii=False).translate(_ESCAPES)
+
+
 def overrides(set: Overrides, plants: Plants = None, seed: Optional[int] = None) -> list[str]:
     """Returns overrides as `trackbed run --set` takes them."""
     if set is not None:
         mapping("set", set, "keys and values")
     result = [
-        f"{text('a key in set', key)}={json.dumps(_plain(key, value))}"
+        f"{text('a key in set', key)}={_json(_plain(key, value))}"
         for key, value in (set or {}).items()
     ]
     if isinstance(plants, Mapping):
         raise TypeError("plants must be a list of str, not dict; give the keys as set={...}")
     if plants is not None:
         names = texts("plants", [plants] if isinstance(plants, str) else plants)
-        result.append(f"drive.plants={json.dumps(names)}")
+        result.append(f"drive.plants={_json(names)}")
     if seed is not None:
         result.append(f"seed={whole('seed', seed, 0)}")
     return result

@@ -308,6 +308,22 @@ def test_a_path_that_turns_back_names_a_remedy_for_its_points():
     assert "return points of shape (n, 3)" in plan["reason"]
 
 
+TEXTS = ["\U0001f697 \u00e4", "\x7f\x85\u2028\ufeff", 'a"\\: # {', " a ", "yes", "\\ud83d"]
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_texts_reach_a_plugin_unchanged(text):
+    seen = []
+
+    @trackbed.planner("test_text", replace=True)
+    def plan(request, *, name: str = "x"):
+        seen.append(name)
+        return [[0, 0], [20, 0]]
+
+    trackbed.run("three_turns", "kinematic", {"plan": {"method": "test_text", "name": text}})
+    assert seen == [text]
+
+
 def test_a_note_of_the_plan_is_shown_once():
     remark = "drives straight on"
     trackbed.planner("test_note", replace=True)(

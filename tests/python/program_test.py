@@ -72,6 +72,7 @@ def test_program_says_why_it_cannot_import(folder):
         ("other", "no module 'other' in the working folder"),
         ("my_module.py", "'my_module.py' is a file; give the name of the module, my_module"),
         ("wrong", "ZeroDivisionError"),
+        ("", "--import needs the name of a Python module"),
     ]:
         (folder / "wrong.py").write_text("1 / 0\n")
         told = program(folder, "run", "--import", name, "own.yaml")
