@@ -8,6 +8,8 @@
 #include <memory>
 #include <utility>
 
+#include "src/core/csv_delimiter.h"
+#include "src/core/csv_head.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/text_table.h"
@@ -15,8 +17,8 @@
 // Reads rows of CSV files with libcsv, within limits of cells, columns and cell lengths.
 // 1. CommentFilter removes lines that begin with '#', before libcsv interprets quotes.
 // 2. RowReader collects the cells of a row, and calls the caller for each row with its line.
-// 3. FindDelimiter chooses the comma, the semicolon or the tab by the first lines of the file.
-// 4. NamedRows finds the names of columns in the header, or in a comment before rows of numbers.
+// 3. NamedRows skips a preamble (src/core/csv_head.h), and finds the names of columns in the
+// header, or in a comment before rows of numbers.
 namespace trackbed {
 namespace {
 
@@ -85,12 +87,24 @@ struct RowReader {
 /// parts that end at the end of a line or of the block.
 class CommentFilter {
  public:
-  CommentFilter(RowReader& reader, const csv_parser& parser) : reader_(reader), parser_(parser) {}
+  /// Also removes the first `preamble` lines.
+  CommentFilter(RowReader& reader, const csv_parser& parser, int preamble)
+      : reader_(reader), parser_(parser), preamble_(preamble) {}
 
   /// Processes a block; returns false to stop reading.
   template <typename Parse>
   bool Take(std::string_view block, const Parse& parse) {
     while (!block.empty()) {
+      if (preamble_ > 0) {
+        const std::size_t end = block.find('\n');
+        if (end == std::string_view::npos) {
+          return true;
+        }
+        block.remove_prefix(end + 1);
+        --preamble_;
+        ++reader_.line;
+        continue;
+      }
       if (at_line_start_ && block.front() == '#') {
         in_comment_ = true;
       }
@@ -135,101 +149,11 @@ class CommentFilter {
  private:
   RowReader& reader_;
   const csv_parser& parser_;
+  int preamble_;
   bool at_line_start_ = true;
   bool in_comment_ = false;
   std::string comment_;
 };
-
-/// Replaces runs of spaces and tabs by a tab, and drops them at the ends of lines. The text may be
-/// passed in parts.
-class BlankRuns {
- public:
-  std::string Replace(std::string_view part) {
-    std::string text;
-    for (const char c : part) {
-      if (c == ' ' || c == '\t') {
-        is_pending_ = !is_line_start_;
-        continue;
-      }
-      const bool is_end = c == '\r' || c == '\n';
-      if (std::exchange(is_pending_, false) && !is_end) {
-        text += '\t';
-      }
-      text += c;
-      is_line_start_ = is_end;
-    }
-    return text;
-  }
-
- private:
-  bool is_line_start_ = true;
-  bool is_pending_ = false;
-};
-
-/// Returns the next line that is neither empty nor a comment, and removes it from `rest`.
-std::string_view NextLine(std::string_view& rest) {
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
-    const std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (!line.empty() && line.front() != '#') {
-      return line;
-    }
-  }
-  return {};
-}
-
-/// Splits a line at blanks; `numbers` is the number of cells that are numbers.
-std::size_t CountCells(std::string_view line, std::size_t& numbers) {
-  std::size_t count = 0;
-  numbers = 0;
-  std::string rest = BlankRuns().Replace(line);
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\t'), rest.size());
-    ++count;
-    numbers += CellNumber(rest.substr(0, end)) ? 1U : 0U;
-    rest.erase(0, end + 1);
-  }
-  return count;
-}
-
-/// Whether blanks separate numbers in the line or, behind names, as many in the next line.
-bool HasBlanks(std::string_view line, std::string_view rest) {
-  std::size_t numbers = 0;
-  const std::size_t count = CountCells(line, numbers);
-  if (count < 2 || numbers == count) {
-    return count > 1;
-  }
-  std::size_t below = 0;
-  return CountCells(NextLine(rest), below) == count && below == count;
-}
-
-char FindDelimiter(const std::filesystem::path& file) {
-  std::string begin;
-  ReadBlocks(file, [&](std::string_view block) {
-    begin = block;
-    return false;
-  });
-  std::string_view rest = begin;
-  if (rest.starts_with(kByteOrderMark)) {
-    rest.remove_prefix(kByteOrderMark.size());
-  }
-  const std::string_view line = NextLine(rest);
-  char delimiter = ',';
-  std::ptrdiff_t most = 0;
-  for (const char candidate : {',', ';', '\t'}) {
-    const auto count = std::count(line.begin(), line.end(), candidate);
-    if (count > most) {
-      most = count;
-      delimiter = candidate;
-    }
-  }
-  return most == 0 && HasBlanks(line, rest) ? kBlanks : delimiter;
-}
-
-}  // namespace
-
-namespace {
 
 /// Explains an error of libcsv.
 std::string ParserError(csv_parser& parser) {
@@ -241,8 +165,11 @@ std::string ParserError(csv_parser& parser) {
 
 }  // namespace
 
-void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, ProblemList& problems,
-                 const TakeCsvRow& take) {
+namespace {
+
+/// Reads a file as ReadCsvRows does, without its first `preamble` lines.
+void ReadRowsBehind(int preamble, const std::filesystem::path& file, const CsvLimits& limits,
+                    ProblemList& problems, const TakeCsvRow& take) {
   RowReader reader{.file = file, .max_cells = limits.max_cells, .problems = problems, .take = take};
   csv_parser parser{};
   TRACKBED_CHECK(csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_REPALL_NL) == 0,
@@ -273,7 +200,7 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
     }
     return !reader.stopped;
   };
-  CommentFilter comments(reader, parser);
+  CommentFilter comments(reader, parser, preamble);
   const auto take_block = [&](std::string_view block) {
     if (std::exchange(at_begin, false) && block.starts_with(kByteOrderMark)) {
       block.remove_prefix(kByteOrderMark.size());
@@ -288,6 +215,13 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
   if (!reader.any_row && problems.empty()) {
     reader.Stop("empty file; expected a header line of column names");
   }
+}
+
+}  // namespace
+
+void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, ProblemList& problems,
+                 const TakeCsvRow& take) {
+  ReadRowsBehind(0, file, limits, problems, take);
 }
 
 namespace {
@@ -324,9 +258,10 @@ std::vector<std::string> CommentCells(std::string_view comment, char delimiter) 
 /// Finds the names of a table's columns, and passes names and rows on.
 class NamedRows {
  public:
-  NamedRows(const std::filesystem::path& file, const CsvLimits& limits, ProblemList& problems,
-            const TakeCsvNames& take_names, const TakeCsvRow& take)
+  NamedRows(const std::filesystem::path& file, const CsvLimits& limits, const CsvHead& head,
+            ProblemList& problems, const TakeCsvNames& take_names, const TakeCsvRow& take)
       : file_(file),
+        head_(head),
         delimiter_(limits.delimiter),
         numbers_columns_(limits.numbers_columns),
         problems_(problems),
@@ -349,7 +284,7 @@ class NamedRows {
     if (columns_ == 0 && !is_broken_ && TakeNames(cells, line)) {
       return;
     }
-    if (!is_broken_) {
+    if (!is_broken_ && line >= head_.first_row) {
       DropEmptyEnd(cells, columns_);
       take_(cells, line);
     }
@@ -371,6 +306,9 @@ class NamedRows {
     if (!is_data) {
       DropEmptyEnd(row, 1);
       columns_ = row.size();
+      for (std::size_t i = 0; i < std::min(row.size(), head_.units.size()); ++i) {
+        row[i] = NameWithUnit(row[i], head_.units[i]);
+      }
       take_names_(row, line);
       return true;
     }
@@ -403,6 +341,7 @@ class NamedRows {
   }
 
   const std::filesystem::path& file_;
+  const CsvHead& head_;
   char delimiter_;
   bool numbers_columns_;
   ProblemList& problems_;
@@ -421,9 +360,11 @@ bool ReadCsvTable(const std::filesystem::path& file, CsvLimits limits, ProblemLi
   if (limits.delimiter == kFindDelimiter) {
     limits.delimiter = FindDelimiter(file);
   }
-  NamedRows rows(file, limits, problems, take_names, take);
-  ReadCsvRows(file, limits, problems,
-              [&](std::vector<std::string>& cells, int line) { rows.Take(cells, line); });
+  const CsvHead head = FindCsvHead(file, limits.delimiter);
+  limits.delimiter = head.delimiter;
+  NamedRows rows(file, limits, head, problems, take_names, take);
+  ReadRowsBehind(head.preamble_lines, file, limits, problems,
+                 [&](std::vector<std::string>& cells, int line) { rows.Take(cells, line); });
   return !rows.is_empty();
 }
 

@@ -92,16 +92,83 @@ LogListing ListGlobe(const fs::path& log) {
   return listing;
 }
 
-/// Returns the first of the names that the log has, ignoring case; "" if it has none.
-std::string AnyOf(const std::vector<std::string>& names, const std::vector<const char*>& wanted) {
+/// Splits "speed [km/h]" or "speed (km/h)" into the name and the unit; the unit may be absent.
+std::pair<std::string, std::string> NameAndUnit(const std::string& name) {
+  const std::size_t begin = name.find_last_of("[(");
+  if (begin == std::string::npos || begin == 0 || !(name.ends_with(']') || name.ends_with(')'))) {
+    return {name, ""};
+  }
+  return {boost::trim_right_copy(name.substr(0, begin)),
+          boost::to_lower_copy(name.substr(begin + 1, name.size() - begin - 2))};
+}
+
+/// A column of the log, with the unit that its name states, as maps write it.
+struct FoundColumn {
+  std::string name;
+  std::string unit;
+};
+
+/// Returns the first of the wanted names that the log has, ignoring case. A column that states a
+/// unit other than `units` is not taken.
+std::optional<FoundColumn> AnyOf(const std::vector<std::string>& names, const Names& units,
+                                 const std::vector<const char*>& wanted) {
   for (const char* own : wanted) {
     for (const std::string& name : names) {
-      if (boost::iequals(name, own)) {
-        return name;
+      const auto [plain, stated] = NameAndUnit(name);
+      const std::string unit = stated == "kph" || stated == "kmh"         ? "km/h"
+                               : stated == "unix time" || stated == "sec" ? "s"
+                                                                          : stated;
+      if (boost::iequals(plain, own) &&
+          (unit.empty() || std::find(units.begin(), units.end(), unit) != units.end())) {
+        return FoundColumn{name, unit};
       }
     }
   }
-  return "";
+  return std::nullopt;
+}
+
+/// Takes a found column, with its unit if it states one; without, its unit stays the default.
+template <typename Column>
+void Take(const std::optional<FoundColumn>& found, std::optional<Column>& column) {
+  if (found) {
+    column.emplace();
+    column->column = found->name;
+    if (!found->unit.empty()) {
+      column->unit = found->unit;
+    }
+  }
+}
+
+/// Takes the time and the position of a table with usual names.
+void TakePlace(const std::vector<std::string>& names, LogMap& map) {
+  // rostopic echo -p writes nanoseconds in the column %time.
+  const Names times{"s", "ms", "us", "ns"};
+  if (const auto stamp = AnyOf(names, times, {"%time"})) {
+    map.time = {.column = stamp->name, .unit = "ns", .nanoseconds = {}};
+  } else if (const auto time = AnyOf(names, times,
+                                     {"t_s", "t", "time_s", "time", "timestamp_s", "timestamp",
+                                      "stamp", "datetime", "utc", "elapsed_time"})) {
+    map.time.column = time->name;
+    map.time.unit = time->unit.empty() ? map.time.unit : time->unit;
+  }
+  const Names lengths{"m", "cm", "mm"};
+  const auto x = AnyOf(names, lengths,
+                       {"x_m", "x", "pos_x", "position_x", "easting", "car coord x",
+                        "field.pose.pose.position.x", "field.pose.position.x"});
+  const auto y = AnyOf(names, lengths,
+                       {"y_m", "y", "pos_y", "position_y", "northing", "car coord y",
+                        "field.pose.pose.position.y", "field.pose.position.y"});
+  const GlobeColumns globe = FindGlobeColumns(names);
+  if (x && y && x->unit == y->unit) {
+    map.position.x = x->name;
+    map.position.y = y->name;
+    if (!x->unit.empty()) {
+      map.position.unit = x->unit;
+    }
+  } else if (globe.latitude && globe.longitude) {
+    map.position.latitude = names[*globe.latitude];
+    map.position.longitude = names[*globe.longitude];
+  }
 }
 
 LogListing ListCsv(const fs::path& log) {
@@ -111,32 +178,28 @@ LogListing ListCsv(const fs::path& log) {
   const std::vector<std::string>& names = topic.columns;
   LogMap map;
   map.name = MapName(log);
-  map.time.column = AnyOf(names, {"t_s", "t", "time_s", "time", "timestamp_s", "timestamp", "stamp",
-                                  "datetime", "utc"});
-  map.position.x = AnyOf(names, {"x_m", "x", "pos_x", "position_x", "easting"});
-  map.position.y = AnyOf(names, {"y_m", "y", "pos_y", "position_y", "northing"});
-  const GlobeColumns globe = FindGlobeColumns(names);
-  if (map.position.x.empty() || map.position.y.empty()) {
-    map.position = {};
-    if (globe.latitude && globe.longitude) {
-      map.position.latitude = names[*globe.latitude];
-      map.position.longitude = names[*globe.longitude];
+  TakePlace(names, map);
+  if (!map.position.latitude) {
+    Take(AnyOf(names, UnitsOf(LogQuantity::kAngle),
+               {"yaw_rad", "yaw", "heading_rad", "theta_rad", "theta", "psi"}),
+         map.yaw);
+  }
+  // rostopic echo -p names columns by the fields of the message.
+  if (const std::string& x = map.position.x; x.starts_with("field.")) {
+    const std::string part = x.substr(0, x.rfind("position.x")) + "orientation.";
+    const LogOrientation columns{part + "x", part + "y", part + "z", part + "w"};
+    const std::vector<std::string> all{columns.x, columns.y, columns.z, columns.w};
+    if (std::all_of(all.begin(), all.end(), [&](const std::string& column) {
+          return std::find(names.begin(), names.end(), column) != names.end();
+        })) {
+      map.orientation = columns;
     }
   }
-  const std::string yaw =
-      AnyOf(names, {"yaw_rad", "yaw", "heading_rad", "theta_rad", "theta", "psi"});
-  if (map.position.latitude || yaw.empty()) {
-    map.heading_from_motion = true;
-  } else {
-    map.yaw.emplace();
-    map.yaw->column = yaw;
-  }
-  if (const std::string speed =
-          AnyOf(names, {"speed_mps", "vx_mps", "v_mps", "speed", "velocity", "v"});
-      !speed.empty()) {
-    map.speed.emplace();
-    map.speed->column = speed;
-  }
+  map.heading_from_motion = !map.yaw && !map.orientation;
+  Take(AnyOf(names, UnitsOf(LogQuantity::kSpeed),
+             {"speed_mps", "vx_mps", "v_mps", "speed", "velocity", "v", "gps speed", "ground speed",
+              "field.twist.twist.linear.x"}),
+       map.speed);
   listing.topics.push_back(std::move(topic));
   const bool has_position = map.position.latitude || !map.position.x.empty();
   if (map.time.column.empty() || !has_position) {
@@ -155,7 +218,7 @@ LogListing ListCsv(const fs::path& log) {
                      times.push_back(numbers.front());
                    }
                  });
-  FitTo(MedianStep(std::move(times)), map);
+  FitTo(MedianStep(std::move(times)) * UnitInSi(map.time.unit), map);
   listing.map = std::move(map);
   return listing;
 }

@@ -96,6 +96,32 @@ TEST(ReadCsvTable, RefusesFilesOfRaceLogic) {
   EXPECT_THAT(TableText("File created,b\n1,2\n"), HasSubstr("1:File created|b"));
 }
 
+// Loggers write about the session before the table, in lines with other numbers of cells.
+TEST(ReadCsvTable, SkipsThePreambleOfLoggers) {
+  const std::string aim = "\"Format\",\"CSV File\"\r\n\"Segment Times\",\"0:10\",\"0:20\"\r\n\r\n";
+  EXPECT_EQ(TableText(aim + "\"Time\",\"Speed\",\"X\",\"Y\"\r\n\"s\",\"km/h\",\"\",\"m\"\r\n\r\n"
+                            "\"0\",\"36\",\"1\",\"2\"\r\n\"1\",\"36\",\"11\",\"2\"\r\n"),
+            "4:Time [s]|Speed [km/h]|X|Y [m]\n7:0|36|1|2\n8:1|36|11|2\n");
+  // A line of units and one of sources, and a first line without any delimiter.
+  EXPECT_EQ(TableText("Made by a logger\nFormat,3\n\nt,lap,x,y\nunix time,,m,m\n,,100: gps,calc\n"
+                      "7,1,0,0\n8,1,5,0\n"),
+            "4:t [unix time]|lap|x [m]|y [m]\n7:7|1|0|0\n8:8|1|5|0\n");
+  // A preamble that is not valid CSV, and one with another delimiter than the table.
+  EXPECT_EQ(
+      TableText(
+          "\"Track of a game,\"2017-09-03\",0,1,\"v3\"\n\"dist\",\"x\",\"y\"\n0,1,2\n1,2,2\n"),
+      "2:dist|x|y\n3:0|1|2\n4:1|2|2\n");
+  EXPECT_EQ(TableText("Session, Monday\nx;y\n1.5;2\n2.5;2\n"), "2:x|y\n3:1.5|2\n4:2.5|2\n");
+}
+
+// What is not clearly a preamble stays a header, whose errors the reader names.
+TEST(ReadCsvTable, TakesNoHeaderForAPreamble) {
+  EXPECT_EQ(TableText("x,y\n1,2,3\n4,5,6\n"), "1:x|y\n2:1|2|3\n3:4|5|6\n");
+  EXPECT_EQ(TableText("x,y\nn/a,n/a\n1,2\n3,4\n"), "1:x|y\n2:n/a|n/a\n3:1|2\n4:3|4\n");
+  EXPECT_EQ(TableText("name,y\nab,2\n1,2\n3,4\n"), "1:name|y\n2:ab|2\n3:1|2\n4:3|4\n");
+  EXPECT_EQ(TableText("x,y\nft,ft\n1,2\n3,4\n"), "1:x [ft]|y [ft]\n3:1|2\n4:3|4\n");
+}
+
 TEST(ReadCsvTable, DropsEmptyCellsAtTheEnd) {
   EXPECT_EQ(TableText("a,b,\n1,2,\n3,4\n5,,\n"), "1:a|b\n2:1|2\n3:3|4\n4:5|\n");
   EXPECT_EQ(TableText("# a,b\n1,2,\n"), "1:a|b\n2:1|2\n");

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,6 +64,41 @@ TEST(ImportLog, UsesFurtherRowsIfThoseAtTheEdgeOfTheWindowHaveNoWeight) {
       EXPECT_NEAR(sample.pose.yaw, kRate * sample.time, Tolerance(1e-6));
       EXPECT_NEAR(sample.pose.x, kRadius * std::sin(kRate * sample.time), Tolerance(4.2e-3));
     }
+  }
+}
+
+// A circle of 50 m at 10 m/s, behind lines about the session, with a line of units.
+TEST(ListLog, ProposesAMapWithTheUnitsOfALogger) {
+  const std::filesystem::path log =
+      std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/recordings/logger.csv";
+  const LogListing listing = ListLog(log);
+  ASSERT_TRUE(listing.map) << listing.problem;
+  EXPECT_EQ(listing.map->time.column, "Time [s]");
+  EXPECT_EQ(listing.map->speed->column, "GPS Speed [km/h]");
+  EXPECT_EQ(listing.map->speed->unit, "km/h");
+  for (const RecordedSample& sample : ImportLog(log, *listing.map).samples) {
+    // 36.0 km/h in all rows, and polynomials reproduce constants.
+    EXPECT_NEAR(sample.velocity_V.x(), 10.0, Tolerance(1e-9));
+  }
+}
+
+TEST(ListLog, ReadsPosesOfRostopic) {
+  const TempFolder folder;
+  std::string text =
+      "%time,field.header.seq,field.pose.pose.position.x,field.pose.pose.position.y,"
+      "field.pose.pose.orientation.x,field.pose.pose.orientation.y,field.pose.pose.orientation.z,"
+      "field.pose.pose.orientation.w,field.twist.twist.linear.x\n";
+  for (int i = 0; i < 40; ++i) {
+    // Straight on at 2 m/s to the north: a yaw of pi/2.
+    text += fmt::format("{},{},0,{},0,0,{},{},2\n", 1'600'000'000'000'000'000LL + i * 50'000'000LL,
+                        i, 0.1 * i, std::sin(kPi / 4.0), std::cos(kPi / 4.0));
+  }
+  const std::filesystem::path log = folder.Write("odom.csv", text);
+  const LogListing listing = ListLog(log);
+  ASSERT_TRUE(listing.map) << listing.problem;
+  EXPECT_EQ(listing.map->time.unit, "ns");
+  for (const RecordedSample& sample : ImportLog(log, *listing.map).samples) {
+    EXPECT_NEAR(sample.pose.yaw, kPi / 2.0, Tolerance(1e-9));
   }
 }
 

@@ -1,0 +1,96 @@
+#include "src/core/csv_delimiter.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "trackbed/core/csv_rows.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/text_table.h"
+
+// Chooses the comma, the semicolon, the tab or blanks by the first lines of a CSV file.
+namespace trackbed {
+namespace {
+
+/// Returns the next line that is neither empty nor a comment, and removes it from `rest`.
+std::string_view NextLine(std::string_view& rest) {
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (!line.empty() && line.front() != '#') {
+      return line;
+    }
+  }
+  return {};
+}
+
+/// Splits a line at blanks; `numbers` is the number of cells that are numbers.
+std::size_t CountCells(std::string_view line, std::size_t& numbers) {
+  std::size_t count = 0;
+  numbers = 0;
+  std::string rest = BlankRuns().Replace(line);
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\t'), rest.size());
+    ++count;
+    numbers += CellNumber(rest.substr(0, end)) ? 1U : 0U;
+    rest.erase(0, end + 1);
+  }
+  return count;
+}
+
+/// Whether blanks separate numbers in the line or, behind names, as many in the next line.
+bool HasBlanks(std::string_view line, std::string_view rest) {
+  std::size_t numbers = 0;
+  const std::size_t count = CountCells(line, numbers);
+  if (count < 2 || numbers == count) {
+    return count > 1;
+  }
+  std::size_t below = 0;
+  return CountCells(NextLine(rest), below) == count && below == count;
+}
+
+}  // namespace
+
+std::string BlankRuns::Replace(std::string_view part) {
+  std::string text;
+  for (const char c : part) {
+    if (c == ' ' || c == '\t') {
+      is_pending_ = !is_line_start_;
+      continue;
+    }
+    const bool is_end = c == '\r' || c == '\n';
+    if (std::exchange(is_pending_, false) && !is_end) {
+      text += '\t';
+    }
+    text += c;
+    is_line_start_ = is_end;
+  }
+  return text;
+}
+
+char FindDelimiter(const std::filesystem::path& file) {
+  std::string begin;
+  ReadBlocks(file, [&](std::string_view block) {
+    begin = block;
+    return false;
+  });
+  std::string_view rest = begin;
+  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+      rest.starts_with(kByteOrderMark)) {
+    rest.remove_prefix(kByteOrderMark.size());
+  }
+  const std::string_view line = NextLine(rest);
+  char delimiter = ',';
+  std::ptrdiff_t most = 0;
+  for (const char candidate : {',', ';', '\t'}) {
+    const auto count = std::count(line.begin(), line.end(), candidate);
+    if (count > most) {
+      most = count;
+      delimiter = candidate;
+    }
+  }
+  return most == 0 && HasBlanks(line, rest) ? kBlanks : delimiter;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace trackbed {
+
+/// Replaces runs of spaces and tabs by a tab, and drops them at the ends of lines. The text may be
+/// passed in parts.
+class BlankRuns {
+ public:
+  std::string Replace(std::string_view part);
+
+ private:
+  bool is_line_start_ = true;
+  bool is_pending_ = false;
+};
+
+/// Returns the delimiter that CsvLimits::delimiter describes for kFindDelimiter.
+char FindDelimiter(const std::filesystem::path& file);
+
+}  // namespace trackbed

@@ -1,0 +1,156 @@
+#include "src/core/csv_head.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "trackbed/core/file.h"
+#include "trackbed/core/text_table.h"
+
+// Finds the preamble and the units of a CSV table.
+// 1. Splits the first lines of the file at the delimiter, outside of quotes.
+// 2. Finds the first row of numbers, and goes up from it while lines have as many cells.
+// 3. The topmost of these lines has the names; the lines between are units.
+namespace trackbed {
+namespace {
+
+constexpr std::size_t kMaxLines = 300;
+
+struct Line {
+  int number;
+  std::vector<std::string> cells;
+};
+
+std::string Trimmed(std::string_view cell) {
+  constexpr std::string_view kAround = " \t\r\"";
+  cell.remove_prefix(std::min(cell.find_first_not_of(kAround), cell.size()));
+  return std::string(cell.substr(0, cell.find_last_not_of(kAround) + 1));
+}
+
+std::vector<std::string> Split(std::string_view line, char delimiter) {
+  std::vector<std::string> cells;
+  std::size_t begin = 0;
+  bool quoted = false;
+  for (std::size_t at = 0; at <= line.size(); ++at) {
+    if (at == line.size() || (line[at] == delimiter && !quoted)) {
+      cells.push_back(Trimmed(line.substr(begin, at - begin)));
+      begin = at + 1;
+    } else if (line[at] == '"') {
+      quoted = !quoted;
+    }
+  }
+  return cells;
+}
+
+/// Returns the complete lines in the first block of a file that are neither empty nor comments.
+std::vector<Line> FirstLines(std::string_view begin, char delimiter) {
+  std::vector<Line> lines;
+  for (int number = 1; lines.size() < kMaxLines; ++number) {
+    const std::size_t end = begin.find('\n');
+    if (end == std::string_view::npos) {
+      break;
+    }
+    const std::string_view text = begin.substr(0, end);
+    begin.remove_prefix(end + 1);
+    if (text.find_first_not_of(" \t\r") != std::string_view::npos && !text.starts_with('#')) {
+      lines.push_back({number, Split(text, delimiter)});
+    }
+  }
+  return lines;
+}
+
+std::size_t Numbers(const Line& line) {
+  return static_cast<std::size_t>(std::count_if(line.cells.begin(), line.cells.end(),
+                                                [](const auto& c) { return CellNumber(c); }));
+}
+
+std::size_t Filled(const Line& line) {
+  return static_cast<std::size_t>(std::count_if(line.cells.begin(), line.cells.end(),
+                                                [](const auto& c) { return !c.empty(); }));
+}
+
+/// Number of cells up to the last one that is not empty.
+std::size_t Width(const Line& line) {
+  const auto last = std::find_if(line.cells.rbegin(), line.cells.rend(),
+                                 [](const std::string& cell) { return !cell.empty(); });
+  return static_cast<std::size_t>(line.cells.rend() - last);
+}
+
+bool AreAlike(const Line& a, const Line& b) {
+  return a.cells.size() == b.cells.size() || Width(a) == Width(b);
+}
+
+bool IsData(const Line& line) {
+  const std::size_t numbers = Numbers(line);
+  return numbers >= 2 && 2 * numbers >= Filled(line);
+}
+
+bool IsUnit(const std::string& cell) {
+  constexpr std::array kUnits{"s",   "ms",    "m",   "cm",  "mm",  "km",    "ft",     "m/s",
+                              "mps", "km/h",  "kmh", "kph", "mph", "knots", "rad",    "deg",
+                              "g",   "G",     "gee", "rpm", "%",   "rad/s", "deg/s",  "\xC2\xB0",
+                              "bar", "m/s^2", "kPa", "psi", "C",   "m/s2",  "degrees"};
+  return std::find(kUnits.begin(), kUnits.end(), cell) != kUnits.end();
+}
+
+/// Returns the head of a table that has a preamble or units.
+std::optional<CsvHead> HeadWith(std::string_view begin, char delimiter) {
+  const std::vector<Line> lines = FirstLines(begin, delimiter);
+  std::size_t data = 0;
+  while (data + 1 < lines.size() && !(IsData(lines[data]) && IsData(lines[data + 1]) &&
+                                      AreAlike(lines[data], lines[data + 1]))) {
+    ++data;
+  }
+  if (data + 1 >= lines.size()) {
+    return std::nullopt;
+  }
+  std::size_t names = data;
+  while (names > 0 && Numbers(lines[names - 1]) == 0 && AreAlike(lines[names - 1], lines[data])) {
+    --names;
+  }
+  const bool has_preamble = names > 0 && !AreAlike(lines.front(), lines[data]);
+  if (names == data || (names > 0 && !has_preamble)) {
+    return std::nullopt;
+  }
+  CsvHead head{.delimiter = delimiter};
+  if (has_preamble) {
+    head.preamble_lines = lines[names].number - 1;
+  }
+  if (data > names + 1) {
+    const std::vector<std::string>& units = lines[names + 1].cells;
+    if (std::none_of(units.begin(), units.end(), IsUnit)) {
+      return has_preamble ? std::optional(head) : std::nullopt;
+    }
+    head.units = units;
+    head.first_row = lines[data].number;
+  }
+  return has_preamble || !head.units.empty() ? std::optional(head) : std::nullopt;
+}
+
+}  // namespace
+
+CsvHead FindCsvHead(const std::filesystem::path& file, char delimiter) {
+  std::string begin;
+  ReadBlocks(file, [&](std::string_view block) {
+    begin = block;
+    return false;
+  });
+  std::string_view text = begin;
+  if (constexpr std::string_view kMark = "\xEF\xBB\xBF"; text.starts_with(kMark)) {
+    text.remove_prefix(kMark.size());
+  }
+  for (const char candidate : {delimiter, ',', ';', '\t'}) {
+    if (const std::optional<CsvHead> head = HeadWith(text, candidate)) {
+      return *head;
+    }
+  }
+  return {.delimiter = delimiter};
+}
+
+std::string NameWithUnit(const std::string& name, const std::string& unit) {
+  const bool has_unit = name.ends_with(']') || name.ends_with(')');
+  return unit.empty() || unit == "#" || has_unit ? name : name + " [" + unit + "]";
+}
+
+}  // namespace trackbed

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace trackbed {
+
+/// Lines before the rows of numbers of a CSV table. Loggers such as those of AiM, MoTeC and
+/// RaceChrono write lines about the session before the names of the columns, and lines of units
+/// behind them.
+struct CsvHead {
+  char delimiter = ',';
+  int preamble_lines = 0;  ///< Lines before the line of the names.
+  int first_row = 0;       ///< Line of the first row of numbers; 0 without lines of units.
+  std::vector<std::string> units{};  ///< Unit of each column, "" where it has none.
+};
+
+/// Finds the head of a table by the first 64 KiB of the file. The names are the first of the lines
+/// directly above the first row of numbers that have as many cells as this row. Lines before the
+/// names are a preamble only if the first of them has another number of cells. Lines between the
+/// names and the numbers are units if one of their cells is a unit and none is a number. Tries
+/// `delimiter` before other delimiters; keeps `delimiter` if no table has a preamble or units.
+CsvHead FindCsvHead(const std::filesystem::path& file, char delimiter);
+
+/// Appends the unit to the name of a column, as in "Speed [km/h]", unless the name has one.
+std::string NameWithUnit(const std::string& name, const std::string& unit);
+
+}  // namespace trackbed
