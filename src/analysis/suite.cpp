@@ -240,4 +240,8 @@ std::string ToJUnit(const std::vector<SuiteCase>& cases) {
   return printer.CStr();
 }
 
+std::string JUnitBegin() {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"trackbed\"";
+}
+
 }  // namespace trackbed

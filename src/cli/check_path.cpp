@@ -19,6 +19,7 @@
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/drive/drive.h"
@@ -147,7 +148,7 @@ int CheckPathFile(const CheckPathOptions& options) {
   // key of the generated scenario.
   static_cast<void>(OpenInput(file));
   if (!options.report.empty()) {
-    PrepareOutputFile("--report", options.report, {file});
+    PrepareOutputFile("--report", options.report, {file}, HasInHead(std::string(kPageMark)));
   }
   const Scenario scenario =
       options.scenario.Parse(ScenarioText(options), "check-path", file.parent_path());

@@ -137,9 +137,13 @@ std::string PublishedText(const ExperimentOptions& options, const Match& match,
   return published ? ShortestText(*published) : absent;
 }
 
+TextTable EmptyTable() {
+  return TextTable({"speed_mps", "matching", "search", "steering_deg", "off_primary_percent",
+                    "cost", "evaluations", "published_deg"});
+}
+
 std::string ToCsv(const ExperimentOptions& options, const std::vector<Match>& matches) {
-  TextTable table({"speed_mps", "matching", "search", "steering_deg", "off_primary_percent", "cost",
-                   "evaluations", "published_deg"});
+  TextTable table = EmptyTable();
   for (const Match& match : matches) {
     table.AddRow({ShortestText(match.speed), Name(match.matching), match.search->name,
                   ShortestText(match.steering), ShortestText(Scatter(options, match)),
@@ -208,7 +212,7 @@ int Experiment(const ExperimentOptions& options) {
   const fs::path file = FindModel(options.vehicle, "");
   const CarModel car(ComposeScene(file, {}), file.string());
   if (!options.out.empty()) {
-    PrepareOutputFile("--out", options.out, {file});
+    PrepareOutputFile("--out", options.out, {file}, BeginsWith(EmptyTable().ToCsv()));
   }
   const std::vector<Match> matches = MatchAll(car.params(), options, searches);
   if (!options.out.empty()) {

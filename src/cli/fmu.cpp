@@ -31,7 +31,7 @@ int RunFmuVerb(FmuVerbOptions& options) {
   }
   const Scenario scenario = options.scenario.Read(options.file);
   const std::string plant = PlantOf(options, scenario);
-  PrepareOutputFile("--out", options.out, {options.file});
+  PrepareOutputFile("--out", options.out, {options.file}, EndsWith(kFmuMark));
   ExportFmu(scenario, plant, options.out, static_cast<FmiVersion>(options.fmi));
   if (!options.scenario.quiet) {
     Print("{}: the plant {} as a co-simulation FMU (FMI {}.0), in {}\n", scenario.name, plant,

@@ -159,11 +159,15 @@ void PrintGgv(const GgvDiagram& diagram, const std::string& name) {
   }
 }
 
+Table EmptyGgvTable() {
+  return Table({"speed_mps", "lateral_acceleration_mps2", "longitudinal_acceleration_mps2"});
+}
+
 /// Returns a table with the boundary of the g-g-v diagram at each speed. Each boundary begins at
 /// the maximum deceleration, passes through the maximum lateral acceleration and ends at the
 /// maximum acceleration.
 Table GgvTable(const GgvDiagram& diagram) {
-  Table table({"speed_mps", "lateral_acceleration_mps2", "longitudinal_acceleration_mps2"});
+  Table table = EmptyGgvTable();
   constexpr int kSteps = 24;
   for (const double speed : GgvSpeeds(diagram)) {
     const double lateral = diagram.MaxLateral({.speed = speed});
@@ -201,7 +205,7 @@ void Adapt(const std::string& file, const AdaptOptions& options, const std::stri
   const AdaptedModel adapted = AdaptModel(file, options);
   PrintAdapted(adapted, file);
   if (!out.empty()) {
-    WriteFileAtomically(out, adapted.xml);
+    WriteFileAtomically(out, adapted.xml + ModelMark(adapted.xml));
     Print("wrote {}\n", out);
   }
 }
@@ -286,10 +290,12 @@ int ShowModel(const ModelOptions& options) {
   CheckOptions(options);
   const auto file = FindModel(options.name, "");
   if (!options.out.empty()) {
-    PrepareOutputFile("--out", options.out, {file});
+    PrepareOutputFile(
+        "--out", options.out, {file},
+        options.ggv ? BeginsWith(EmptyGgvTable().ToCsv()) : WroteFile(IsUneditedModel));
   }
   if (!options.save.empty()) {
-    PrepareOutputFile("--save", options.save, {file});
+    PrepareOutputFile("--save", options.save, {file}, IsUneditedModel);
   }
   if (options.adapt) {
     AdaptOptions answers = options.answers;
@@ -310,7 +316,9 @@ int ShowModel(const ModelOptions& options) {
   } else if (options.save.empty()) {
     PrintModel(car, file.string());
   } else {
-    WriteScene(car.scene(), options.save);
+    Scene scene = car.scene();
+    scene.xml += ModelMark(scene.xml);
+    WriteScene(scene, options.save);
   }
   return kOk;
 }

@@ -1,16 +1,35 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace trackbed::cli {
 
+/// Returns whether an existing file was written by the option that would replace it.
+using WroteFile = std::function<bool(const std::filesystem::path&)>;
+
+/// Recognizes a file by its first bytes, such as the names of a table's columns.
+WroteFile BeginsWith(std::string text);
+/// Recognizes a page by a text among its first 4096 bytes.
+WroteFile HasInHead(std::string text);
+/// Recognizes a file by its last bytes.
+WroteFile EndsWith(std::string text);
+/// Recognizes a model that ends with ModelMark and was not edited since.
+bool IsUneditedModel(const std::filesystem::path& file);
+
+/// Returns a comment to append to the text of a model that Trackbed writes. The comment contains
+/// the hash of the text.
+std::string ModelMark(std::string_view xml);
+
 /// Prepares to write the file that an option names, before the work whose result it gets: creates
 /// its folder and checks that it can be written (PrepareToWrite). An existing file will be
-/// replaced, so throws InputError if the file is one of `inputs`, under this or another name, or a
-/// file of a result (ResultThatLists). Inputs that do not exist, such as names of models, are
-/// ignored.
+/// replaced, so throws InputError if the file is one of `inputs`, under this or another name, a
+/// file of a result (ResultThatLists), or a file with contents that `wrote` does not recognize.
+/// Inputs that do not exist, such as names of models, are ignored.
 void PrepareOutputFile(const char* option, const std::filesystem::path& file,
-                       const std::vector<std::filesystem::path>& inputs);
+                       const std::vector<std::filesystem::path>& inputs, const WroteFile& wrote);
 
 }  // namespace trackbed::cli

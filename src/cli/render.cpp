@@ -5,11 +5,13 @@
 #include <memory>
 
 #include "src/cli/film_of_run.h"
+#include "src/cli/output_file.h"
 #include "src/cli/progress_bar.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/scenario/scenario.h"
 
@@ -89,6 +91,8 @@ int RenderOne(const RenderOptions& options) {
   const fs::path out = options.out.empty() ? folder / name : fs::path(options.out);
   if (options.out.empty()) {
     RequireNoForeignFile(out);
+  } else if (!fs::is_directory(out)) {
+    PrepareOutputFile("--out", out, {}, HasMark);
   }
   const std::optional<OutputFolder> in_use = LockFolderOf(out, folder);
   if (options.at) {

@@ -11,6 +11,7 @@
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
@@ -52,7 +53,7 @@ int Report(const ReportOptions& options) {
   if (options.out.empty()) {
     RequireNoForeignFile(file);
   } else {
-    PrepareOutputFile("--out", file, paths);
+    PrepareOutputFile("--out", file, paths, HasInHead(std::string(kPageMark)));
   }
   const std::optional<OutputFolder> in_use = LockFolderOf(file, folder);
   WriteReport(paths, file, film);

@@ -111,7 +111,7 @@ int Test(const TestOptions& options) {
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const std::vector<fs::path> files = ScenarioFiles(options.paths, FolderContent::kScenarios);
   if (!options.junit.empty()) {
-    PrepareOutputFile("--junit", options.junit, files);
+    PrepareOutputFile("--junit", options.junit, files, BeginsWith(JUnitBegin()));
   }
   const std::vector<SuiteCase> cases =
       RunSuite(files,

@@ -116,8 +116,8 @@ void ExportFmu(const Scenario& scenario, const std::string& plant, const fs::pat
   const std::string description = fmu::ModelDescription(
       {.name = own.name, .token = token, .control_period = own.drive.control_period},
       fmu::Variables(resources.at(fmu::kScenarioYaml), own), version);
-  WriteFileAtomically(file,
-                      fmu::MakeZip(MakeEntries(resources, description, library_file, version)));
+  WriteFileAtomically(
+      file, fmu::MakeZip(MakeEntries(resources, description, library_file, version), kFmuMark));
 }
 
 }  // namespace trackbed

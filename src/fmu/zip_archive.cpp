@@ -38,7 +38,7 @@ std::string ReadAll(zip_source_t& source) {
 
 }  // namespace
 
-std::string MakeZip(const std::vector<ZipEntry>& entries) {
+std::string MakeZip(const std::vector<ZipEntry>& entries, const std::string& comment) {
   zip_error_t error;
   zip_error_init(&error);
   const std::unique_ptr<zip_source_t, SourceDeleter> target(
@@ -72,6 +72,10 @@ std::string MakeZip(const std::vector<ZipEntry>& entries) {
             0) {
       Fail(zip_strerror(archive.get()));
     }
+  }
+  if (zip_set_archive_comment(archive.get(), comment.data(),
+                              static_cast<zip_uint16_t>(comment.size())) < 0) {
+    Fail(zip_strerror(archive.get()));
   }
   if (zip_close(archive.get()) < 0) {
     Fail(zip_strerror(archive.get()));

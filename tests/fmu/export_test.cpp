@@ -376,6 +376,7 @@ TEST(ExportFmu, WritesAnArchiveThatRunsByItself) {
   const Scenario scenario = Shipped("three_turns", kShort);
   ExportFmu(scenario, "mujoco", file);
   EXPECT_EQ(folder.Names(), std::vector<std::string>{"car.fmu"});
+  EXPECT_TRUE(ReadFile(file).ends_with(kFmuMark));
   const std::map<std::string, std::string> entries = Unzipped(file);
   for (const auto& [name, content] : entries) {
     if (!name.starts_with("binaries/")) {

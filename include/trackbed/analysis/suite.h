@@ -59,4 +59,8 @@ std::vector<SuiteCase> RunSuite(const std::vector<std::filesystem::path>& files,
 /// Characters that XML does not allow are replaced by '?'.
 std::string ToJUnit(const std::vector<SuiteCase>& cases);
 
+/// Returns the text with which each report of ToJUnit begins, and which other programs do not
+/// write.
+std::string JUnitBegin();
+
 }  // namespace trackbed

@@ -10,6 +10,9 @@ namespace trackbed {
 /// Version of the Functional Mock-up Interface.
 enum class FmiVersion { k2 = 2, k3 = 3 };
 
+/// Comment at the end of the ZIP files that ExportFmu writes.
+inline constexpr const char* kFmuMark = "FMU by Trackbed";
+
 /// Exports the car of a scenario as a co-simulation FMU (fmi-standard.org): a ZIP file with the
 /// description of its variables, a shared library with the libraries that it needs, the scenario,
 /// and all files that the scenario names. docs/how-to/fmu.md describes the variables and the
