@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -114,11 +115,30 @@ MapCell CellOf(const RosMapKeys& map, const MapImage& image, std::size_t pixel) 
                                     : MapCell::kUnknown;
 }
 
+/// Returns the file of the image. map_saver and Cartographer write absolute paths, which other
+/// machines do not have; such a path stands for the file of the same name beside the map.
+fs::path ImageFile(const fs::path& file, const std::string& image) {
+  const fs::path named = file.parent_path() / image;
+  std::error_code ignored;
+  if (fs::path(image).is_relative() || fs::exists(named, ignored)) {
+    return named;
+  }
+  const fs::path beside = file.parent_path() / named.filename();
+  if (!fs::exists(beside, ignored)) {
+    throw InputError(
+        Problem{.file = file.string(),
+                .key = "image",
+                .message = fmt::format("{} does not exist, and there is no {} beside the map file",
+                                       image, named.filename().string())});
+  }
+  return beside;
+}
+
 }  // namespace
 
 GridMap ReadRosMap(const fs::path& file, const AccessCheck& access_error) {
   const RosMapKeys keys = ReadRosMapKeys(file);
-  const fs::path image_file = file.parent_path() / keys.image;
+  const fs::path image_file = ImageFile(file, keys.image);
   if (const std::string why = access_error ? access_error(image_file) : ""; !why.empty()) {
     throw InputError(Problem{
         .file = file.string(), .key = "image", .message = fmt::format("{} {}", keys.image, why)});

@@ -219,6 +219,17 @@ TEST_F(MapFiles, AskBeforeTheyReadTheImage) {
             "maps/m.yaml: image: ../../secret.pgm is a secret");
 }
 
+// map_saver writes the path that the image has on the machine of the one who saved it.
+TEST_F(MapFiles, FindTheImageOfAnotherMachineBesideThem) {
+  const auto file =
+      folder_.Write("m.yaml", Replaced(kYaml, "IMAGE", "/home/somebody/maps/hall.pgm"));
+  EXPECT_EQ(MessageOf([&] { ReadRosMap(file, {}); }, folder_),
+            "m.yaml: image: /home/somebody/maps/hall.pgm does not exist, and there is no hall.pgm "
+            "beside the map file");
+  folder_.Write("hall.pgm", "P2 2 1 255 0 255");
+  EXPECT_EQ(Drawn(ReadRosMap(file, {})), "#.");
+}
+
 TEST_F(MapFiles, OfMovingAiCountFromTheTop) {
   const GridMap map = ReadMoving("type octile\nheight 3\nwidth 4\nmap\n.G..\n@OTS\nW...\n");
   EXPECT_EQ(Drawn(map), "..../####/#...");
