@@ -288,7 +288,10 @@ std::string ReversalRemedy(const FittedPath& fitted, const std::string& noise_ke
   if (fitted.noise_deviation) {
     // A spline that is nearer to the points than the default bends with the noise.
     const double deviation = std::max(*fitted.noise_deviation, PathFitOptions{}.max_deviation);
-    text += fmt::format("; if this is noise of the positions, {} {:.2g}", noise_key, deviation);
+    // Two digits, rounded up, because a smaller deviation would not be enough.
+    const double step = std::pow(10.0, std::floor(std::log10(deviation)) - 1.0);
+    text += fmt::format("; if this is noise of the positions, {} {:g}", noise_key,
+                        step * std::ceil(deviation / step));
   }
   return text;
 }
