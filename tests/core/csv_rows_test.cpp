@@ -114,7 +114,7 @@ TEST(ReadCsvTable, SkipsThePreambleOfLoggers) {
   EXPECT_EQ(TableText("Session, Monday\nx;y\n1.5;2\n2.5;2\n"), "2:x|y\n3:1.5|2\n4:2.5|2\n");
 }
 
-// What is not clearly a preamble stays a header, whose errors the reader names.
+// A first line with as many cells as the rows stays the header.
 TEST(ReadCsvTable, TakesNoHeaderForAPreamble) {
   EXPECT_EQ(TableText("x,y\n1,2,3\n4,5,6\n"), "1:x|y\n2:1|2|3\n3:4|5|6\n");
   EXPECT_EQ(TableText("x,y\nn/a,n/a\n1,2\n3,4\n"), "1:x|y\n2:n/a|n/a\n3:1|2\n4:3|4\n");

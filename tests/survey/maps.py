@@ -88,6 +88,8 @@ def ros(file):
     """Returns (resolution, rows of cells from the top) of a map_server map."""
     keys = dict(re.findall(r"(?m)^\s*(\w+)\s*:\s*([^#\n]*)", file.read_text(errors="replace")))
     image = file.parent / keys["image"].strip().strip("'\"")
+    if not image.exists():  # the path on the machine that saved the map
+        image = file.parent / image.name
     data = image.read_bytes()
     _, _, white, rows = png(data) if data.startswith(b"\x89PNG") else pgm(data)
     dark = keys["negate"].strip() in ("0", "false", "False")
