@@ -20,9 +20,9 @@ from ._runs import _pandas, no_array
 class Sweep(Mapping[str, numpy.ndarray]):
     """The table of a study: a column for each key that varies, then `status` and the outputs.
 
-    sweep["status"] is an array of text, one for each finished row in the order of the study; columns
-    of numbers are arrays of float64, with NaN where a run has no value. While the study runs, the
-    table grows with every finished row.
+    sweep["status"] is an array of text, one for each finished row in the order of the study.
+    Columns of numbers are arrays of float64, with NaN where a run has no value. While the study
+    runs, the table grows with every finished row.
     """
 
     def __init__(self, job: _trackbed.SweepJob) -> None:

@@ -50,8 +50,8 @@ struct Recipe {
 };
 
 const Recipe& EncoderRecipe(FilmCodec codec) {
-  // The encoder option mbtree=0 makes films reproducible. Without mbtree=0 and unless the width is
-  // a multiple of 128, the macroblock tree of x264 reads past the end of its rows, where the memory
+  // The encoder option mbtree=0 makes films reproducible. Without mbtree=0, the macroblock tree of
+  // x264 reads past the end of its rows unless the width is a multiple of 128. The memory there
   // differs between runs (seen with build 164 at widths of 96, 320, 854 and 960 px).
   static const Recipe h264{"libx264",
                            "mp4",

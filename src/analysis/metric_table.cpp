@@ -365,9 +365,9 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
   }
   const AidOptions aids = scenario.vehicle.aids.value_or(AidOptions{});
   for (const MetricEntry& entry : Metrics()) {
-    // Metrics of track limits exist only for runs on a track, metrics of road limits only for
-    // routes over lanes, metrics of driver aids only for cars with these aids, and metrics of
-    // trailers only for cars with a trailer.
+    // Metrics of track limits exist only for runs on a track, and metrics of road limits only for
+    // routes over lanes. Metrics of driver aids and of trailers exist only for cars with these aids
+    // or a trailer.
     const bool of_track = entry.path.starts_with("track_limits.");
     const bool of_road = entry.path.starts_with("road_limits.");
     const bool of_abs = entry.path.starts_with("aids.abs_");

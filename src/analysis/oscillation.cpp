@@ -7,8 +7,9 @@
 
 // Finds limit cycles of a control loop in the steering command.
 //
-// 1. A least-squares fit removes what the inputs of the loop explain: the steering of the path (the
-//    feed-forward, with any lead, lag and gain) and the noise of the measured pose.
+// 1. A least-squares fit removes what the inputs of the loop explain. The inputs are the steering
+//    of the path (the feed-forward, with any lead, lag and gain) and the noise of the measured
+//    pose.
 // 2. The remainder is searched for sustained oscillations, period by period. The autocorrelation of
 //    a linear loop that noise excites has the shape of its free decay (the random decrement of
 //    Cole 1973). A loop with the damping ratio z keeps exp(-2 pi z M) of its amplitude after M
@@ -28,9 +29,9 @@ constexpr double kLeastRemainder = 0.5;  ///< Least amplitude of the second half
 constexpr double kLeastShare = 0.5;      ///< Least share of the wave that is in the command.
 constexpr double kPeriodStep = 1.189207115002721;  ///< 2^(1/4), a quarter octave.
 
-/// Adds low-pass filters of the input with time constants in steps of a factor of 2, from one
-/// period to 3 s, or to the twentieth part of a short signal. A filter that runs backward responds
-/// to the input's future.
+/// Adds low-pass filters of the input with time constants in steps of a factor of 2. They range
+/// from one period to 3 s, or to the twentieth part of a short signal. A filter that runs backward
+/// responds to the input's future.
 void AddLowPasses(const Series& input, double period, bool backward, std::vector<Series>& out) {
   const std::size_t n = input.size();
   const double longest = std::min(3.0, 0.05 * static_cast<double>(n) * period);

@@ -19,8 +19,8 @@ Vec2 PointAt(const Road& road, double s, double t) {
   return {place.x, place.y};
 }
 
-/// Returns the signed distance from the line between two points, positive to the left [m]; infinite
-/// if the points are equal, as on the inside of a bend around the border.
+/// Returns the signed distance from the line between two points, positive to the left [m]. The
+/// distance is infinite if the points are equal, as on the inside of a bend around the border.
 double LeftOf(const std::pair<Vec2, Vec2>& line, const Vec2& point) {
   const Vec2 along = line.second - line.first;
   const double length = along.norm();

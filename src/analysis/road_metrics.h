@@ -44,9 +44,9 @@ class RoadBands {
   std::vector<std::vector<std::size_t>> bins_;  // Pieces that reach a square bin.
 };
 
-/// Returns the smallest distance of the footprint from the edges of the roads in a run, measured at
-/// points of the footprint's outline at most half a meter apart; negative if the car leaves the
-/// roads. Returns nullopt for a plan that does not follow the lanes of roads.
+/// Returns the smallest distance of the footprint from the edges of the roads in a run; negative if
+/// the car leaves the roads. It is measured at points of the footprint's outline at most half a
+/// meter apart. Returns nullopt for a plan that does not follow the lanes of roads.
 std::optional<MetricReading> SmallestRoadMargin(const MetricInput& input);
 
 }  // namespace trackbed

@@ -42,8 +42,8 @@ double MeanOf(const std::vector<double>& values) {
 }
 
 /// Computes epsilon squared of an output whose mean is near 0, for n rows that are divided into B
-/// classes: 1 - (W / (n - B)) / (T / (n - 1)). W is the sum of squared deviations from the class
-/// means, and T is the sum of squared deviations from the total mean.
+/// classes. The result is 1 - (W / (n - B)) / (T / (n - 1)). W is the sum of squared deviations
+/// from the class means, and T is the sum of squared deviations from the total mean.
 class VarianceShare {
  public:
   explicit VarianceShare(std::size_t classes) : counts_(classes), sums_(classes) {}

@@ -132,7 +132,7 @@ void ForEachLine(int descriptor, const std::function<bool(std::string_view, std:
   }
 }
 
-/// Opens the record file; if the file does not exist, creates the file together with its header in
+/// Opens the record file. If the file does not exist, creates the file together with its header in
 /// one step, so that a killed process leaves no file without a header.
 int OpenOrCreate(const std::filesystem::path& file, const ordered_json& header) {
   constexpr int kFlags = O_RDWR | O_CLOEXEC | O_NOFOLLOW;

@@ -13,8 +13,9 @@ std::optional<MetricReading> LargestHitchAngle(const MetricInput& input);
 /// Returns the largest magnitude of the rate of the hitch angle [rad/s].
 std::optional<MetricReading> LargestHitchRate(const MetricInput& input);
 
-/// Returns the largest distance of the middle of the trailer's axle from the line that the middle
-/// of the car's rear axle has driven up to then, extended straight back from the start [m].
+/// Returns the largest distance [m] of the middle of the trailer's axle from the line that the
+/// middle of the car's rear axle has driven up to then. The line is extended straight back from the
+/// start.
 std::optional<MetricReading> LargestOffTracking(const MetricInput& input);
 
 }  // namespace trackbed

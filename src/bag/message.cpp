@@ -15,7 +15,7 @@
 #include "src/bag/definitions.h"
 #include "trackbed/core/error.h"
 
-// Decodes messages of ROS 2. A definition in the format ros2msg is parsed to a tree of fields; the
+// Decodes messages of ROS 2. A definition in the format ros2msg is parsed to a tree of fields. The
 // tree is walked along a message with Fast CDR, which reads the primitives, aligns them and swaps
 // their bytes. The format has one line per field: type, name, and a default or constant value,
 // which is ignored. Definitions of the types of fields follow after lines of '=' and a line "MSG:

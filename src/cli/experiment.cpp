@@ -49,7 +49,7 @@ struct ExperimentOptions {
 };
 
 /// Returns the steering angle that the genetic algorithm found in the second stage of Skackauskas
-/// et al. 2017, or none if no angle was published for these options and this speed. In the
+/// et al. 2017. Returns none if no angle was published for these options and this speed. In the
 /// publication, the primary car steers 10 deg at 3 m/s. The published angles differ from the
 /// primary car's 10 deg by at most 2.3 %.
 std::optional<double> Published(const ExperimentOptions& options, double speed) {

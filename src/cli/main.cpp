@@ -112,8 +112,9 @@ namespace trackbed {
 namespace {
 
 /// Opens /dev/null for each closed standard stream. If a standard stream stayed closed, the next
-/// opened file would get the stream's file descriptor, and output for the stream would be written
-/// into that file. /dev/null is opened for reading only, so writing to such a stream fails.
+/// opened file would get the stream's file descriptor. Output for the stream would then be written
+/// into that file. The file /dev/null is opened for reading only, so writing to such a stream
+/// fails.
 void OccupyClosedStreams() {
   int descriptor = 0;
   do {

@@ -109,8 +109,8 @@ void NoteTimeLimit(FeasiblePlan& plan, double time_limit) {
   }
 }
 
-/// Returns the path of a car that turns round at full lock to the shorter side until it faces along
-/// `to`, while its wheels turn at their full rate from straight ahead.
+/// Returns the path of a car that turns round to the shorter side until it faces along `to`. The
+/// wheels turn from straight ahead to full lock at their full rate.
 Path TurnRoundPath(const VehicleParams& vehicle, const StartState& start, const PathPoint& to,
                    double speed) {
   const double turn = AngleDifference(to.pose.yaw, start.pose.yaw);

@@ -19,8 +19,8 @@
 #include "trackbed/core/file.h"
 #include "trackbed/sim/plant.h"
 
-// Makes the files of an FMU in memory: the resources (scenario, car and input files), the
-// description of the variables, the shared library trackbed_fmu.so with the libraries that it
+// Makes the files of an FMU in memory: the resources (scenario, car and input files) and the
+// description of the variables. Adds the shared library trackbed_fmu.so with the libraries that it
 // needs, and their licenses. The shared library is tried with the resources before the FMU is
 // written.
 namespace trackbed {

@@ -9,9 +9,10 @@
 
 namespace trackbed::fmu {
 
-/// Returns the files of the folder `documentation/licenses` of an FMU: the texts of Trackbed, of
-/// the code compiled into `library` (the folder fmu_licenses beside it), and of the `carried`
-/// libraries, files by soname. `license.txt` lists all carried libraries with their texts.
+/// Returns the files of the folder `documentation/licenses` of an FMU. They are the texts of
+/// Trackbed, of the code compiled into `library` (the folder fmu_licenses beside it), and of the
+/// `carried` libraries, files by soname. `license.txt` lists all carried libraries with their
+/// texts.
 ///
 /// The text of a carried library is the copyright file of the Debian package that owns it, found in
 /// the database of dpkg below `root`. For a library without a text, license.txt says so.

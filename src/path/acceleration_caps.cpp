@@ -9,9 +9,9 @@
 // stretches at the ends of all caps. A backward pass limits the speed at each end of a stretch, so
 // that the car can brake in time for the rest of the path. A forward pass limits the speed to what
 // the car can reach by accelerating from the start. StopAtEnd then adds knots to each stretch where
-// the car starts to cruise and where it starts to brake. A car that starts too fast brakes, as hard
-// as the strict caps, the sections of less grip and the end of the path demand, until its speed
-// meets the profile.
+// the car starts to cruise and where it starts to brake. A car that starts too fast brakes until
+// its speed meets the profile. It brakes as hard as the strict caps, the sections of less grip and
+// the end of the path demand.
 
 namespace trackbed {
 namespace {
@@ -123,10 +123,10 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
 }
 
 /// Returns the constant deceleration at which a car slows down if it starts faster than the profile
-/// [m/s^2]. This is the deceleration of the first stretch, or `deceleration` without stretches, or
-/// more if the car would otherwise be too fast at the start of a strict cap, at the start of a
-/// section of less grip, or at the end of the path. `squared` are the largest squared speeds at the
-/// ends of the stretches.
+/// [m/s^2]. This is the deceleration of the first stretch, or `deceleration` without stretches. It
+/// is more if the car would otherwise be too fast at one of three places: the start of a strict
+/// cap, the start of a section of less grip, or the end of the path. `squared` are the largest
+/// squared speeds at the ends of the stretches.
 double BrakingFromStart(double length, double start_squared, double deceleration,
                         const std::vector<SpeedCap>& caps, const std::vector<Stretch>& stretches,
                         const std::vector<double>& squared) {

@@ -13,8 +13,8 @@ double TurnBetween(const CurveNode& from, const CurveNode& to) {
   return h * (from.curvature + h * (from.sharpness / 3.0 + to.sharpness / 6.0));
 }
 
-/// Integrals of 1, d - d^2/(2 h) and d^2/(2 h), which are the effects of curvature and of both
-/// sharpnesses on the curvature at the distance d, times the vector from there to the end.
+/// Integrals of 1, d - d^2/(2 h) and d^2/(2 h), times the vector from d to the end. The three
+/// factors are the effects of curvature and of both sharpnesses on the curvature at the distance d.
 struct Levers {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
   Eigen::Vector3d left = Eigen::Vector3d::Zero();

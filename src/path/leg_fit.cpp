@@ -95,7 +95,7 @@ bool IsStraight(const ChordPoints& chords, const EndHeadings& headings) {
 
 DistinctPoints DistinctFor(const PathPoints& given, const PathFitOptions& options) {
   // The points within a box of noise are nearer to its center than half of this share of the
-  // deviation, and points at the ends are nearer to the end than this share.
+  // deviation. Points at the ends are nearer to the end than this share.
   constexpr double kNoise = 0.9;
   return Distinct(given, options.closed,
                   options.fit == PathFit::kSpline ? kNoise * options.max_deviation : 0.0);
@@ -120,8 +120,8 @@ ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& option
     return Resampled(distinct, *options.resample);
   }
   // The linear equations of a spline lose a digit for each factor of about 1.6 between the
-  // distances of neighboring knots, so points that are much closer than others would make the
-  // spline swing. The fit still keeps max_deviation of the points between the knots.
+  // distances of neighboring knots. Points that are much closer than others would therefore make
+  // the spline swing. The fit still keeps max_deviation of the points between the knots.
   constexpr double kSpacing = 0.1;
   return options.fit == PathFit::kSpline ? Spaced(distinct, kSpacing * options.max_deviation)
                                          : distinct.chords;

@@ -19,7 +19,7 @@
 // Fits a smooth path to points in two steps. First, a quintic smoothing spline over chord length
 // (Reinsch 1967): bisection finds the largest smoothing length at which the spline passes all
 // points within the tolerance. Second, Newton's method finds the curve of least variation with the
-// same smoothing length, starting at the spline; where it does not converge or leaves the
+// same smoothing length, starting at the spline. Where it does not converge or leaves the
 // tolerance, the smoothing length is halved. The curve is a path without further approximation.
 
 namespace trackbed {
@@ -314,8 +314,8 @@ KnotPath PathAlong(const SmoothingSpline& spline, const LocalPoints& local, doub
 /// smoothing length.
 std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& local,
                                  double& smoothing_length, double tolerance) {
-  // Number of smoothing lengths to try, the factor from one to the next, and the factors from the
-  // curve's smoothing length to that of the spline from which the curve starts.
+  // Number of smoothing lengths to try, and the factor from one to the next. The other factors lead
+  // from the curve's smoothing length to that of the spline from which the curve starts.
   constexpr int kLengths = 16;
   constexpr int kMaxFailures = 2;  // The search ends after so many lengths without convergence.
   constexpr double kShorter = 0.8;

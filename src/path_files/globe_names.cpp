@@ -59,9 +59,9 @@ bool IsSourceWord(std::string_view word) {
                      [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// Splits a name into words in lower case: at characters that are neither letters nor digits,
-/// before a capital letter that follows a small letter, and before the last of several capitals
-/// that is followed by a small letter.
+/// Splits a name into words in lower case at characters that are neither letters nor digits, and
+/// before a capital letter that follows a small letter. Also splits it before the last of several
+/// capitals that is followed by a small letter.
 Words WordsOf(std::string_view name) {
   Words words(1);
   const auto at = [&](std::size_t i) {

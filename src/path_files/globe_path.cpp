@@ -12,7 +12,7 @@
 #include "trackbed/core/file.h"
 
 // Makes a path of one line of a GPX, KML or GeoJSON file. Segments of one track are joined if the
-// gap between them is not longer than the longest step within them: then the gap looks like every
+// gap between them is not longer than the longest step within them. The gap then looks like every
 // other step of the track. In all other cases, each line is a separate path, and the user selects
 // one of them.
 namespace trackbed {

@@ -23,8 +23,8 @@ std::string LowerEnding(const std::filesystem::path& file);
 
 /// Stores the times at which the points are reached, from 0 [s]. If the points have no speeds,
 /// computes the speed at each point from the times. If the times do not increase, or if a computed
-/// speed is out of range, drops the speeds and the times and adds a problem that names the point to
-/// PathFile::speed_problems.
+/// speed is out of range, drops the speeds and the times. Then adds a problem that names the point
+/// to PathFile::speed_problems.
 void TakeTimes(PathFile& found, std::vector<double> times, const std::string& file);
 
 /// Takes the stamps of ROS messages [s], one for each point, as TakeTimes does. Ignores stamps that

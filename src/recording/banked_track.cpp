@@ -19,10 +19,10 @@
 #include "trackbed/core/table.h"
 #include "trackbed/track/track_file.h"
 
-// Makes a terrain from a track with bank and grade. The node of the terrain at a point p has
-// a place (s, d) on each part of the track nearby: the samples of the center line within reach are
-// split into runs of consecutive samples, and the nearest sample of each run is refined by Newton's
-// method. The places do not depend on the bank, so they are computed once for many banks.
+// Makes a terrain from a track with bank and grade. The node of the terrain at a point p has a
+// place (s, d) on each part of the track nearby. The samples of the center line within reach are
+// split into runs of consecutive samples, and Newton's method refines the nearest sample of each
+// run. The places do not depend on the bank, so they are computed once for many banks.
 
 namespace trackbed {
 namespace {

@@ -14,10 +14,10 @@ namespace trackbed {
 
 /// A smoothing spline through samples of an open curve.
 ///
-/// The spline is a closed one (closed_spline.h): the samples less the straight line from the first
-/// to the last one are continued as an odd function beyond both ends, which makes them periodic.
-/// The curve therefore passes through its first and last sample, and its second derivative is zero
-/// there. Beyond its ends, the curve continues straight.
+/// The spline is a closed one (closed_spline.h). The straight line from the first to the last
+/// sample is subtracted, and the rest is continued as an odd function beyond both ends, which makes
+/// it periodic. The curve therefore passes through its first and last sample, and its second
+/// derivative is zero there. Beyond its ends, the curve continues straight.
 class OpenSpline {
  public:
   /// `t` are the increasing parameters of the samples, the first 0; a row of `values` is a sample.

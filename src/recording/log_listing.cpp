@@ -17,7 +17,7 @@
 
 // Lists a log and proposes a map (log_map.h).
 // 1. In CSV files, columns are recognized by the names that path files use, too.
-// 2. In bags, the type of a topic's messages decides: the position is that of an odometry, a pose
+// 2. In bags, the type of a topic's messages decides. The position is that of an odometry, a pose
 //    or a satellite fix, the first of these that the bag has.
 // 3. GPX, KML and GeoJSON files have positions and times.
 // 4. FitTo chooses the gap and the width of the polynomials from the median step of the times.

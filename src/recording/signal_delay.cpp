@@ -135,8 +135,8 @@ double VarianceOfSum(const std::vector<double>& values) {
 }
 
 /// Returns weights w_k such that the sum of w_k (f(k) - f(-k)) over k from 1 to `width` is the
-/// slope at 0 of the least-squares cubic through values f at the places from -`width` to `width`
-/// (Savitzky and Golay 1964); of the parabola if `width` is 1.
+/// slope at 0 of the least-squares cubic through values f. The values are at the places from
+/// -`width` to `width` (Savitzky and Golay 1964). If `width` is 1, the curve is a parabola.
 std::vector<double> CubicWeights(int width) {
   double s2 = 0.0;  // sums of powers of the places
   double s4 = 0.0;
@@ -295,7 +295,7 @@ int WidthOfCubic(const std::vector<Line>& lines, int reach, int best) {
 }
 
 /// Returns whether the reference explains more of the signal than noise does at the best of all
-/// delays: likelihood ratio test at three standard deviations, for as many delays as are
+/// delays. This is a likelihood ratio test at three standard deviations, for as many delays as are
 /// independent.
 bool IsSignificant(const Scan& scan, int best, const Line& line, int stride) {
   constexpr double kSignificant = 9.0;

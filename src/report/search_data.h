@@ -8,9 +8,9 @@
 namespace trackbed {
 
 /// Returns the data of a search for failures; `table` contains the runs of the search and was read
-/// from `file`. The data consist of the outcome of the search, the margins of each key, the tried
-/// parts of each key's range, and, after each run, the lowest robustness found so far. Returns null
-/// if `file` is not in the folder of a search.
+/// from `file`. The data consist of the outcome of the search, the margins of each key, and the
+/// tried parts of each key's range. After each run, they give the lowest robustness found so far.
+/// Returns null if `file` is not in the folder of a search.
 ///
 /// Throws InputError naming the file if falsify.json or sweep.json is invalid, or if falsify.json
 /// describes other runs than the table.

@@ -60,9 +60,10 @@ Degrees SlidingMin(const Degrees& values, const Windows& windows);
 Degrees SlidingMax(const Degrees& values, const Windows& windows);
 
 /// Computes for each sample the degree of "phi until[from, to] psi", in a time proportional to the
-/// number of samples (Donzé, Ferrère and Maler 2013). The result is the minimum of three degrees:
-/// that psi holds at some sample of the window, that phi holds from the sample to the beginning of
-/// the window, and that "phi until psi" holds at the beginning of the window.
+/// number of samples (Donzé, Ferrère and Maler 2013). The result is the minimum of three degrees.
+/// The first one is that psi holds at some sample of the window. The second one is that phi holds
+/// from the sample to the beginning of the window. The third one is that "phi until psi" holds at
+/// the beginning.
 Degrees Until(const Degrees& phi, const Degrees& psi, const Windows& windows);
 
 }  // namespace trackbed

@@ -25,9 +25,9 @@ double ClosingLength(double offset);
 /// Moves the path through `runs` back to the positions of the points. A path keeps headings and
 /// curvatures, so each gap between pieces and each rounded kink moves the rest of the path aside.
 /// Where a path is more than kKeptOffset off, CloseGaps changes headings, curvatures and distances
-/// of the points over the ClosingLength, half before the place and half beyond, and makes the
-/// positions of the points those of the moved path. The start of the path stays. Returns whether
-/// anything was changed. `path` is the path through `runs`. The cost is O(n log n) for n points.
+/// of the points over the ClosingLength, half before the place and half beyond. The positions of
+/// the points become those of the moved path. The start of the path stays. Returns whether anything
+/// was changed. `path` is the path through `runs`. The cost is O(n log n) for n points.
 bool CloseGaps(const Path& path, std::vector<Piece>& runs);
 
 }  // namespace trackbed

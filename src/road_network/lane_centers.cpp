@@ -128,7 +128,8 @@ SurfaceLine StateAt(const RoadStretch& own, double s, double piece_of) {
 }
 
 /// Returns what is wrong with a lane center that lies beyond the road's center of curvature
-/// (SurfaceLine::folded) or turns too much between two points that are `step` apart; "" if nothing.
+/// (SurfaceLine::folded), or that turns too much between two points that are `step` apart. Returns
+/// "" if nothing is wrong.
 std::string ShapeProblem(const SurfaceLine& before, const SurfaceLine& state, double step) {
   if (state.folded) {
     return "lies beyond the road's center of curvature";

@@ -75,8 +75,8 @@ ParametricCubic::ParametricCubic(const Coefficients& u, const Coefficients& v, d
 }
 
 ParametricCubic ParametricCubic::OverU(const Coefficients& v, double length) {
-  // The arc length of a curve v(u) is at least the length of its interval of u, so the parameter u
-  // at the end of the curve is at most `length`.
+  // The arc length of a curve v(u) is at least the length of its interval of u. The parameter u at
+  // the end of the curve is therefore at most `length`.
   const Coefficients u{0.0, 1.0, 0.0, 0.0};
   const ParametricCubic whole(u, v, length, length);
   const double end = whole.Parameter(length);

@@ -72,7 +72,7 @@ void CheckMetrics(Diagnostics& c) {
 }
 
 /// Rejects expectations on quantities that the run does not measure. For example, cross-track
-/// errors are measured only in scenarios with a plan, and clearances are measured only in scenarios
+/// errors are measured only in scenarios with a plan. Clearances are measured only in scenarios
 /// with obstacles, or with the edges of a track or of roads.
 void CheckMeasuredQuantities(Diagnostics& c) {
   const bool has_path = c.scenario.plan || !c.CouldReadPlan({"method"});

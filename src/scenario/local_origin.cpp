@@ -269,8 +269,8 @@ void TranslateKeys(Struct& value, const Vec2& by) {
 }
 
 /// Moves the scenario to an origin. Makes the start explicit where it would otherwise differ from
-/// the start in the resolved form: a start at (0, 0) by default, and a start on a fitted curve,
-/// which is rounded to a number that the resolved form can state.
+/// the start in the resolved form. This concerns a start at (0, 0) by default, and a start on a
+/// fitted curve, which is rounded to a number that the resolved form can state.
 void Move(Scenario& scenario, const Vec2& origin) {
   const Vec2 before = InitialState(scenario).pose.position();
   TranslateKeys(scenario, -origin);

@@ -14,7 +14,7 @@
 #include "trackbed/core/text_table.h"
 
 // Computes the points of a study. The grid is the Cartesian product of `list` and all lists of
-// values. Grid points are numbered by mixed-radix numbers: the lowest digit is the index in `list`,
+// values. Grid points are numbered by mixed-radix numbers. The lowest digit is the index in `list`,
 // followed by the value indices of the varied keys, from the last key to the first key. At some
 // points, conditions (`when`) can drop keys. If dropped keys make points equal, only one of the
 // equal points is kept. At each grid point, the values of keys with distributions are quantiles at

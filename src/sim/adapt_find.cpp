@@ -108,8 +108,8 @@ void FindCarriers(const FoundModel& found, int base, std::vector<FoundWheel>& wh
   }
 }
 
-/// Whether a wheel swivels behind its steering axis, as a caster does: the axis is ahead of the
-/// wheel, by more than a fifth of its radius, and its joint is not limited.
+/// Returns whether a wheel swivels behind its steering axis, as a caster does. The axis is then
+/// ahead of the wheel, by more than a fifth of its radius, and its joint is not limited.
 bool IsCaster(const FoundModel& found, const FoundWheel& wheel) {
   if (wheel.steer < 0 || found.model->jnt_limited[wheel.steer] != 0) {
     return false;

@@ -68,8 +68,8 @@ class CarReader final : private PartsReader {
     params_.steering_ratio = Number("steering_ratio");
   }
 
-  /// Adds to the names that are missing how the base moves instead of by a free joint, and, for a
-  /// model with none of the names of wheels, how to get a car file.
+  /// Adds to the names that are missing how the base moves instead of by a free joint. For a model
+  /// with none of the names of wheels, also adds how to get a car file.
   void ExplainForeignModel() {
     const int body = chassis_.chassis;
     if (free_ < 0 && body >= 0 && m_.body_jntnum[body] > 0) {
@@ -188,7 +188,8 @@ class CarReader final : private PartsReader {
       AddError("steer", "must act on the joint 'rack'");
     }
     // When the command of a servo changes at a constant rate, the joint lags behind by a constant
-    // time: the total damping of the joints that the servo turns, divided by the servo's stiffness.
+    // time. This time is the total damping of the joints that the servo turns, divided by the
+    // servo's stiffness.
     double damping = m_.dof_damping[m_.jnt_dofadr[rack_]];
     for (const int joint : steer_) {
       damping += m_.dof_damping[m_.jnt_dofadr[joint]];
@@ -342,8 +343,8 @@ class CarReader final : private PartsReader {
   };
 
   /// The trailer has no brakes. While the car brakes with the deceleration a, the trailer of mass
-  /// m_t pushes the hitch forward with m_t a, and its nose becomes heavier by m_t a (z_t - h)/l,
-  /// with the height z_t of its center of gravity and the height h of the hitch.
+  /// m_t pushes the hitch forward with m_t a. Its nose becomes heavier by m_t a (z_t - h)/l, with
+  /// the height z_t of its center of gravity and the height h of the hitch.
   Towed ReadTowed() {
     const std::optional<TrailerParts> trailer = FindTrailer(m_);
     if (!trailer) {

@@ -11,12 +11,12 @@ struct AxleWheel {
 };
 
 /// Returns the torque [N m] that the coupling of a differential transmits from the right to the
-/// left wheel in a step of `timestep` [s]. The transmitted torque is the one with which both wheels
-/// turn at the same speed at the end of the step, clamped to `most` [N m], >= 0, in both
-/// directions. An infinite `most` locks the differential.
+/// left wheel in a step of `timestep` [s]. The transmitted torque makes both wheels turn at the
+/// same speed at the end of the step. It is clamped to `most` [N m], >= 0, in both directions. An
+/// infinite `most` locks the differential.
 ///
 /// The wheels' dry friction acts in the same step. The speed of a wheel at the end of the step is
-/// S(omega + (T + c) dt/I, T_f dt/I), where c is the transmitted torque and S(u, b) moves u toward
+/// S(omega + (T + c) dt/I, T_f dt/I). Here, c is the transmitted torque, and S(u, b) moves u toward
 /// zero by b. The difference of the two speeds is a nondecreasing, piecewise linear function of c
 /// with four corners; CouplingTorque finds its root between two corners. If several torques yield
 /// equal speeds, because the brakes hold both wheels, the result is the smallest one.

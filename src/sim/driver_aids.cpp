@@ -12,8 +12,8 @@
 namespace trackbed {
 namespace {
 
-// Default parameters of a limited-slip differential: a quarter of the drive torque, as the plate
-// differentials of road cars, and a preload of 0.02 m g R, 80 N m for a car of 1300 kg.
+// Default parameters of a limited-slip differential. The ramp is a quarter of the drive torque, as
+// for the plate differentials of road cars. The preload is 0.02 m g R: 80 N m for a car of 1300 kg.
 constexpr double kPreload = 0.02;
 constexpr double kRamp = 0.25;
 
@@ -101,8 +101,8 @@ void DriverAids::Update(const CarMotion& motion, const std::array<WheelMotion, 4
 }
 
 /// Returns the largest torque of a front wheel [N m]. The wheel with more grip may exceed the
-/// torque of the other wheel by an excess that grows within a second, which gives the driver time
-/// to steer against the yaw moment.
+/// torque of the other wheel by an excess that grows within a second. This gives the driver time to
+/// steer against the yaw moment.
 double DriverAids::FrontTorque(double timestep) {
   constexpr double kYawDelay = 1.0;  // [s]
   const double low = std::min(slip_[0].limit(), slip_[1].limit());

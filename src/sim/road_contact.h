@@ -28,11 +28,11 @@ enum class TyreSupport {
 /// Lets tyres roll on the exact ground instead of the facets of its height fields.
 ///
 /// In MuJoCo, a height field consists of prisms with flat facets, and a rigid tyre bounces from
-/// facet to facet. On the facets of a hump of 8 m length and 0.1 m height, wheel loads at 10 m/s
-/// jump by 832 N from one step of 2 ms to the next, compared with 7 N on the exact ground. On the
-/// facets of a height field, the car also loses twice as much speed. With RoadContact, each tyre
-/// touches only a single plane (`ground_fl`, …). Before every step, the plane is moved to be
-/// tangent to the exact ground under the tyre. MuJoCo still computes the contacts, friction and
+/// facet to facet. A hump of 8 m length and 0.1 m height is an example. On its facets, wheel loads
+/// at 10 m/s jump by 832 N from one step of 2 ms to the next. On the exact ground, they jump by 7
+/// N. On the facets of a height field, the car also loses twice as much speed. With RoadContact,
+/// each tyre touches only a single plane (`ground_fl`, …). Before every step, the plane is moved to
+/// be tangent to the exact ground under the tyre. MuJoCo still computes the contacts, friction and
 /// forces.
 ///
 /// With TyreSupport::kSprings, MuJoCo computes no contacts between tyres and ground.

@@ -32,7 +32,7 @@ BrakedWheel MakeBrakedWheel(const MagicFormula& tyre, double load, double radius
 /// Controls the brake slip of one wheel (van Zanten 2000).
 ///
 /// The target of the brake slip is kappa* = kappa_p (0.1 + 0.9 u), with the slip kappa_p of the
-/// largest force on a dry road, and u the used friction |F_x|/F_z divided by the largest one on a
+/// largest force on a dry road. The used friction u is |F_x|/F_z divided by the largest one on a
 /// dry road. A road with the friction factor lambda scales the curve u(kappa) of the tyre by lambda
 /// along both axes. Below the peak of this curve, the target exceeds the slip, and beyond the peak,
 /// the slip exceeds the target. The control therefore finds the peak without knowing lambda. In a
@@ -64,7 +64,7 @@ class WheelSlipControl {
   double limit_ = 0.0;  // [N m]
 };
 
-/// Moves the torque `from` [N m] toward `to` at the rates of a hydraulic unit, which raises the
+/// Moves the torque `from` [N m] toward `to` at the rates of a hydraulic unit. The unit raises the
 /// brake torque from 0 to `largest` in 0.1 s and lowers it in 0.05 s.
 double MoveBrakeTorque(double from, double to, double largest, double timestep);
 

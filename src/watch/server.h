@@ -15,8 +15,8 @@ namespace trackbed {
 /// Requests for other paths are answered with the status 404. The server rejects requests whose
 /// Host header names another server (IsOwnHost), and WebSocket requests from pages of other sites.
 /// Limits: 64 connections at a time (further connections are closed), request headers of 8 kB
-/// without a body, messages of 4 kB, 15 s per request, and one minute without an answer from the
-/// client. If a client does not read the data sent, the connection keeps at most one message in
+/// without a body, and messages of 4 kB. A request may take 15 s, and a client may be silent for
+/// one minute. If a client does not read the data sent, the connection keeps at most one message in
 /// memory.
 class Server {
  public:

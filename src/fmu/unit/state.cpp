@@ -10,12 +10,12 @@
 #include "trackbed/core/hash.h"
 
 // A serialized state contains the parameters and the commands of all control periods, and is
-// restored by simulating them again: the state of a plant, a planner and a controller has no form
-// outside of this process, and a simulation is reproducible bit for bit. A hash of the last row of
+// restored by simulating them again. The state of a plant, a planner and a controller has no form
+// outside of this process, but a simulation is reproducible bit for bit. A hash of the last row of
 // the log shows whether the simulation was.
 //
-// Layout: kMark, the token, then numbers and counts of 8 bytes in the byte order of the machine,
-// the hash of the row, and the hash of all bytes before it.
+// Layout: kMark, the token, numbers and counts of 8 bytes in the byte order of the machine, the
+// hash of the row, and the hash of all bytes before it.
 namespace trackbed::fmu {
 namespace {
 

@@ -44,8 +44,8 @@ constexpr double kCurveSpacing = 0.1;
 /// plan [m].
 constexpr double kStep = 1e-6;
 
-/// Returns whether the curvature jumps from the plan to the end point `curve` of a sampled curve,
-/// by more than it changes from this end point to the next sample `next`.
+/// Returns whether the curvature jumps from the plan to the end point `curve` of a sampled curve.
+/// The jump must exceed the change from this end point to the next sample `next`.
 bool Jumps(const PathPoint& plan, const CurvePoint& curve, const CurvePoint& next) {
   constexpr double kRounding = 1e-9;  // [1/m]
   return std::abs(plan.curvature - curve.curvature) >

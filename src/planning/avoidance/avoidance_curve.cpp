@@ -11,7 +11,7 @@
 #include "trackbed/world/world.h"
 
 // Fit places the control points P_3 and P_4 of a degree-7 Bezier curve by least squares along a
-// polyline; the end conditions fix the directions and the curvature at both ends. Check measures
+// polyline. The end conditions fix the directions and the curvature at both ends. Check measures
 // the clearance, the steering and the lateral acceleration of a finished curve every 5 cm.
 
 namespace trackbed::avoidance {

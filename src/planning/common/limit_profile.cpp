@@ -126,7 +126,7 @@ double Capability::MaxSquared(const LimitStation& at, double most) const {
 }
 
 /// Returns the largest squared speed, at most `most`, that a car can have at one end of an interval
-/// of `length` [m], given the squared speed `from` at the other end. The function `can` returns the
+/// of `length` [m]. The squared speed at the other end is `from`. The function `can` returns the
 /// available acceleration or deceleration at a squared speed.
 template <typename Can>
 double Reach(double from, double length, double most, const Can& can) {

@@ -20,9 +20,9 @@
 namespace trackbed {
 namespace {
 
-/// Dimensions of the lane-change course: the lengths of its five sections, the widths of its three
-/// gates, and the lateral offsets of the second and third gate's center from the first gate's
-/// center.
+/// Dimensions of the lane-change course: the lengths of its five sections and the widths of its
+/// three gates. The lateral offsets are those of the second and third gate's center from the first
+/// gate's center.
 struct Course {
   std::array<double, 5> lengths;
   std::array<double, 3> widths;

@@ -13,8 +13,8 @@ double ArcFor(double angle, bool both_ways) {
   return both_ways && arc > kPi ? arc - 2.0 * kPi : arc;
 }
 
-/// Replaces a turn with two ends of curvature 0 by one of two clothoids between the same ends, if
-/// the turn is too short for the full curvature and the clothoids are shorter.
+/// A turn with two ends of curvature 0 may be too short for the full curvature. Replaces such a
+/// turn by two clothoids between the same ends, if these are shorter.
 void ShortenSmallTurn(const TurnCircle& circle, double deflection, ClothoidTurn& turn) {
   if (deflection >= 2.0 * circle.least) {
     return;
@@ -29,7 +29,7 @@ void ShortenSmallTurn(const TurnCircle& circle, double deflection, ClothoidTurn&
   const double sharpness = 4.0 * deflection / (length * length);
   const double peak = std::sqrt(deflection * sharpness);
   // The clothoids end on the circle of the sharper turn, so that their sharpness is at most the
-  // largest one; the comparisons protect against rounding and against circles of many turns.
+  // largest one. The comparisons protect against rounding and against circles of many turns.
   if (sharpness <= circle.sharpness * (1.0 + kTurnRounding) && peak <= 1.0 + kTurnRounding) {
     // Without deflection, the turn is a straight.
     turn = {.length = length,

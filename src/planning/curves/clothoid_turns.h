@@ -76,8 +76,9 @@ struct ZeroEnds {
 };
 
 /// Returns the turn from a state to the heading `yaw`, with curvature 0 or the full curvature. If
-/// `both_ways`, the arc may be driven against the direction of the clothoids where it is shorter;
-/// not if the turn ends with the full curvature, because the next piece continues the arc.
+/// `both_ways`, the arc may be driven against the direction of the clothoids where it is shorter.
+/// This does not apply if the turn ends with the full curvature, because the next piece continues
+/// the arc.
 ClothoidTurn TurnFrom(const TurnCircle& circle, const TurnEnd& end, double yaw, bool to_zero,
                       bool both_ways);
 
@@ -85,7 +86,7 @@ ClothoidTurn TurnFrom(const TurnCircle& circle, const TurnEnd& end, double yaw, 
 ClothoidTurn TurnBetween(const TurnCircle& circle, double deflection, ZeroEnds zero,
                          bool both_ways);
 
-/// Returns a lower bound of the length of a turn, without solving the clothoids of a small turn: a
+/// Returns a lower bound of the length of a turn, without solving the clothoids of a small turn. A
 /// turn by the angle a with two ends of curvature 0 has at least the length 2 sqrt(a/sigma).
 double LeastTurnFrom(const TurnCircle& circle, const TurnEnd& end, double yaw, bool to_zero,
                      bool both_ways);

@@ -9,8 +9,9 @@ namespace trackbed {
 double DrivingTime(const Plan& plan, const VehicleParams& vehicle);
 
 /// Returns the plan `continuous` unless the car cannot drive it, or drives the plan `steps` in much
-/// less time, as on short legs where the car can only turn its wheels at rest. A plan with steps
-/// gets a note that says why. If the car can drive neither of the plans, returns `steps`.
+/// less time. The latter happens on short legs where the car can only turn its wheels at rest. A
+/// plan with steps gets a note that says why. If the car can drive neither of the plans, returns
+/// `steps`.
 Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request);
 
 }  // namespace trackbed

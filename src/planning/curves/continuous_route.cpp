@@ -1,14 +1,14 @@
 // Plans routes of continuous curvature, by dynamic programming over the curvature at the stops.
 //
-// For a leg at the speed u, the largest sharpness is sigma = f omega/(L u), where f is the fraction
+// For a leg at the speed u, the largest sharpness is sigma = f omega/(L u). Here, f is the fraction
 // of the steering rate omega that the plan may use, and L the wheelbase. Since the steering angle
 // is atan(L kappa), its rate is at most L u sigma = f omega. The curvature is also limited by the
 // tyres' grip at u. On straights, the car may drive faster than u.
 //
 // The objective `length` takes the mission's speed, and lower speeds only where all words at a
 // higher speed are blocked. The objective `time` compares several speeds for each leg, and pairs of
-// speeds for its first and last turn, by an estimate of the driving time, then compares the best
-// combination with the one at the mission's speed by the speed profile of the whole path.
+// speeds for its first and last turn, by an estimate of the driving time. It then compares the best
+// combination with the one at the mission's speed, by the speed profile of the whole path.
 //
 // A car that rolls at the start drives its first turns at its present speed, or straightens its
 // wheels first and slows down on a straight.

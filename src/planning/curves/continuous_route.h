@@ -22,8 +22,8 @@ struct ContinuousRoute {
 /// of a few choices for which the whole route is cheapest.
 Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request);
 
-/// Returns the largest lateral acceleration on a path of continuous curvature [m/s^2]: `most`, or a
-/// share of the tyres' grip on a road with the factor `friction`, if that is less.
+/// Returns the largest lateral acceleration on a path of continuous curvature [m/s^2]. It is
+/// `most`, or a share of the tyres' grip on a road with the factor `friction`, if that is less.
 double LateralAccelerationOnClothoids(const VehicleParams& vehicle, double friction, double most);
 
 // Scenario keys of the planners of curves of continuous curvature.

@@ -127,7 +127,7 @@ inline TurnJunction ChainFinder::Touch(double angle, bool cusp, int side, int di
 }
 
 /// Finds the words with a straight. A word may have a cusp and a quarter turn at one end of the
-/// straight or at both ends, and may drive the straight in the direction opposite to a neighboring
+/// straight or at both ends. It may drive the straight in the direction opposite to a neighboring
 /// turn.
 template <typename Limit, typename Consider>
 void ChainFinder::WithStraight(const Centers& centers, const Limit& limit,

@@ -5,8 +5,8 @@
 // arcs and the straight form a curve if f(alpha) = 0, where f is the distance between the two arcs
 // across the straight. Let u be the length of the straight, g the ratio kGentleness, and l_1 and
 // l_2 the lengths of the arcs. Then f' = -(u + (1/4 - 1/(2 g)) (l_1 + l_2)). The straight is at
-// least as long as each ramp, l/g, and as (l_1 + l_2)/4, so that the iteration alpha <- alpha + f/u
-// at least halves the error for g = 4.
+// least as long as each ramp, l/g, and as (l_1 + l_2)/4. The iteration alpha <- alpha + f/u then at
+// least halves the error for g = 4.
 #include "trackbed/planning/curves/drivable_curve.h"
 
 #include <algorithm>
@@ -23,10 +23,10 @@ namespace {
 constexpr double kNoTurn = 1e-12;
 
 /// Ratio between the length of a gentler arc and the length of its ramps. For the ratio g, an arc
-/// and half of both ramps have the length (sqrt(g) + 1/sqrt(g)) S, where S belongs to g = 1, and
-/// the offset due to the steps of curvature is proportional to g^(-3/2). The ratio 4 needs a
-/// quarter more room than 1, has an eighth of the offset, and lets a controller correct errors
-/// while the wheels are at rest.
+/// and half of both ramps have the length (sqrt(g) + 1/sqrt(g)) S, where S belongs to g = 1. The
+/// offset due to the steps of curvature is proportional to g^(-3/2). The ratio 4 needs a quarter
+/// more room than 1, has an eighth of the offset, and lets a controller correct errors while the
+/// wheels are at rest.
 constexpr double kGentleness = 4.0;
 
 /// The length of a ramp from straight to `curvature` [m], at StepSpeed or at `speed` if lower.

@@ -34,7 +34,8 @@ struct Sweeps {
 /// Each of the following functions computes one Dubins word that begins with a left arc and is
 /// shorter than `limit`. If no word shorter than `limit` exists, the functions return kNone as the
 /// middle piece. The center of the first arc is at (0, 1). The center of the last arc is at (x -
-/// sin, y + cos) if this arc is to the left, and at (x + sin, y - cos) if it is to the right.
+/// sin, y + cos) if this arc is to the left. It is at (x + sin, y - cos) if the arc is to the
+/// right.
 Sweeps LeftStraightLeft(const CurveGoal& goal, double limit) {
   const double dx = goal.x - goal.sin;
   const double dy = goal.y - 1.0 + goal.cos;
@@ -72,7 +73,7 @@ Sweeps LeftRightLeft(const CurveGoal& goal, double limit) {
     return {.middle = kNone};
   }
   // The line from the first center to the center of the middle arc is rotated to the left by
-  // `tilt`, relative to the line from the first to the last center.
+  // `tilt`. The angle is relative to the line from the first to the last center.
   const double tilt = std::acos(std::min(0.25 * std::sqrt(square), 1.0));
   const double middle = kPi + 2.0 * tilt;
   const double first = Positive(std::atan2(dy, dx) + 0.5 * kPi + tilt);

@@ -36,8 +36,8 @@ double SteeringTime(const VehicleParams& vehicle, const Segment& before, const S
 std::vector<LegPiece> LegPieces(const LegLimits& limits, const std::vector<Segment>& segments,
                                 double least);
 
-/// Returns the driving time of pieces from the speed `start` to the speed `end` [s], in which the
-/// car speeds up and brakes at the limits and stops at changes of direction.
+/// Returns the driving time of pieces from the speed `start` to the speed `end` [s]. The car speeds
+/// up and brakes at the limits, and stops at changes of direction.
 double LegTime(const LegLimits& limits, const std::vector<LegPiece>& pieces, double start,
                double end);
 

@@ -62,7 +62,7 @@ Sweeps With(double t, double u, double v, double others = 0.0) {
 // Each of the following functions solves an equation of Reeds and Shepp 1990, section 8, for a word
 // whose first arc turns left and is driven forwards. The functions may ignore words longer than
 // `limit`. In the names of words, L is an arc to the left, R an arc to the right and S a straight
-// line; + means forwards and - means in reverse.
+// line. The sign + means forwards, and - means in reverse.
 
 /// Returns the vector from the center of the first arc to the center of the last arc. ToLeftCenter
 /// assumes that the last arc turns left, and ToRightCenter that it turns right.

@@ -244,9 +244,9 @@ class SharpWords {
   bool turn_by_at_most_pi_ = false;
 };
 
-/// Searches alpha for the shortest word. Where u >= 0, f falls: f' = -u - g, with g > 0 for the
-/// turns (their length/4 if they are small, the constant `along` of the circle each if they are
-/// full). Therefore f has at most one root in a range of alpha in which u >= 0. The search halves
+/// Searches alpha for the shortest word. Where u >= 0, f falls: f' = -u - g, with g > 0 due to the
+/// turns. A small turn adds its length/4 to g, and a full turn adds the constant `along` of its
+/// circle. Therefore f has at most one root in a range of alpha in which u >= 0. The search halves
 /// an interval of alpha until u < 0 in a cell, by the bound on u, or until the cell is small.
 class AlphaSearch {
  public:
@@ -275,8 +275,8 @@ class AlphaSearch {
   void Split(const Word& a, const Word& b) {
     constexpr double kSpacing = 0.3;  // spacing at which two roots are told apart [rad]
     const double most = words_.MostStraight(a, b);
-    // f falls by at most `slope` per angle, so that it has no root if it is too far above 0 at the
-    // first end, or too far below 0 at the last one.
+    // The function f falls by at most `slope` per angle. It therefore has no root if it is too far
+    // above 0 at the first end, or too far below 0 at the last one.
     const double slope = most + (a.slope - a.straight) + (b.slope - b.straight);
     const double fall = slope * (b.alpha - a.alpha);
     if (most < -kTurnRounding || a.across > fall || -b.across > fall ||

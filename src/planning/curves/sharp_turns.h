@@ -6,8 +6,8 @@
 /// the arc has the smallest curvature that suffices.
 ///
 /// Symbols, in units of the smallest radius r: alpha is the heading of the straight, as seen from
-/// the start; a is the deflection of a turn from curvature 0 to curvature 0; d(a) is the distance
-/// between the ends of this turn, in the direction of its mean heading. A turn from another
+/// the start. The deflection of a turn from curvature 0 to curvature 0 is a. The distance between
+/// the ends of this turn, in the direction of its mean heading, is d(a). A turn from another
 /// curvature is the rest of a turn from 0. A word is a root of f(alpha), the distance between the
 /// two turns across the straight. The turns depend continuously on alpha, and vanish with a, so
 /// that nearly straight words need no threshold.

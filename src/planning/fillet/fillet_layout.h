@@ -34,8 +34,8 @@ Route MakeRoute(const std::vector<Vec2>& waypoints);
 double LeastSteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
                          RadiusInterval bounds);
 
-/// Leaves out waypoints if a turn has no room on its legs, but the remaining turns have, and if the
-/// remaining legs pass each waypoint within a quarter of the car's width and
+/// Leaves out waypoints if a turn has no room on its legs, but the remaining turns have. The
+/// remaining legs must pass each waypoint within a quarter of the car's width and
 /// FilletOptions::max_waypoint_miss. Otherwise, returns the route itself. Start, goal and the
 /// direction of the first leg stay the same.
 Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, double speed,

@@ -143,8 +143,8 @@ std::string DescribeMiss(double max_miss, const FilletTurn& turn, double radius)
       miss, max_miss, turn.heading_change * 180.0 / kPi, radius, RemedyForMiss(miss));
 }
 
-/// Describes a turn whose legs are too short for the radius `radius` [m], with a remedy: a smaller
-/// radius if the car can turn on it, otherwise a longer leg or another planner.
+/// Describes a turn whose legs are too short for the radius `radius` [m], with a remedy. The remedy
+/// is a smaller radius if the car can turn on it, otherwise a longer leg or another planner.
 std::string DescribeShortLeg(const FilletTurn& turn, double radius, double min_turning_radius) {
   const double half_leg = 0.5 * turn.shorter_leg;
   const double per_leg = std::tan(0.5 * turn.interior_angle);
@@ -162,8 +162,8 @@ std::string DescribeShortLeg(const FilletTurn& turn, double radius, double min_t
 
 /// Returns the radii that equation C.40 permits. If equation C.40 permits no radius at the
 /// mission's speed, first raises the upper bound to the radius that leaves most room, at most to
-/// `largest`, and then lowers the speed of the turn. Returns none if only equation C.34 is to limit
-/// the radius.
+/// `largest`. Then lowers the speed of the turn. Returns none if only equation C.34 is to limit the
+/// radius.
 std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle, double speed,
                                                     const FilletOptions& options, double largest,
                                                     RadiusInterval& bounds, FilletTurn& turn) {

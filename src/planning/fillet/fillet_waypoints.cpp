@@ -10,9 +10,9 @@
 // millimeters. The search of LeaveOutCloseWaypoints chooses the points. A first pass leaves out
 // waypoints very near to a line, at which the car would slow down for rounding. A second pass
 // leaves out waypoints at which no turn fits at all. If the first waypoint is too close to the
-// start for a turn, the path continues straight beyond the waypoint, because the car begins in the
-// direction of the first leg; the turn follows there. If the path leaves out the first waypoint, it
-// may turn on the first leg.
+// start for a turn, the path continues straight beyond the waypoint, and the turn follows there.
+// The reason is that the car begins in the direction of the first leg. If the path leaves out the
+// first waypoint, it may turn on the first leg.
 
 namespace trackbed::fillet {
 namespace {

@@ -41,7 +41,7 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
       return std::nullopt;
     }
     // On a path of curvature k, a point has the offset d = (1 - sqrt((k ahead)^2 + (1 - k
-    // aside)^2))/k and the station s = atan(k ahead/(1 - k aside))/k relative to the rear axle. The
+    // aside)^2))/k relative to the rear axle. Its station is s = atan(k ahead/(1 - k aside))/k. The
     // code evaluates these equations in equivalent forms that also hold for k = 0.
     const double turned = k * ahead / to_center;
     constexpr double kSmall = 1e-6;

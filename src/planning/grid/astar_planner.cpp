@@ -143,8 +143,8 @@ class GridPlanner {
             request, route::CheckerFromStart(request, options.safe_distance))),
         grid_(MakeGrid(inflation + CellInflation(options))) {}
 
-  /// Plans a path that begins with the polyline `points`, of which all points after the first one
-  /// are farther from obstacles than the inflation, or as far as the search allows.
+  /// Plans a path that begins with the polyline `points`. All points after the first one are
+  /// farther from obstacles than the inflation, or as far as the search allows.
   [[nodiscard]] Plan From(const std::vector<Vec2>& points) const {
     std::vector<Vec2> ends = goals_;
     ends.push_back(points.back());

@@ -19,7 +19,7 @@
 //    there.
 // 2. PlanClothoids searches with arcs and clothoids, which the steering can follow.
 // 3. A rolling car drives its first leg at once along a Dubins curve, or by a search that begins
-//    where the car has slowed down; the shorter one is taken.
+//    where the car has slowed down. The planner takes the shorter path.
 // 4. With curvature `auto`, both paths are planned, and ContinuousOrSteps chooses one. The search
 //    with clothoids then has a budget, because it is about ten times as slow.
 // Source: Dolgov et al. 2010.
@@ -72,8 +72,8 @@ HybridAStarResult SearchLeg(const Route& route, const Pose2& from, std::size_t t
                            route.options);
 }
 
-/// The shortest curve forwards to the first stop for a rolling car, once its wheels are straight,
-/// if the car can follow it without a stop and the curve is free.
+/// Plans the shortest curve forwards to the first stop for a rolling car, once its wheels are
+/// straight. The car must be able to follow the curve without a stop, and the curve must be free.
 HybridAStarResult RollAtOnce(const Route& route) {
   const PlanRequest& request = route.request;
   const LeadIn lead = ComputeLeadIn(request, request.start_speed, 0.0);
@@ -97,8 +97,8 @@ HybridAStarResult RollAtOnce(const Route& route) {
   return result;
 }
 
-/// From the first stop to the second for a rolling car: at once, or by a search that begins where
-/// the car has slowed down for its first turn; whichever is shorter.
+/// Plans from the first stop to the second for a rolling car: at once, or by a search that begins
+/// where the car has slowed down for its first turn. Takes the shorter path.
 HybridAStarResult FirstRollingLeg(const Route& route) {
   const PlanRequest& request = route.request;
   HybridAStarResult at_once = RollAtOnce(route);

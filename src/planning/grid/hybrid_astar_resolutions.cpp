@@ -123,9 +123,9 @@ class Searches {
   }
 
   /// Makes a grid in which a cell is occupied if the rear-axle center cannot be at any point of the
-  /// cell. In such a cell, every point is closer to an obstacle than the permitted minimum: the
-  /// distance from the rear-axle center to the nearest side of the footprint, plus the required
-  /// distance.
+  /// cell. In such a cell, every point is closer to an obstacle than the permitted minimum. This
+  /// minimum is the distance from the rear-axle center to the nearest side of the footprint, plus
+  /// the required distance.
   [[nodiscard]] std::shared_ptr<const OccupancyGrid> MakeGrid(double cell) const {
     const auto inflated_by = [&](double distance) {
       return std::max(clear_.inner_radius() + distance - 0.5 * std::sqrt(2.0) * cell, 0.0);
@@ -149,8 +149,8 @@ class Searches {
   }
 
   /// Advances a search from the start until it ends, or until it has expanded `most` poses. Stops
-  /// earlier and returns true if the goal is in a gap: at the requested resolution, a search from
-  /// the goal has expanded all its poses before the search from the start has found a path.
+  /// earlier and returns true if the goal is in a gap. At the requested resolution, a search from
+  /// the goal has then expanded all its poses before the search from the start has found a path.
   [[nodiscard]] bool SearchWhileGoalIsOpen(PoseSearch& search,
                                            const std::shared_ptr<const OccupancyGrid>& grid,
                                            int most) const {

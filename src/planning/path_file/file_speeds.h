@@ -29,9 +29,9 @@ std::optional<double> FileStartSpeed(const FittedPath& fitted);
 /// than the file's speeds, and then slows down at the mission's deceleration.
 ///
 /// The car stops where the file's speed is 0. If the file has times, it waits there for as long as
-/// the file's car stands. The duration is the time from the first to the last of these points, and
-/// the part of the steps beside them that the file's car does not need to brake and to start. In a
-/// recording with noise, the file's car also stands where it stays within
+/// the file's car stands. The duration is the time from the first to the last of these points. Of
+/// the steps beside them, it includes the part that the file's car does not need to brake and to
+/// start. In a recording with noise, the file's car also stands where it stays within
 /// PathFitOptions::max_deviation for longer than a car at 0.1 m/s would.
 void FollowFileSpeeds(Plan& plan, const FittedPath& fitted, double start_speed);
 

@@ -12,7 +12,7 @@
 
 // Finds the leader, and decides where, how fast and whether a car may pass a moving leader. A car
 // that pulls out drives where others come toward it. Therefore the car pulls out only if it could
-// finish passing: the rest of the maneuver, with constant limits, is checked against all obstacles
+// finish passing. The rest of the maneuver, with constant limits, is checked against all obstacles
 // and against the end of the route.
 
 namespace trackbed {

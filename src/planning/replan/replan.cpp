@@ -15,11 +15,11 @@
 #include "trackbed/world/world.h"
 
 // Replans while the car drives. If the plan is free of conflicts and the car follows the plan, the
-// replanner keeps the plan. If the plan cannot be kept, the replanner takes the first possible of
-// these options: resume the route if the car is back on the route; proceed along the route or
-// follow a leading obstacle (PlanAlongRoute); make a detour around static obstacles (PlanDetour);
-// stop behind an obstacle (PlanAlongRoute); brake along the driven plan, comfortably if possible,
-// otherwise harder.
+// replanner keeps the plan. If the plan cannot be kept, the replanner first tries to resume the
+// route (if the car is back on it), then to proceed along the route or follow a leading obstacle
+// (PlanAlongRoute). Next, it tries a detour around static obstacles (PlanDetour), then a stop
+// behind an obstacle (PlanAlongRoute). Last, it brakes along the driven plan, comfortably if
+// possible, otherwise harder.
 
 namespace trackbed {
 namespace {

@@ -108,8 +108,8 @@ struct OuterCorner {
   std::optional<std::size_t> point{};
 };
 
-/// Returns the point at which two lines meet if both are extended toward each other: the line from
-/// `a` through `b` beyond `b`, and the line from `d` through `c` beyond `c`.
+/// Returns the point at which two lines meet if both are extended toward each other. The first line
+/// is extended from `a` through `b` beyond `b`, and the second one from `d` through `c` beyond `c`.
 std::optional<Vec2> Meeting(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Vec2 in = b - a;
   const Vec2 out = d - c;
@@ -123,7 +123,7 @@ std::optional<Vec2> Meeting(const Vec2& a, const Vec2& b, const Vec2& c, const V
 }
 
 /// Returns the points of a path with the corners at which up to kSpan successive lines meet that
-/// are not neighbors, in the order of the first line of each corner.
+/// are not neighbors. The corners are in the order of the first line of each.
 std::vector<OuterCorner> WithOuterCorners(const std::vector<Vec2>& way) {
   std::vector<OuterCorner> corners{{way.front(), 0}};
   for (std::size_t i = 0; i + 1 < way.size(); ++i) {

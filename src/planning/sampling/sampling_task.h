@@ -81,8 +81,8 @@ inline constexpr Key kCornerCost{
     "corner_cost", "m", "cost of a corner, as path length: favors fewer corners and longer legs"};
 
 /// Checks whether the car is clear of obstacles at its start, and whether the first points of the
-/// path are free: for a point that keeps its distance or, on a straight, for the car's footprint.
-/// If not, returns a failed plan with the reason.
+/// path are free. A point is free if it keeps its distance or, on a straight, if the car's
+/// footprint does. If not, returns a failed plan with the reason.
 Plan CheckLeadIn(const SamplingTask& task, const PlanRequest& request, double safe_distance);
 
 /// Tangent lengths of corners at the lowest speed, tabulated by heading change.

@@ -1,5 +1,5 @@
-// Draws the wind in the 3D scene: arrows on the ground around the car, which show the velocity of
-// the air at the car, and outlines of the areas of gusts.
+// Draws the wind in the 3D scene. Arrows on the ground around the car show the velocity of the air
+// at the car, and outlines show the areas of gusts.
 
 // Spacing of the arrows [m], number of arrows to each side, smallest wind speed with an arrow
 // [m/s], arrow length per wind speed [s], longest arrow [m].
