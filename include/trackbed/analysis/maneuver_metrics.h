@@ -60,8 +60,8 @@
 /// A braking maneuver (ISO 21994, ISO 7975) is evaluated from the first control period with a
 /// commanded deceleration above 0.5 m/s^2. Deviations in a braking maneuver are measured from the
 /// circle (or straight line) on which the rear axle moved in that control period. Speeds and
-/// distances are those of the center of gravity in its direction of motion, so the distance of a
-/// car that spins does not end while the car slides sideways. Metrics of braking:
+/// distances are those of the center of gravity in its direction of motion. The distance of a car
+/// that spins thus does not end while the car slides sideways. Metrics of braking:
 ///   initial_speed [m/s]; distance to `to_speed` [m].
 ///   mean_fully_developed_deceleration: (v_b^2 - v_e^2)/(2 (s_e - s_b)) between 80 % and 10 % of
 ///   the initial speed [m/s^2].

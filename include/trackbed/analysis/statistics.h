@@ -20,8 +20,9 @@ struct Interval {
 /// Throws PreconditionError unless passed <= count and confidence is in (0, 1).
 Interval WilsonInterval(std::size_t passed, std::size_t count, double confidence);
 
-/// Computes the quantiles of a sample at the fractions `shares`, interpolated linearly between the
-/// values of the sample (type 7 of Hyndman and Fan 1996, the default of R and NumPy).
+/// Computes the quantiles of a sample at the fractions `shares`. The quantiles are interpolated
+/// linearly between the values of the sample (type 7 of Hyndman and Fan 1996, the default of R and
+/// NumPy).
 ///
 /// Throws PreconditionError if there are no values, if a value is not finite, or if a share is not
 /// in [0, 1].
@@ -72,11 +73,11 @@ struct IndexOptions {
 
 /// Estimates the first-order Sobol' index Var(E[Y | X]) / Var(Y) of each parameter X on the output
 /// Y, from a given sample of any design. The estimate is the correlation ratio of the classes
-/// (Pearson 1905; Plischke, Borgonovo and Smith 2013), corrected by subtracting the value expected
-/// by chance for classes of this size (Kelley 1935, epsilon squared). The expected index of a
-/// parameter without influence is therefore 0. The parameters of the sample must be independent. If
-/// a numeric parameter is divided into B classes, the estimated index is too small by a fraction of
-/// about 1 / B^2.
+/// (Pearson 1905; Plischke, Borgonovo and Smith 2013). The value expected by chance for classes of
+/// this size is subtracted (Kelley 1935, epsilon squared). The expected index of a parameter
+/// without influence is therefore 0. The parameters of the sample must be independent. If a numeric
+/// parameter is divided into B classes, the estimated index is too small by a fraction of about 1 /
+/// B^2.
 ///
 /// The confidence intervals assume that the estimate is normally distributed. The standard
 /// deviation of this distribution is computed from bootstrap resamples (Efron and Tibshirani 1993),

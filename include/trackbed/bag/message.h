@@ -16,9 +16,9 @@ class BagMessage {
   /// fields. If `definition` is empty, uses the definition of ROS 2 for the types in
   /// BagMessageTypes.
   ///
-  /// Throws InputError if there is no definition, if the definition is malformed, if types are
-  /// nested deeper than 16 levels, if there are more than 4096 fields in all, or if a field has the
-  /// type wstring.
+  /// Throws InputError if there is no definition, if the definition is malformed, or if a field has
+  /// the type wstring. Also throws it if types are nested deeper than 16 levels, or if there are
+  /// more than 4096 fields in all.
   BagMessage(const std::string& type, const std::string& definition);
 
   /// Names of the numbers that each message has, such as "pose.pose.position.x" and

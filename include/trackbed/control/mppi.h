@@ -7,16 +7,16 @@
 
 namespace trackbed {
 
-/// Model predictive path integral control (MPPI, Williams et al. 2018): in each control period, the
+/// Model predictive path integral control (MPPI, Williams et al. 2018). In each control period, the
 /// controller simulates many steering motions ("roll-outs") and applies the mean of the motions,
 /// weighted by exp(-cost/lambda).
 ///
-/// Model of a roll-out: the single-track car on the brush model of its axles, with the load
-/// transfer and the friction circle of the planned acceleration, and the road's friction factor at
-/// the car. A car without tyre coefficients does not slip, and neither does a car whose rear axle
-/// has never moved sideways, as that of KinematicCar. The steering angle follows the sampled rates
-/// within the car's limits of angle and rate, and the wheels follow with the steering lag; dead
-/// time, lag and backlash of the actuator are those of every controller
+/// Model of a roll-out: the single-track car on the brush model of its axles, with the road's
+/// friction factor at the car. The load transfer and the friction circle are those of the planned
+/// acceleration. A car without tyre coefficients does not slip, and neither does a car whose rear
+/// axle has never moved sideways, as that of KinematicCar. The steering angle follows the sampled
+/// rates within the car's limits of angle and rate, and the wheels follow with the steering lag.
+/// Dead time, lag and backlash of the actuator are those of every controller
 /// (docs/algorithms/control.md). The speed follows the plan: MPPI steers, and leaves the speed to
 /// SpeedControl.
 ///

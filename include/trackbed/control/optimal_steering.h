@@ -64,7 +64,7 @@ struct OptimalSteeringOptions {
   /// is at least 1.5 cbrt(e L v/omega) for a car with the offset e from its path, as in
   /// PreviewOptions.
   std::optional<double> horizon;
-  /// Minimum time that the horizon covers [s], >= 0: the length S of the horizon is at least this
+  /// Minimum time that the horizon covers [s], >= 0. The length S of the horizon is at least this
   /// time multiplied by the speed of the car (kArcLength) or of the primary (kTime).
   double time = 0.0;
   SearchOptions search{.method = SearchMethod::kNelderMead, .population = 20, .tolerance = 1e-6};
@@ -137,7 +137,7 @@ double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, d
 SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem& problem,
                              const DeviationWeights& weights, const SearchOptions& search);
 
-/// The circle experiment of Skackauskas et al. 2017: the primary drives one full circle at a
+/// The circle experiment of Skackauskas et al. 2017. The primary drives one full circle at a
 /// constant steering angle, and the car drives at another constant steering angle and another
 /// speed. The primary and the car start at the same pose with their wheels already turned. The
 /// experiment compares the end poses of the primary and the car. With kTime, the poses are compared

@@ -20,13 +20,13 @@ enum class PreviewWeight {
 /// PreviewOptions, where `delay` is added to the response time. The factor g = 5/3 (5/2 with kNear)
 /// is the kinematic car's gain on an offset, divided by the gain of the controller with a single
 /// preview point. For a car with tyre coefficients, sqrt(g) is replaced by the larger factor at
-/// which the gain on an offset equals that of the controller with a single preview point: tyres
-/// respond late, so the gain of this law is higher than that of the kinematic car, and with the
-/// factor sqrt(g), a car with a limited steering rate would weave about its path for ever. The
-/// variable eta in [0, T] is the time ahead. The following functions of eta are offsets across the
-/// direction of motion [m]: f(eta) is the offset of the path, y_0(eta) is the offset of the car
-/// with straight wheels, and A(eta) is the displacement of the car per unit of tan(delta). W(eta)
-/// is the weight of the time eta. The commanded steering angle follows from
+/// which the gain on an offset equals that of the controller with a single preview point. Tyres
+/// respond late, so the gain of this law is higher than that of the kinematic car. With the factor
+/// sqrt(g), a car with a limited steering rate would weave about its path for ever. The variable
+/// eta in [0, T] is the time ahead. The following functions of eta are offsets across the direction
+/// of motion [m]: f(eta) is the offset of the path, y_0(eta) is the offset of the car with straight
+/// wheels, and A(eta) is the displacement of the car per unit of tan(delta). W(eta) is the weight
+/// of the time eta. The commanded steering angle follows from
 ///   tan(delta) = int (f - y_0) A W d(eta) / int A^2 W d(eta).
 /// A car without tyre coefficients is modeled as the kinematic car, with y_0 = 0 and A = (v
 /// eta)^2/(2 L). A car with tyre coefficients is modeled as the linear single-track car with its

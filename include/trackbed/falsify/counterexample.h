@@ -18,9 +18,9 @@ struct Regression {
 
 /// Makes a scenario named `name` from a failed run. The checks in the run's verdict become
 /// expectations on each plant. Expectations that the run met stay unchanged. Expectations that the
-/// run did not meet are inverted: `max: 0.5` becomes `min: 0.5` of the same metric, a requirement
-/// becomes `not (...)`, and an expected status or collision is replaced by the status or collision
-/// of the run.
+/// run did not meet are inverted. The expectation `max: 0.5` becomes `min: 0.5` of the same metric,
+/// a requirement becomes `not (...)`, and an expected status or collision is replaced by that of
+/// the run.
 ///
 /// Some failures cannot be expressed as expectations: a missing plan, wheels that turn faster than
 /// the actuator allows, an unmeasured metric, or two plants that differ. For failures that cannot

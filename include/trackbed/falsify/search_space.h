@@ -31,7 +31,7 @@ struct SearchKey {
 /// range. The position of a log_uniform key is computed from the logarithms of the values. The
 /// value of a key is rounded to an integer, or to the nearest value `from` + k `step`. The value of
 /// a key that is not an integer and has no step is rounded to a decimal step between a 10 000th and
-/// a 1000th of the range; with a logarithmic range, the value is rounded to five digits. The
+/// a 1000th of the range. With a logarithmic range, the value is rounded to five digits. The
 /// nominal value and the ends of the range are not rounded.
 class SearchSpace {
  public:
@@ -40,10 +40,10 @@ class SearchSpace {
   /// value.
   ///
   /// Throws InputError, with the line in the study's file, if a key has no range (because it has a
-  /// list of values, a distribution without ends, or a condition), or if the study has `list`,
-  /// `repeat` or `bisect`. Also throws InputError if the nominal value of a searched key is not a
-  /// number, is missing, or lies outside of the key's range, or if the study sets a nominal value
-  /// for a key that is not searched.
+  /// list of values, a distribution without ends, or a condition). Also throws it if the study has
+  /// `list`, `repeat` or `bisect`. Also throws InputError if the nominal value of a searched key is
+  /// not a number, is missing, or lies outside of the key's range. The study must not set a nominal
+  /// value for a key that is not searched, either.
   SearchSpace(const Study& study, const Scenario* scenario);
   /// Makes a search space from a list of keys, for tests and for programs without a study file.
   explicit SearchSpace(std::vector<SearchKey> keys);

@@ -26,16 +26,16 @@
 /// (sim/car_parameters.h) is estimated besides the parameters of the study, between -0.1 and 0.1
 /// rad. If the records do not determine the offset and other parameters at once, the offset is
 /// fixed before the others. The offset is left out if the study names it as a parameter or has 40
-/// parameters, if a record has prescribed steering, which bypasses the offset, and for vehicles
-/// without steered wheels.
+/// parameters. It is also left out for vehicles without steered wheels, and if a record has
+/// prescribed steering, which bypasses the offset.
 ///
-/// With `bank`, the bank of the track that all records were driven on is estimated besides: the
-/// coefficients bank[0], bank[1], … of a closed spline over the station of the track, each with a
-/// normal prior distribution about 0. The search starts at 0. All records are replayed on the
-/// estimated ground (recording/banked_track.h).
+/// With `bank`, the bank of the track that all records were driven on is estimated, too. It
+/// consists of the coefficients bank[0], bank[1], … of a closed spline over the station of the
+/// track, each with a normal prior distribution about 0. The search starts at 0. All records are
+/// replayed on the estimated ground (recording/banked_track.h).
 ///
 /// Standard errors are computed as for an M-estimator with windows as independent clusters (Huber
-/// 1967; White 1980). The covariance matrix is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p), where g_i is
+/// 1967; White 1980). The covariance matrix is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p). Here, g_i is
 /// the gradient of window i, n the number of windows, p the number of parameters, and H the
 /// Gauss-Newton Hessian of J. A parameter is not identified if its standard error exceeds the
 /// standard deviation of a uniform distribution over the parameter's bounds, (to - from)/sqrt(12).

@@ -76,7 +76,7 @@ struct FittedPath {
   /// such a change, no path is fitted.
   std::vector<HeadingJump> reversals;
   /// If `reversals` is not empty: a value of max_deviation with which a spline can be fitted, of
-  /// about the smallest size [m]; nullopt if it exceeds a tenth of the length of the points.
+  /// about the smallest size [m]. It is nullopt if it exceeds a tenth of the length of the points.
   std::optional<double> noise_deviation{};
   /// Smoothing length l of the fitted spline [m]; 0 for a polyline, and for a path that follows the
   /// given headings and curvatures.
@@ -104,10 +104,10 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// Fits a path through or along the points.
 ///
 /// The points are divided into legs of one direction of motion, by their directions and, where
-/// these are missing, by their headings: the car drives in reverse where its heading is opposite to
+/// these are missing, by their headings. The car drives in reverse where its heading is opposite to
 /// the step to the next point. A leg that is shorter than max_deviation counts as noise. The car
 /// changes its direction at points, the cusps of the path. Each leg is fitted as a separate curve.
-/// At a cusp, the heading is continuous; it is the given heading, corrected by the mean difference
+/// At a cusp, the heading is continuous. It is the given heading, corrected by the mean difference
 /// of the curves from the given headings, or the mean of the curves' headings. The curvature may
 /// jump at a cusp, where the car stands. A path without directions and headings has one forward
 /// leg.
@@ -134,18 +134,18 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// constant on both sides of a step between two points, and differs, it jumps within the step.
 ///
 /// Steps that turn back by more than a right angle within max_deviation are noise, as of a recorder
-/// in a car that stands: a spline is fitted to the centers of these points.
+/// in a car that stands. A spline is fitted to the centers of these points.
 ///
-/// Guarantees: an open path begins at the first point and ends at the last point, to 1e-9 m (at
-/// coordinates of 1e6 m and more, to their rounding); so does each of its legs. If all points lie
-/// on one line, arc or clothoid, the path deviates from it by at most 1e-9 m. No point lies further
-/// than max_deviation from the path's point at the same station, as measured on the fitted path.
-/// With `resample`, the deviation is measured from the resampled points on the straight lines
+/// Guarantees: an open path, and each of its legs, begins at the first point and ends at the last
+/// point, to 1e-9 m. At coordinates of 1e6 m and more, it does so to their rounding. If all points
+/// lie on one line, arc or clothoid, the path deviates from it by at most 1e-9 m. No point lies
+/// further than max_deviation from the path's point at the same station, as measured on the fitted
+/// path. With `resample`, the deviation is measured from the resampled points on the straight lines
 /// between the given points. Between widely spaced points, a spline deviates from the straight
 /// lines (`bulge`); next to corners, the deviation is a tenth of the spacing or more. The deviation
-/// of a spline from the straight lines (`bulge`) is at most the larger of two values: a fifth of
-/// the spacing, and the height of an arc that turns by the same angle as the points. The fit does
-/// not account for obstacles or the limits of a car.
+/// of a spline from the straight lines (`bulge`) is at most the larger of two values. These are a
+/// fifth of the spacing, and the height of an arc that turns by the same angle as the points. The
+/// fit does not account for obstacles or the limits of a car.
 ///
 /// Throws InputError if there are fewer than two different points or more than 200 000 points to be
 /// fitted, or if no spline stays within max_deviation. Throws InputError if the heading of a point
@@ -159,10 +159,10 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 FittedPath FitPath(PathPoints given, const PathFitOptions& options);
 
 /// Fits a path to the points as FitPath does, with a bound on the curvature of a spline. Where the
-/// curvature of the points jumps, as where a line joins an arc, the curve of FitPath has a
-/// curvature of up to 6 % above that of the arc. FitPathWithin spreads the change of curvature over
-/// a longer part of the curve instead, within PathFitOptions::max_deviation. A car drives such a
-/// curve on an arc near the smallest radius that the car can steer.
+/// curvature of the points jumps, as where a line joins an arc, the curve of FitPath exceeds the
+/// curvature of the arc by up to 6 %. FitPathWithin spreads the change of curvature over a longer
+/// part of the curve instead, within PathFitOptions::max_deviation. A car drives such a curve on an
+/// arc near the smallest radius that the car can steer.
 ///
 /// Guarantees: the same as FitPath. The curvature of the path is at most `max_curvature` [1/m], to
 /// a relative 1e-3, if a curve of least variation with this bound stays within max_deviation of the

@@ -64,12 +64,12 @@ struct SpeedCap {
 
 /// Makes a speed profile that starts at s = 0 with `start_speed`, is as fast as `limits` and `caps`
 /// allow, and stops at s = `length`. If the length is too short to reach the speed limit, the
-/// highest speed of the profile is below the limit. If the length is too short to brake from the
-/// start speed at the maximum deceleration of `limits`, or to slow down before a strict cap, the
-/// profile brakes harder, at a constant deceleration. If the start speed is above the speed limit,
-/// above a cap that is not strict, or above a cap at the start, the profile slows down at the
-/// maximum deceleration of `limits`. Throws PreconditionError if a number is not finite; only the
-/// numbers of a cap may be infinite.
+/// highest speed of the profile is below the limit. The length may be too short to brake from the
+/// start speed at the maximum deceleration of `limits`, or to slow down before a strict cap. The
+/// profile then brakes harder, at a constant deceleration. The start speed may be above the speed
+/// limit, above a cap that is not strict, or above a cap at the start. The profile then slows down
+/// at the maximum deceleration of `limits`. Throws PreconditionError if a number is not finite;
+/// only the numbers of a cap may be infinite.
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps = {});
 

@@ -49,16 +49,17 @@ struct CommonRoadScenario {
   Pose2 start;               ///< Pose of the car's center at time 0.
   double start_speed = 0.0;  ///< Speed at time 0 [m/s], >= 0.
   CommonRoadGoal goal;
-  /// Points for the car's center, about 1 m apart [m]: from the start onto the lanelets' centers,
-  /// along the shortest sequence of lanelets to the goal, and on until a car can have stopped.
+  /// Points for the car's center, about 1 m apart [m]. They lead from the start onto the lanelets'
+  /// centers, along the shortest sequence of lanelets to the goal, and on until a car can have
+  /// stopped.
   std::vector<Vec2> route;
   /// The speed nearest to the initial speed at which a car on the route meets the goal in time
   /// [m/s], >= 0.1.
   double speed = 0.0;
   /// Heading of the route at the goal, continued from the start's heading without jumps [rad].
   double goal_yaw = 0.0;
-  /// Smallest distances from the route's points up to the goal to the edge of the lanelets of any
-  /// direction, to the left and to the right [m], at most 8 m.
+  /// Smallest distances from the route's points to the edge of the lanelets of any direction, to
+  /// the left and to the right [m], at most 8 m. The points up to the goal count.
   double room_left = 0.0;
   double room_right = 0.0;
   DrawnLanes lanes;                ///< Lanelets within 150 m of the route.
@@ -69,8 +70,8 @@ struct CommonRoadScenario {
 /// [m/s^2].
 inline constexpr double kCommonRoadAcceleration = 2.5;
 
-/// Distance from the rear axle to the center of the car of a planning problem [m]: from the rear
-/// axle to the center of gravity of CommonRoad's vehicle 2 (BMW 320i).
+/// Distance from the rear axle to the center of the car of a planning problem [m]. In CommonRoad's
+/// vehicle 2 (BMW 320i), this is the distance from the rear axle to the center of gravity.
 inline constexpr double kCommonRoadCenterAhead = 1.42200396;
 
 /// Whether the text is an XML document with the root element `commonRoad`.
@@ -79,18 +80,19 @@ bool IsCommonRoadScenario(const std::string& text);
 /// Reads a CommonRoad scenario of version 2017a, 2018b or 2020a.
 ///
 /// The route changes lanes only between adjacent lanelets with the same driving direction. The
-/// route joins a lanelet's center, after the start or a lane change, along a quintic polynomial
-/// whose lateral acceleration is at most 1.5 m/s^2 where the road is long enough.
+/// route joins a lanelet's center, after the start or a lane change, along a quintic polynomial.
+/// Its lateral acceleration is at most 1.5 m/s^2 where the road is long enough.
 ///
-/// Properties that Trackbed does not model are approximated, with a note: discs and polygons become
+/// Properties that Trackbed does not model are approximated, with a note. Discs and polygons become
 /// their smallest enclosing boxes, sets of occupied places become boxes at the middle of their
-/// time, states with intervals the middle of the intervals. Does not read traffic signs, traffic
-/// lights, stop lines, speed limits and environment obstacles. If there are several planning
-/// problems or goals, reads the first.
+/// time, and states with intervals the middle of the intervals. Does not read traffic signs,
+/// traffic lights, stop lines, speed limits and environment obstacles. If there are several
+/// planning problems or goals, reads the first.
 ///
-/// Throws InputError, with line and element, if the file is not a CommonRoad scenario, a number is
-/// not finite or out of range, there is no planning problem, the start is more than 5 m from every
-/// lanelet, no lanelets lead from the start to the goal, or the route is longer than 50 km.
+/// Throws InputError, with line and element, if the file is not a CommonRoad scenario, if there is
+/// no planning problem, or if a number is not finite or out of range. Also throws it if no lanelets
+/// lead from the start to the goal, or if the route is longer than 50 km. The start must be at most
+/// 5 m from a lanelet.
 CommonRoadScenario ReadCommonRoadScenario(const std::filesystem::path& file,
                                           const std::string& text);
 

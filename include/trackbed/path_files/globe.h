@@ -40,10 +40,11 @@ std::string NoFixNote(std::size_t count, const std::string& first);
 /// A transverse Mercator projection of the ellipsoid WGS 84, with the scale 1 on the meridian of
 /// its origin. The x axis points to the east and the y axis to the north at the origin.
 ///
-/// Scale: lengths at the distance x east or west of the origin are too long by the factor
-/// 1 + x^2/(2 R^2) with the earth's radius R: 1.2e-8 at 1 km, 1.2e-6 at 10 km, 1.2e-4 at 100 km. In
-/// a UTM zone, lengths are too short by 4e-4 on the zone's meridian. Heights are ignored: a road at
-/// the height h is longer than its projection by the factor 1 + h/R, 1.6e-4 at 1 km.
+/// Scale: lengths at the distance x east or west of the origin are too long by the factor 1 +
+/// x^2/(2 R^2) with the earth's radius R. The error is 1.2e-8 at 1 km, 1.2e-6 at 10 km, and 1.2e-4
+/// at 100 km. In a UTM zone, lengths are too short by 4e-4 on the zone's meridian. Heights are
+/// ignored: a road at the height h is longer than its projection by the factor 1 + h/R, 1.6e-4 at 1
+/// km.
 class LocalPlane {
  public:
   explicit LocalPlane(const GlobePosition& origin);

@@ -39,8 +39,8 @@ bool IsGlobeFile(const std::filesystem::path& file);
 /// Reads a GPX, KML or GeoJSON file of at most 64 MiB and kMaxPathPoints points, with XML nested at
 /// most 64 levels deep.
 ///
-/// Throws InputError, with file and line, if the text is malformed, if the file has no line, if it
-/// is a KMZ archive, or if a position does not exist (GlobeProblem) or is no number
+/// Throws InputError, with file and line, if the text is malformed, if the file has no line, or if
+/// it is a KMZ archive. Also throws it if a position does not exist (GlobeProblem) or is no number
 /// (NumberProblem). Throws RunError in the same cases as ReadFile.
 GlobeFile ReadGlobeFile(const std::filesystem::path& file);
 

@@ -9,14 +9,14 @@ namespace trackbed {
 
 /// Reads the log of a real vehicle.
 ///
-/// First drops rows that are invalid according to the log map, rows without a number in a pose
-/// column (empty or "nan"), and rows with the same time as the previous row. The remaining rows
-/// form stretches; a time of more than `gap` between two rows ends a stretch. The measured pose
-/// X_WS of the sensor is converted to the pose of the rear axle, X_WV = X_WS X_VS^-1. At each point
-/// of the time grid, weighted least squares (Eigen) fit a polynomial of the degree `degree` to the
-/// rows of the same stretch within the time `half_width` on either side. The weights are (1 -
-/// u^3)^3, where u is the time difference divided by the half width of the window (Cleveland 1979).
-/// Pose, velocity and acceleration are the value and the first and second derivative of the
+/// First drops rows that are invalid according to the log map, and rows without a number in a pose
+/// column (empty or "nan"). Also drops rows with the same time as the previous row. The remaining
+/// rows form stretches; a time of more than `gap` between two rows ends a stretch. The measured
+/// pose X_WS of the sensor is converted to the pose of the rear axle, X_WV = X_WS X_VS^-1. At each
+/// point of the time grid, weighted least squares (Eigen) fit a polynomial of the degree `degree`.
+/// The fit uses the rows of the same stretch within the time `half_width` on either side. With the
+/// time difference u, divided by the half width of the window, the weights are (1 - u^3)^3
+/// (Cleveland 1979). Pose, velocity and acceleration are the value and the first and second derivative of the
 /// polynomial. If fewer than `degree` + 1 rows are within `half_width`, the nearest other rows are
 /// added. Columns for speed or yaw rate, if the log has any, are fitted in the same way and replace
 /// the values computed from the pose. Commands and steering angles are interpolated linearly
@@ -29,22 +29,22 @@ namespace trackbed {
 /// of the gap. RecordedDrive::notes lists the processing steps.
 ///
 /// Throws InputError, with file and line, if a column is missing (the message suggests the most
-/// similar name), if a cell is not a number, if times decrease, if the position never changes, or
-/// if the log yields less than 1 s of data or more than 1e6 samples. Throws InputError if the
-/// columns that the log map names have more than 5e7 numbers between `from` and `to`. Throws
-/// InputError, with the key of the log map, if columns contradict each other. Examples of
-/// contradicting columns: the yaw or yaw rate has the wrong unit (degrees or radians), the sign of
-/// the yaw or yaw rate is opposite to the turns of the path, or the measured speed differs from the
-/// speed of the position by a factor of 3.6. If `map.check` is false, contradictions between
-/// columns are only listed in the notes. Throws RunError in the same cases as ReadFile.
+/// similar name), if a cell is not a number, or if times decrease. Also throws it if the position
+/// never changes, or if the log yields less than 1 s of data or more than 1e6 samples. Throws
+/// InputError if the columns that the log map names have more than 5e7 numbers between `from` and
+/// `to`. Throws InputError, with the key of the log map, if columns contradict each other. Examples
+/// of contradicting columns: the yaw or yaw rate has the wrong unit (degrees or radians), or its
+/// sign is opposite to the turns of the path. The measured speed may also differ from the speed of
+/// the position by a factor of 3.6. If `map.check` is false, contradictions between columns are
+/// only listed in the notes. Throws RunError in the same cases as ReadFile.
 ///
 /// Delays of at most 1 s between the pose and the measured speed, yaw rate and accelerations are
-/// estimated with their standard errors, and noted if they exceed three standard errors and the
-/// mean distance of two rows. If `map.align` is true, these signals are shifted onto the clock of
-/// the pose. The delay of the yaw rate behind the steering is noted, too, but not removed, because
-/// the response of the car is a part of it; a steering signal that lags the yaw rate is shifted.
-/// Drift is not removed. The import takes 1 us per row and 10 us per sample. The file is read once
-/// as a stream, and each number that is kept needs 16 bytes of memory.
+/// estimated with their standard errors. They are noted if they exceed three standard errors and
+/// the mean distance of two rows. If `map.align` is true, these signals are shifted onto the clock
+/// of the pose. The delay of the yaw rate behind the steering is noted, too, but not removed,
+/// because the response of the car is a part of it. A steering signal that lags the yaw rate is
+/// shifted. Drift is not removed. The import takes 1 us per row and 10 us per sample. The file is
+/// read once as a stream, and each number that is kept needs 16 bytes of memory.
 RecordedDrive ImportLog(const std::filesystem::path& log, const LogMap& map);
 
 }  // namespace trackbed

@@ -227,11 +227,11 @@ using MetricPaths = std::function<std::vector<std::string>(const Scenario& scena
 /// `asset_folders` becomes Scenario::asset_folders.
 ///
 /// If a coordinate of a place exceeds 1e5 m, as in UTM, all places are moved to one local origin
-/// (Scenario::origin), which is the middle of the places, rounded to 1000 m, or the key `origin`.
-/// Places are the coordinates of keys, of files and of the start. Throws InputError if a place is
-/// more than 1e5 m from the origin, because then the inputs are in different coordinates. The
-/// coordinates of the header's <offset> are added to those of a road network if only then the roads
-/// are near the other places.
+/// (Scenario::origin). The origin is the middle of the places, rounded to 1000 m, or the key
+/// `origin`. Places are the coordinates of keys, of files and of the start. Throws InputError if a
+/// place is more than 1e5 m from the origin, because then the inputs are in different coordinates.
+/// The coordinates of the header's <offset> are added to those of a road network if only then the
+/// roads are near the other places.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {}, const MetricPaths& metrics = {},
                       const std::vector<std::filesystem::path>& asset_folders = {});
@@ -269,9 +269,9 @@ void CheckScenario(const Scenario& scenario);
 /// from this YAML, in any folder. Coordinates are those of the scenario's own file, from before the
 /// move to the local origin, which the key `origin` states. A model that is given by a path is
 /// written with its absolute path. The caller must write data from other files to the folder of the
-/// YAML file: a recording as `recording.csv` (RecordingCsv), a recorded drive as `record.csv`
-/// (RecordCsv), a track as `track.csv` (TrackCsv), a map as `map.yaml` and `map.pgm` (map_file.h),
-/// and a road network as `road_network.xodr`.
+/// YAML file. A recording is written as `recording.csv` (RecordingCsv), a recorded drive as
+/// `record.csv` (RecordCsv), and a track as `track.csv` (TrackCsv). A map is written as `map.yaml`
+/// and `map.pgm` (map_file.h), and a road network as `road_network.xodr`.
 std::string ResolvedYaml(const Scenario& scenario);
 
 /// Formats the keys and values of a method's options on one line, such as "distance: 2.5, law:

@@ -35,7 +35,7 @@ StudyPoint PointWith(const Study& study, std::vector<Setting> settings);
 std::optional<double> NumberAt(const Scenario& scenario, const std::string& key);
 
 /// The points of a study, which are computed on demand and not stored. Points are ordered as in
-/// nested loops: the keys of `vary` are the outer loops in the order of the file, `list` is the
+/// nested loops. The keys of `vary` are the outer loops in the order of the file, `list` is the
 /// next inner loop, and the sample is the innermost loop.
 ///
 /// Guarantees: the same study always has the same points. Several threads may read points at the

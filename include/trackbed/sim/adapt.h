@@ -55,14 +55,14 @@ struct AdaptedModel {
 /// its initial configuration qpos0. Other joints are locked.
 ///
 /// MuJoCo reads URDF files. The meshes of a URDF file must be .stl or .obj files in the folder of
-/// the file, in the ROS package that contains the file, or in AdaptOptions::asset_folders; other
+/// the file, in the ROS package that contains the file, or in AdaptOptions::asset_folders. Other
 /// meshes are dropped, with a note.
 ///
 /// Errors: throws InputError if the file cannot be read or does not compile. Throws InputError,
 /// with a question and the option that answers it, if the model has no vehicle with four wheels or
-/// with two driven wheels, if its axles cannot be told apart, or if a limit is missing that nothing
-/// in the model suggests. The limits of size and of the separate process are those of ComposeScene
-/// and CompileScene. Cost: that of compiling the model twice.
+/// with two driven wheels. Also throws it if its axles cannot be told apart, or if a limit is
+/// missing that nothing in the model suggests. The limits of size and of the separate process are
+/// those of ComposeScene and CompileScene. Cost: that of compiling the model twice.
 AdaptedModel AdaptModel(const std::filesystem::path& file, const AdaptOptions& options);
 
 }  // namespace trackbed

@@ -9,10 +9,10 @@ namespace trackbed {
 ///
 /// The trailer is the body `trailer` below the chassis. Three hinges at the hitch, hitch_yaw,
 /// hitch_pitch and hitch_roll, turn it as a ball joint does. Wheels, tyres, spring travel and
-/// damping follow from the car's rear axle: unsprung masses in proportion to the masses of trailer
-/// and car, spring deflection at rest 0.35 wheel radii, damping ratio 0.3. A car without springs
-/// gets a trailer without springs. The wheels have neither brakes nor bearing friction. The numbers
-/// of the trailer are in the <custom> numeric `trailer`.
+/// damping follow from the car's rear axle. Unsprung masses are in proportion to the masses of
+/// trailer and car; the spring deflection at rest is 0.35 wheel radii, and the damping ratio 0.3. A
+/// car without springs gets a trailer without springs. The wheels have neither brakes nor bearing
+/// friction. The numbers of the trailer are in the <custom> numeric `trailer`.
 ///
 /// Throws InputError if the car has no steered front wheels, already has a trailer, or if the yaw
 /// inertia is less than that of the trailer's wheels.

@@ -12,8 +12,8 @@
 /// A closed race track: a center line with the distances to the edges of the track.
 ///
 /// Symbols: s is the station along the center line [m], which is 0 at the start line and grows in
-/// the direction of driving; d is the lateral offset from the center line [m], positive to the
-/// left.
+/// the direction of driving. The lateral offset from the center line [m], positive to the left, is
+/// d.
 namespace trackbed {
 
 /// A surveyed point on the center line of a track.
@@ -46,7 +46,7 @@ struct TrackFold;
 
 /// A closed race track with a smoothed center line. A Track cannot be changed after construction.
 ///
-/// The center line is a closed B-spline of degree 5 fitted to the points (closed_spline.h): bends
+/// The center line is a closed B-spline of degree 5 fitted to the points (closed_spline.h). Bends
 /// shorter than the wavelength of the smoothing are smoothed out, because the second derivative of
 /// surveyed points is mostly noise. `deviation_max` is the largest distance by which the smoothing
 /// moves a point. The edges are not smoothed: widths are measured from the surveyed points.
@@ -144,10 +144,11 @@ struct TrackFold {
 std::optional<TrackFold> FindFold(const Track& track);
 
 /// Finds the first clear fold in the points of a track, before a Track is made from the points. In
-/// a clear fold, the inner edge is beyond the center of curvature, or the center line turns by more
-/// than half a circle within a quarter of the mean distance between neighboring points. A single
-/// wrong number in a file can cause a clear fold, and computing a Track from such points would take
-/// a long time. Throws the same errors as the constructor of Track. The cost is 5 us per point.
+/// a clear fold, the inner edge is beyond the center of curvature. A fold is also clear if the
+/// center line turns by more than half a circle within a quarter of the mean distance between
+/// neighboring points. A single wrong number in a file can cause a clear fold, and computing a
+/// Track from such points would take a long time. Throws the same errors as the constructor of
+/// Track. The cost is 5 us per point.
 std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
                                   std::optional<double> smoothing);
 

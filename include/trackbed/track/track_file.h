@@ -37,22 +37,22 @@ struct TrackFile {
 /// this row is dropped. If there are no columns of widths, `reading.width` is the width of the
 /// track.
 ///
-/// Without `reading.smoothing`, the wavelength of the smoothing is the default of Track, unless an
-/// edge folds over then or a point is moved by more than a tenth of the narrowest width. Such a
-/// file is read otherwise: points are added on straight lines between points that are more than
-/// four times the median distance apart, and the default is multiplied by the power of 2 nearest to
-/// 1 (1/64 to 64) at which neither happens, if one exists.
+/// Without `reading.smoothing`, the wavelength of the smoothing is the default of Track. Another
+/// one is taken if an edge folds over then, or if a point is moved by more than a tenth of the
+/// narrowest width. For such a file, points are added on straight lines between points that are
+/// more than four times the median distance apart. The default is then multiplied by the power of 2
+/// nearest to 1 (1/64 to 64) at which neither happens, if one exists.
 ///
-/// Where the inner edge would fold over in a bend (TrackFold), the edge is narrowed to 95 % of the
-/// bend's radius, to no less than half of its width in the file.
+/// The inner edge may fold over in a bend (TrackFold). It is then narrowed to 95 % of the bend's
+/// radius, to no less than half of its width in the file.
 ///
 /// Throws InputError, which lists up to twenty problems with file and line, including the problems
-/// that ReadCsvTable finds. A point is a problem if its position is beyond 1e7 m, if a width is
-/// not above 0 or exceeds 1000 m, or if the point coincides with the previous point. A point at
-/// which the center line turns by more than 150 degrees is also a problem. The track as a whole has
-/// a problem if a lap is longer than 200 km, if there are fewer than Track::kMinPoints or more than
-/// Track::kMaxPoints points, if the file is larger than 16 MB, or if an edge would have to be
-/// narrowed to less than half. Throws RunError if the file cannot be read.
+/// that ReadCsvTable finds. A point is a problem if its position is beyond 1e7 m, or if a width is
+/// not above 0 or exceeds 1000 m. It is also one if the point coincides with the previous point. A
+/// point at which the center line turns by more than 150 degrees is also a problem. The track as a
+/// whole has a problem if a lap is longer than 200 km, or if there are fewer than Track::kMinPoints
+/// or more than Track::kMaxPoints points. It also has one if the file is larger than 16 MB, or if
+/// an edge would have to be narrowed to less than half. Throws RunError if the file cannot be read.
 TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& reading = {});
 
 /// The points of a track file, each with its line in the file.
@@ -64,7 +64,7 @@ struct TrackFilePoints {
 
 /// Reads the points of a track file whose line may be open. Throws the same errors as ReadTrackFile
 /// about single rows and the size of the file, but does not check the shape of the line. Without
-/// columns of widths, the file may be the log of a drive: rows nearer than `log_spacing` [m] to the
+/// columns of widths, the file may be the log of a drive. Rows nearer than `log_spacing` [m] to the
 /// last point are skipped, and the road is 2 `log_half_width` wide [m].
 TrackFilePoints ReadTrackPoints(const std::filesystem::path& file, double log_spacing,
                                 double log_half_width);

@@ -29,7 +29,7 @@ struct KinematicState {
 /// errors, for any duration and acceleration. While the steering angle changes, the position error
 /// is that of a fourth-order integrator: below 1e-10 m for steps up to 20 ms at 3 m/s. A step is
 /// split at the time when the steering reaches its target, and at the time when the car comes to
-/// rest, so that the result does not depend on the step size. The kinematic car has no slip, roll
+/// rest. The result therefore does not depend on the step size. The kinematic car has no slip, roll
 /// or forces, and its acceleration follows the command exactly.
 class KinematicCar {
  public:

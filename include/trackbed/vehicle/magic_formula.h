@@ -32,9 +32,9 @@ namespace trackbed {
 struct MagicFormula {
   /// The equations to which the coefficients belong: 0 for CommonRoad's, 5.2 for PAC2002 and MF5.2,
   /// 6.1 for MF6.1. With 0, p_hy1 and p_vy1 have the sign of the camber. With 5.2 and 6.1, p_hy1
-  /// and p_vy1 are constant, and the coefficients assume that gamma is positive if the top of the
-  /// wheel leans to the right, as in ISO 8855; EvaluateTyreForce reverses the sign of gamma.
-  /// With 6.1, tan(alpha) and sin(gamma) replace alpha and gamma in F_y and G.
+  /// and p_vy1 are constant. The coefficients assume that gamma is positive if the top of the wheel
+  /// leans to the right, as in ISO 8855; EvaluateTyreForce reverses the sign of gamma. With 6.1,
+  /// tan(alpha) and sin(gamma) replace alpha and gamma in F_y and G.
   double version = 0.0;
   double p_cx1 = 0.0;  ///< Shape factor C of the formula, > 0.
   double p_dx1 = 0.0;  ///< Longitudinal friction coefficient mu_x at nominal load, > 0.
@@ -152,8 +152,8 @@ struct TyreForce {
 TyreForce EvaluateTyreForce(const MagicFormula& tyre, double load, double road,
                             const TyreSlip& slip);
 
-/// Returns the fraction of the friction ellipse that `force` uses, hypot(F_x/D_x, F_y/D_y) with
-/// D = mu F_z on a road with the friction factor `road` > 0 and at the camber `camber` [rad]. The
+/// Returns the fraction of the friction ellipse that `force` uses, hypot(F_x/D_x, F_y/D_y) with D =
+/// mu F_z. The friction factor of the road is `road` > 0, and the camber is `camber` [rad]. The
 /// fraction is 0 for a tyre without load (F_z <= 0). A sliding tyre uses about 1. The fraction of a
 /// tyre with r_* coefficients may exceed 1 (EvaluateTyreForce).
 double FrictionUse(const MagicFormula& tyre, double load, double road, double camber,

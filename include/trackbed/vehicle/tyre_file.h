@@ -31,12 +31,12 @@ struct TyreFile {
 /// Reads a tyre property file of PAC2002, MF5.0 to MF5.2 or MF6.0 to MF6.2.
 ///
 /// The forces F_x and F_y of the file in steady slip, pure or combined and with camber, equal
-/// EvaluateTyreForce for loads at which the friction coefficients and the slip stiffness per load
-/// are at least a tenth of those at the nominal load. The file's relaxation lengths apply at the
-/// nominal load; a file of MF6.1 gives them as stiffnesses of the carcass. Ignored are aligning and
-/// overturning moments, turn slip, the loaded radius, and the changes of relaxation and rolling
-/// resistance with load and speed. The notes list each ignored section and each ignored entry,
-/// except entries without effect (an ordinary number 0, a scale factor 1).
+/// EvaluateTyreForce. This holds for loads at which the friction coefficients and the slip
+/// stiffness per load are at least a tenth of those at the nominal load. The file's relaxation
+/// lengths apply at the nominal load; a file of MF6.1 gives them as stiffnesses of the carcass.
+/// Ignored are aligning and overturning moments, turn slip, the loaded radius, and the changes of
+/// relaxation and rolling resistance with load and speed. The notes list each ignored section and
+/// each ignored entry, except entries without effect (an ordinary number 0, a scale factor 1).
 ///
 /// A file has lines `[SECTION]` and `KEY = value`. A value is a number or a text in quotes; an
 /// empty value counts as missing. Comments begin with `$` or `!`. Case does not matter. Lines that
@@ -44,9 +44,9 @@ struct TyreFile {
 /// angles are converted from the units of the file.
 ///
 /// Errors: throws InputError, with line and key, if the text is malformed, if the file is not of a
-/// supported version, if a needed coefficient is missing or outside its range, if a unit is
-/// unknown, or if the file exceeds kMaxTyreFileBytes or kMaxTyreFileEntries. Throws RunError if the
-/// file cannot be read.
+/// supported version, or if the file exceeds kMaxTyreFileBytes or kMaxTyreFileEntries. Also throws
+/// it if a needed coefficient is missing or outside its range, or if a unit is unknown. Throws
+/// RunError if the file cannot be read.
 TyreFile ReadTyreFile(const std::filesystem::path& file);
 
 /// As ReadTyreFile, for the text of a file. `name` names the file in messages.

@@ -47,9 +47,9 @@ struct CellRectangle {
 };
 
 /// Returns rectangles that cover exactly the blocked cells, without overlap. The function uses a
-/// greedy method: at the first blocked cell in row order that is not yet covered, the function
-/// tries the widest possible rectangle and the highest possible rectangle, and places the larger of
-/// the two. The number of rectangles is small but not always minimal. Cost: O(cells).
+/// greedy method. At the first blocked cell in row order that is not yet covered, it places the
+/// larger of two rectangles: the widest possible one and the highest possible one. The number of
+/// rectangles is small but not always minimal. Cost: O(cells).
 std::vector<CellRectangle> MergeCells(const GridMap& map, UnknownCells unknown);
 
 }  // namespace trackbed

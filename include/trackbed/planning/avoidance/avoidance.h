@@ -21,7 +21,7 @@
 ///
 /// Symbols: SD is the safe distance from the car's footprint to an obstacle [m]; t_d is the system
 /// delay [s]; S = r + v t_d [m], where r is the radius of a turn and v the speed. To pass an
-/// obstacle in a turn, the car leaves its path at most the distance S before the turn, and returns
+/// obstacle in a turn, the car leaves its path at most the distance S before the turn. It returns
 /// to the path at most the distance S after the turn.
 namespace trackbed {
 
@@ -72,7 +72,7 @@ bool IsInTheWay(const VehicleParams& vehicle, const Path& path, double station,
 /// not given, the plan is unchanged before the new stretch. On a stretch that `bezier` has
 /// replaced, the car's footprint keeps at least the distance SD from every known obstacle (checked
 /// every 0.05 m). On a stretch that `bezier` has replaced, the steering angle is within the car's
-/// limit, and the steering rate at the planned speed is within the fraction
+/// limit. The steering rate at the planned speed is within the fraction
 /// `max_steering_rate_fraction` of the car's limit. The curvature is continuous at both ends of the
 /// new stretch; at its start, the curvature matches the old plan or the car's actual steering. The
 /// planner `listing` guarantees neither clearance nor steerability. With `listing`, a note of the

@@ -9,9 +9,9 @@
 /// Adapts a car's speed on paths of arcs and straights to the limited steering rate of its wheels.
 ///
 /// At a joint between two segments, the curvature steps by dkappa [1/m] and the steering angle by
-/// ddelta [rad]; S = v |ddelta|/omega_delta [m] is the distance that the car drives while its
-/// wheels turn. If the wheels begin to turn S/2 before the joint, the car ends with the heading of
-/// the path and with a lateral offset of |dkappa| S^2/24 [m] from the path.
+/// ddelta [rad]. The distance that the car drives while its wheels turn is S = v
+/// |ddelta|/omega_delta [m]. If the wheels begin to turn S/2 before the joint, the car ends with
+/// the heading of the path. Its lateral offset from the path is |dkappa| S^2/24 [m].
 namespace trackbed {
 
 /// Largest permitted lateral offset from the path due to a step of curvature [m].

@@ -35,8 +35,8 @@
 ///
 /// Gravity never raises a limit: the help of a bank in a bend, or of an uphill slope in braking, is
 /// ignored. A plan with speeds at the car's limit (PlanRequest::limits), or the remainder of such a
-/// plan, must stay within its g-g-v diagram instead of meeting the conditions on acceleration,
-/// slope and top speed.
+/// plan, must stay within its g-g-v diagram. This condition replaces those on acceleration, slope
+/// and top speed.
 namespace trackbed {
 
 /// The change that would bring a plan back within a limit.
@@ -101,12 +101,12 @@ class FeasiblePlan {
   Plan plan_;
 };
 
-/// Tests the plan, and applies the policy of the request if the plan exceeds a limit: slows the
-/// plan down where it exceeds the limit, rejects the plan (kInfeasible), or leaves it unchanged.
-/// Plan::notes states what was done. A plan whose status is not kOk stays unchanged. A plan that
-/// would have to be slower than 0.1 m/s is rejected. With PlanRequest::limits, the function
-/// replaces the planned speeds by the speeds at the car's limit. A plan with speeds at the car's
-/// limit is rejected if the car cannot follow the path or starts too fast.
+/// Tests the plan, and applies the policy of the request if the plan exceeds a limit. The policy
+/// slows the plan down where it exceeds the limit, rejects the plan (kInfeasible), or leaves it
+/// unchanged. Plan::notes states what was done. A plan whose status is not kOk stays unchanged. A
+/// plan that would have to be slower than 0.1 m/s is rejected. With PlanRequest::limits, the
+/// function replaces the planned speeds by the speeds at the car's limit. A plan with speeds at the
+/// car's limit is rejected if the car cannot follow the path or starts too fast.
 FeasiblePlan MakeFeasible(Plan plan, const PlanRequest& request, Refusal refusal = Refusal::kBrief);
 
 /// Makes a PlanRequest that contains a vehicle, speed limits and a road, but no mission.

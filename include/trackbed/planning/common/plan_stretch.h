@@ -42,7 +42,7 @@ std::vector<SpeedCap> CapsOf(const Plan& plan);
 /// Returns the part of a plan beyond `station`, for a car that is at `station` with `start_speed`
 /// [m/s]. The stations of the returned plan count from `station`. The diagnostics of turns are
 /// copied to the returned plan unchanged. If the plan has speeds at the car's limit, these speeds
-/// are kept; if the car is slower than planned, the car first accelerates to these speeds with the
+/// are kept. If the car is slower than planned, the car first accelerates to these speeds with the
 /// acceleration in `speed`.
 Plan RemainingPlan(const Plan& plan, double station, double start_speed, const SpeedLimits& speed);
 

@@ -25,16 +25,15 @@ struct TurnError {
 };
 
 /// Compares the motion of a car from pose `X_W_from` to pose `X_W_middle` with the course of the
-/// path from the station `turn.from` to the station `turn.middle`, and returns the deviation of the
-/// car.
+/// path from the station `turn.from` to `turn.middle`. Returns the deviation of the car.
 TurnError ErrorInTurn(const Path& path, const IsolatedTurn& turn, const Pose2& X_W_from,
                       const Pose2& X_W_middle);
 
 /// Computes the exact deviation of a kinematic car with rate-limited steering at the middle of a
 /// turn. The steering actuator begins to move at the station `turn.from`, and then holds the
 /// steering angle delta of the arc. The wheels follow the steering actuator with a delay of `lag`
-/// [s]. If the steering ramp has the length S = v delta/omega and is centered on the start of the
-/// arc, the heading deficit is kappa S/2 - (v/(L omega)) (-ln cos delta) + kappa v lag.
+/// [s]. A steering ramp of the length S = v delta/omega may be centered on the start of the arc.
+/// The heading deficit is then kappa S/2 - (v/(L omega)) (-ln cos delta) + kappa v lag.
 TurnError PredictTurn(const VehicleParams& vehicle, const Path& path, const IsolatedTurn& turn,
                       double lag);
 

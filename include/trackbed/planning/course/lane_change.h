@@ -76,10 +76,11 @@ std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
                                     const std::vector<Gate>& gates, const Pose2& start,
                                     double stop);
 
-/// Returns the margin of a drive to each gate [m]: the smallest distance from a corner of the car's
-/// footprint to an edge of the gate, while the corner was between the gate's ends. The margin is
-/// negative if a corner was outside of the gate, and infinite if no corner reached the gate. The
-/// function assumes that the car moves straight between the given poses of its rear axle.
+/// Returns the margin of a drive to each gate [m]. The margin is the smallest distance from a
+/// corner of the car's footprint to an edge of the gate, while the corner was between the gate's
+/// ends. The margin is negative if a corner was outside of the gate, and infinite if no corner
+/// reached the gate. The function assumes that the car moves straight between the given poses of
+/// its rear axle.
 std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehicleParams& vehicle,
                                 const std::vector<Pose2>& poses);
 

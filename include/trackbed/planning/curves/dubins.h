@@ -6,8 +6,8 @@
 
 /// Computes the shortest path between two poses, without obstacles, of a car that only drives
 /// forwards with a turning radius of at least r (Dubins 1957). The path has the form of one of the
-/// six words LSL, RSR, LSR, RSL, LRL and RLR, where L is a left arc, R a right arc and S a
-/// straight. In the words LRL and RLR, the middle arc turns by more than pi.
+/// six words LSL, RSR, LSR, RSL, LRL and RLR. L is a left arc, R a right arc and S a straight. In
+/// the words LRL and RLR, the middle arc turns by more than pi.
 namespace trackbed {
 
 /// Returns the shortest of the six Dubins words between two poses. For any two poses, at least one

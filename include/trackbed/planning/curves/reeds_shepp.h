@@ -7,8 +7,8 @@
 /// Computes the shortest path between two poses, without obstacles, of a car that drives forwards
 /// and backwards with a turning radius of at least r (Reeds and Shepp 1990). The path has the form
 /// of one of 48 words of at most five pieces. The words belong to the families CSC, C|C|C, CC|C,
-/// C|CC, CC|CC, C|CC|C, C|CSC, CSC|C and C|CSC|C, where C is an arc, S a straight and | a change
-/// between forward and backward.
+/// C|CC, CC|CC, C|CC|C, C|CSC, CSC|C and C|CSC|C. C is an arc, S a straight and | a change between
+/// forward and backward.
 namespace trackbed {
 
 /// Returns the shortest of all Reeds-Shepp words between two poses. For any two poses, at least one

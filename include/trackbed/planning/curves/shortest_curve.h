@@ -12,7 +12,7 @@
 ///
 /// Symbols: r is the radius of the sharpest arc [m]. Curvatures of pieces are in 1/r, and lengths
 /// in r. The sweep of a piece is the length of its straight or arc, with a negative sign for
-/// driving backwards; the sweep of an arc of radius r is thus the arc's angle [rad].
+/// driving backwards. The sweep of an arc of radius r is thus the arc's angle [rad].
 namespace trackbed {
 
 /// The side to which a piece of a curve bends.

@@ -64,10 +64,11 @@ enum class RadiusObjective {
   kLargest,
   /// Chooses radii by the two passes of listing F.1 (Skackauskas, dissertation). The first pass
   /// simulates a run with the smallest radii. For each turn, this run yields the time t and the
-  /// heading change dpsi from the moment at which the wheels turn back at the end of the previous
-  /// turn to the same moment of this turn. The second pass is a search that minimizes (psi'(r) t -
-  /// dpsi)^2, where psi'(r) is the yaw rate on the radius r. The time t includes the straight
-  /// before the turn; therefore, the optimum for the first turn always lies on the constraint.
+  /// heading change dpsi of an interval. The interval begins when the wheels turn back at the end
+  /// of the previous turn, and ends at the same moment of this turn. The second pass is a search
+  /// that minimizes (psi'(r) t - dpsi)^2, where psi'(r) is the yaw rate on the radius r. The time t
+  /// includes the straight before the turn; therefore, the optimum for the first turn always lies
+  /// on the constraint.
   kLiteral,
   /// Same as kLiteral, but t and dpsi cover only the turn itself, from D_{2k-1} to D_2k. The chosen
   /// radius is then the radius that the rate-limited car actually drove in the first run.
@@ -230,8 +231,8 @@ inline constexpr std::size_t kMinFilletWaypoints = 2;
 /// Plans a path along a route of N >= 2 waypoints. The car drives at `speed` [m/s], and more slowly
 /// in turns that require a lower speed. A waypoint at which the route continues straight is no
 /// turn. If a turn has no room, the route leaves out waypoints that it then passes within a quarter
-/// of the car's width and FilletOptions::max_waypoint_miss, provided that all turns then have room.
-/// The argument `seed` initializes the random numbers of the search.
+/// of the car's width and FilletOptions::max_waypoint_miss. All turns must then have room. The
+/// argument `seed` initializes the random numbers of the search.
 ///
 /// Guarantees: the path is continuous in position and heading to 1e-9, starts at the first waypoint
 /// along the first leg and ends at the last waypoint. Every radius meets the constraint of its

@@ -22,9 +22,9 @@
 /// count `reverse_cost` times. Every change of direction adds `switch_cost` to the cost of the
 /// path. Every joint between arcs adds `steering_cost` times the change of curvature divided by
 /// 1/r. The search estimates the cost from a pose to the goal as the length of the shortest
-/// Reeds-Shepp curve or, if larger, as the length of the shortest grid path around the obstacles,
-/// divided by 1.0824. The divisor 1.0824 is needed because a path on an empty grid is up to 1.0824
-/// times as long as a straight line.
+/// Reeds-Shepp curve. If it is larger, the length of the shortest grid path around the obstacles,
+/// divided by 1.0824, is used. The divisor 1.0824 is needed because a path on an empty grid is up
+/// to 1.0824 times as long as a straight line.
 ///
 /// Steps are as long as the larger of 1.5 cells and one heading cell times r, so that no step of
 /// curvature 1/r shares a cell with a straight step. If the search at the requested cells finds no
@@ -34,13 +34,13 @@
 ///
 /// With clothoids (CurveCurvature::kContinuous and kCuspSteps), the curvature of the path is
 /// continuous. The state of the search includes the curvature. Each step is an arc of the present
-/// curvature, or a clothoid to the next of the five curvatures, in the length that the steering
-/// needs at one of a few speeds from the speed v of the mission down to the lowest speed. The last
-/// curve is a curve of continuous curvature (continuous_curvature.h) for one of these speeds. A
-/// stretch on which the car drives at w < v counts v/w times, and each change of speed and each
-/// turn of the wheels at rest counts the distance that the car would drive at v in the lost time.
-/// After the first path, the search ends after as many expansions as this path needed and 1500
-/// more, so that the cost may be above `weight` times the optimum.
+/// curvature, or a clothoid to the next of the five curvatures. The length of a clothoid is the one
+/// that the steering needs at one of a few speeds, from the speed v of the mission down to the
+/// lowest speed. The last curve is a curve of continuous curvature (continuous_curvature.h) for one
+/// of these speeds. A stretch on which the car drives at w < v counts v/w times. Each change of
+/// speed and each turn of the wheels at rest counts the distance that the car would drive at v in
+/// the lost time. After the first path, the search ends after as many expansions as this path
+/// needed and 1500 more, so that the cost may be above `weight` times the optimum.
 namespace trackbed {
 
 struct HybridAStarOptions {
@@ -111,20 +111,20 @@ struct HybridAStarResult {
 
 /// Searches for a path by Hybrid A*. Guarantees for the status kOk: the path ends within 1e-9 m and
 /// 1e-9 rad of the goal pose. The last part of the path is a Reeds-Shepp curve, or a Dubins curve
-/// if the car may not drive backwards; if the path was found from the goal, the first part is. With
-/// `drive`, short arcs of this curve are gentler. The curvature of the path never exceeds 1/r. With
-/// clothoids, the last or first part is a curve of continuous curvature, the path begins with the
-/// curvature `start_curvature` and ends with straight wheels, and the curvature steps at no place
-/// except, with kCuspSteps, at cusps and where the car rests at the start or at the goal. The car's
-/// footprint is clear of all obstacles (CollisionChecker). The same input always yields the same
-/// result. The path is not globally optimal, because the search keeps only one pose per cell, and
-/// because the path must contain a Reeds-Shepp or Dubins curve. If the budget is used up, the
+/// if the car may not drive backwards. If the path was found from the goal, this is the first part.
+/// With `drive`, short arcs of this curve are gentler. The curvature of the path never exceeds 1/r.
+/// With clothoids, the last or first part is a curve of continuous curvature. The path then begins
+/// with the curvature `start_curvature` and ends with straight wheels. The curvature steps at no
+/// place except, with kCuspSteps, at cusps and where the car rests at the start or at the goal. The
+/// car's footprint is clear of all obstacles (CollisionChecker). The same input always yields the
+/// same result. The path is not globally optimal, because the search keeps only one pose per cell,
+/// and because the path must contain a Reeds-Shepp or Dubins curve. If the budget is used up, the
 /// function returns the best path found so far. Half of the budget is reserved for the series of
 /// resolutions, unless the search at the requested resolution finds a path with the other half. The
 /// status is kNoPath if obstacles enclose the start or the goal, or if there is no path with steps
-/// of 0.016 r: the searches have expanded all poses around the start or around the goal. Throws
-/// InternalError if an option is out of range. Computing time: about 10 us per expanded pose, 100
-/// us with clothoids.
+/// of 0.016 r. In both cases, the searches have expanded all poses around the start or around the
+/// goal. Throws InternalError if an option is out of range. Computing time: about 10 us per
+/// expanded pose, 100 us with clothoids.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 

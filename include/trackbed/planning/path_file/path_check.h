@@ -107,9 +107,9 @@ struct PathCheck {
 /// Checks whether a car can drive a path at a constant speed.
 ///
 /// Guarantees: every reported fault has a place on the path. If there are no faults, a kinematic
-/// car with the given limits can follow the path exactly, provided that the car starts on the path
-/// with the steering angle of the path. The check does not consider obstacles, tyre slip below the
-/// friction limit, braking and accelerating, or controllers that cut corners.
+/// car with the given limits can follow the path exactly. The car must start on the path with the
+/// steering angle of the path. The check does not consider obstacles, tyre slip below the friction
+/// limit, braking and accelerating, or controllers that cut corners.
 ///
 /// Throws PreconditionError unless speed and friction are finite and positive. Cost: 5 us of
 /// computing time per meter of path, and 100 bytes of memory per piece. The number of pieces

@@ -15,7 +15,7 @@
 ///   minimize  integral of kappa^2 dl   subject to  right(s) + b <= d(s) <= left(s) - b
 ///
 /// The offset d is a closed spline with as many knots as the track has points. The solution is
-/// iterative (Gauss-Newton): each step linearizes kappa sqrt(dl/ds) about the last line, with the
+/// iterative (Gauss-Newton). Each step linearizes kappa sqrt(dl/ds) about the last line, with the
 /// exact derivatives by d, d' and d'', and then solves a quadratic program for d. Braghin et al.
 /// 2008 minimize the curvature by one quadratic program; Heilmeier et al. 2020 repeat the
 /// linearization.
@@ -39,10 +39,10 @@ struct MinimumCurvatureLine {
 /// narrowest place.
 ///
 /// Guarantees: at two points per knot, the line keeps the distance b from the edges, to within 1e-6
-/// m; the last step changed the integral of kappa^2 by a fraction of less than 1e-6. The problem is
+/// m. The last step changed the integral of kappa^2 by a fraction of less than 1e-6. The problem is
 /// not convex, so that the line is only a local minimum. The car's rear axle follows the line. In a
 /// bend of radius r, a front corner of the car is therefore farther out than the car's side at the
-/// rear axle, by about l_f^2/(2 r), where l_f is the distance from the rear axle to the car's front
+/// rear axle, by about l_f^2/(2 r). Here, l_f is the distance from the rear axle to the car's front
 /// [m]. Throws RunError if the program was built without IPOPT. Computing time: 0.6 s per kilometer
 /// of track, for track points 5 m apart.
 MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside);

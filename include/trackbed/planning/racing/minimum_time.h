@@ -47,9 +47,9 @@ LapLimits LimitsOfLap(const PlanRequest& request);
 double LapTime(const Track& track, const TrackLine& line, const LapLimits& limits);
 
 enum class MinimumTimeEnd {
-  /// The search has converged: the predicted gain of a step is at most 1e-4 of the lap time; or the
-  /// predicted gain is at most 5e-4 of the lap time, and no fraction of the step makes the lap
-  /// faster.
+  /// The search has converged if the predicted gain of a step is at most 1e-4 of the lap time. It
+  /// has also converged if this gain is at most 5e-4 of the lap time, and no fraction of the step
+  /// makes the lap faster.
   kConverged,
   /// No step makes the lap faster, not even a step that changes the line by only a millimeter.
   kNoGain,
@@ -88,7 +88,7 @@ struct MinimumTimeLine {
 /// function ignores slopes, banks and changes of friction along the track. Throws RunError if the
 /// program was built without IPOPT. Computing time: 5 to 20 quadratic programs, each 1.4 s per
 /// kilometer of track, for track points 5 m apart. If the line of least curvature is too tight for
-/// the car, some 5 programs of the size of FindMinimumCurvature's come before; a track that is too
+/// the car, some 5 programs of the size of FindMinimumCurvature's come before. A track that is too
 /// narrow or too tight is refused without any program for the lap time.
 MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimits& limits,
                                 int iterations = 40);

@@ -11,8 +11,8 @@
 /// Describes closed lines on a track by their offset from the track's center line, and plans laps
 /// along such lines.
 ///
-/// Symbols: s is the station along the track's center line [m], kappa_c(s) the curvature of the
-/// center line, and d(s) the offset of the line from the center line [m], positive to the left.
+/// Symbols: s is the station along the track's center line [m], and kappa_c(s) the curvature of the
+/// center line. The offset of the line from the center line [m], positive to the left, is d(s).
 namespace trackbed {
 
 /// The offset d of a line and the derivatives d' and d'' at one station.
@@ -63,15 +63,15 @@ struct TrackPlanDiagnostics {
 };
 void Visit(DiagnosticsVisitor& out, const TrackPlanDiagnostics& own);
 
-/// Plans laps along a line on the track. The plan leads from the car onto the line, TrackLaps::laps
-/// times around the track, and then beyond the finish line by the distance that the car needs to
-/// brake from the mission's speed.
+/// Plans laps along a line on the track. The plan leads from the car onto the line, and
+/// TrackLaps::laps times around the track. It continues beyond the finish line by the distance that
+/// the car needs to brake from the mission's speed.
 ///
 /// The car may start anywhere on the track, facing along the track. A car that starts up to half a
-/// lap before the start line first drives to the start line; a car that starts on or beyond the
+/// lap before the start line first drives to the start line. A car that starts on or beyond the
 /// start line begins its first lap at once. From its start, the car approaches the line along a
 /// polynomial of degree 5, which reduces the car's offset from the line to 0. The approach is at
-/// most half a lap long; otherwise, its length is the largest of three values: the distance that
+/// most half a lap long. Otherwise, its length is the largest of three values: the distance that
 /// the car drives in three seconds at the mission's speed, ten times the offset, and four
 /// wheelbases. If a car that starts rolling cannot steer fast enough on this length, the approach
 /// is longer.
@@ -82,8 +82,8 @@ void Visit(DiagnosticsVisitor& out, const TrackPlanDiagnostics& own);
 Plan FollowLine(const PlanRequest& request, const TrackLine& line);
 
 /// Returns the curvature of a path through the car's pose that keeps the offset and the angle that
-/// the car has from the center line [1/m]; PlannerEntry::start_curvature of the planners on tracks.
-/// Returns nullopt if there is no track, or if the car does not face along the track.
+/// the car has from the center line [1/m]. It is PlannerEntry::start_curvature of the planners on
+/// tracks. Returns nullopt if there is no track, or if the car does not face along the track.
 std::optional<double> StartCurvatureOnTrack(const PlannerOptions& options, const RouteStart& route);
 
 }  // namespace trackbed

@@ -30,12 +30,12 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
                                                  double distance, double look_ahead,
                                                  double offset = 0.0);
 
-/// Returns whether an obstacle stands in a turn, that is, whether the path beyond `station` is
+/// Returns whether an obstacle stands in a turn. This means that the path beyond `station` is
 /// curved at a place where the car is closer to the obstacle than `distance` [m].
 bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station,
                   const OrientedBox& obstacle, double distance);
 
-/// Returns whether waiting may clear the path, that is, whether a moving obstacle is closer than
+/// Returns whether waiting may clear the path. This means that a moving obstacle is closer than
 /// `distance` [m] to the next 30 m of the path now or within a minute.
 bool MightClear(const VehicleParams& vehicle, const Path& path, double station,
                 const std::vector<MovingBox>& obstacles, double distance);

@@ -8,12 +8,12 @@
 #include "trackbed/world/wind.h"
 
 /// Smooths a path with corners ("Smoothing" of the wind-aware RRT; Thrun 2012). Each inner point of
-/// the path moves toward its original position and toward the middle of its two neighbors, unless
-/// an obstacle is in the way or the wind score would decrease.
+/// the path moves toward its original position and toward the middle of its two neighbors. It does
+/// not move if an obstacle is in the way or if the wind score would decrease.
 ///
 /// Symbols: x_i are the original points and y_i the smoothed points, whose first and last are
-/// fixed; alpha is the weight of the original points, and beta the weight of smoothness; w is the
-/// wind [m/s], and V the airspeed [m/s].
+/// fixed. The weight of the original points is alpha, and the weight of smoothness is beta. The
+/// wind is w [m/s], and the airspeed V [m/s].
 namespace trackbed {
 
 /// Describes how the wind contributes to the score of a path.
@@ -50,7 +50,7 @@ struct SmoothingResult {
 
 /// Smooths a path, point by point and coordinate by coordinate: y_i <- y_i + alpha (x_i - y_i) +
 /// beta (y_{i-1} + y_{i+1} - 2 y_i). A move of a point is accepted if both edges at the point are
-/// farther than `inflation` [m] from every obstacle, and the wind score of the two edges does not
+/// farther than `inflation` [m] from every obstacle. The wind score of the two edges must not
 /// decrease.
 ///
 /// Guarantees: the two ends of the path do not move, and a path that is free of obstacles stays
