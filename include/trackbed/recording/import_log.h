@@ -16,11 +16,11 @@ namespace trackbed {
 /// point of the time grid, weighted least squares (Eigen) fit a polynomial of the degree `degree`.
 /// The fit uses the rows of the same stretch within the time `half_width` on either side. With the
 /// time difference u, divided by the half width of the window, the weights are (1 - u^3)^3
-/// (Cleveland 1979). Pose, velocity and acceleration are the value and the first and second derivative of the
-/// polynomial. If fewer than `degree` + 1 rows are within `half_width`, the nearest other rows are
-/// added. Columns for speed or yaw rate, if the log has any, are fitted in the same way and replace
-/// the values computed from the pose. Commands and steering angles are interpolated linearly
-/// between rows, or between the updates of a slower control loop.
+/// (Cleveland 1979). Pose, velocity and acceleration are the value and the first and second
+/// derivative of the polynomial. If fewer than `degree` + 1 rows are within `half_width`, the
+/// nearest other rows are added. Columns for speed or yaw rate, if the log has any, are fitted in
+/// the same way and replace the values computed from the pose. Commands and steering angles are
+/// interpolated linearly between rows, or between the updates of a slower control loop.
 ///
 /// Guarantees: the fit adds no phase shift, because the rows on both sides of a point are used
 /// symmetrically (except at the ends of a stretch). If the recorded motion is a polynomial of the
