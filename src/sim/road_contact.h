@@ -13,8 +13,8 @@ namespace trackbed {
 /// Number of the wheels of a car and its trailer.
 inline constexpr std::size_t kMaxWheels = 6;
 
-/// Returns the collision bit (conaffinity) of the plane under a wheel, 4 and 5 for those of a
-/// trailer. The models of cars must not use the collision bits of these planes.
+/// Returns the collision bit (conaffinity) of the plane under a wheel. The wheels 4 and 5 are those
+/// of a trailer. The models of cars must not use the collision bits of these planes.
 constexpr int WheelPlaneBit(std::size_t wheel) {
   return 1 << (wheel < 4 ? 24 + wheel : 25 + wheel);  // bit 28 is that of all other geoms
 }

@@ -332,9 +332,9 @@ TEST(Braking, GivesDistanceAndMeanDeceleration) {
     // speed, distance and deceleration are larger by the same ratio.
     const double ratio = std::hypot(1.0, 1.2 * curvature);
     EXPECT_NEAR(Of(metrics, "initial_speed"), 24.0 * ratio, Tolerance(kRounding));
-    // Braking is measured down to 0.05 m/s. The distance after this speed, 0.05^2/16 m, is missing.
-    // Linear interpolation deviates by a h^2/8, and chords of 0.24 m of a circle of 50 m are
-    // shorter than the circle by a millionth.
+    // Braking is measured down to 0.05 m/s. The distance that the car drives below this speed,
+    // 0.05^2/16 m, is missing. Linear interpolation deviates by a h^2/8, and chords of 0.24 m of a
+    // circle of 50 m are shorter than the circle by a millionth.
     EXPECT_NEAR(Of(metrics, "distance"), 24.0 * 24.0 / 16.0 * ratio, Tolerance(3e-4));
     EXPECT_NEAR(Of(metrics, "mean_fully_developed_deceleration"), 8.0 * ratio, Tolerance(1e-4));
     EXPECT_NEAR(Of(metrics, "lateral_deviation_max"), 0.0, Tolerance(1e-8));

@@ -8,7 +8,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
 
-// Waits of a path from a file, driven.
+// Tests that a car waits where its path file says so.
 namespace trackbed {
 namespace {
 

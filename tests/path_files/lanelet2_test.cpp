@@ -95,7 +95,7 @@ TEST(Lanelet2, FollowsTheCentersOfLaneletsHoweverTheirWaysRun) {
     const PathFile file = Read(MapText{.reversed = reversed}.Xml(), {"10", "11"});
     ASSERT_EQ(file.points.points.size(), 3U) << reversed;
     for (std::size_t i = 0; i < 3; ++i) {
-      // The middles of y = -2 and 2 are exact.
+      // The middle between y = -2 and y = 2 has no rounding error.
       EXPECT_EQ(file.points.points[i], Vec2(60.0 * static_cast<double>(i), 0.0)) << reversed;
     }
     EXPECT_TRUE(file.points.speed.empty());

@@ -156,7 +156,7 @@ def test_controller_steers(plant):
     assert run.metrics[plant]["status"] == "arrived"
     assert abs(run[plant]["cross_track_m"]).max() < 0.5
     calls = run[plant]["test_calls"]
-    # Each control period calls the controller once, except the last row of the log.
+    # Each control period calls the controller once; the last row of the log begins no period.
     assert (numpy.diff(calls)[:-1] == 1).all()
 
 

@@ -27,7 +27,7 @@ enum class CheckReason {
   /// If the run has a path, the car must not exceed the planned speed by more than its speed
   /// control can correct.
   kOverspeed,
-  /// If the run has a path, the steering command must not oscillate without an end.
+  /// If the run has a path, the steering command must not keep oscillating.
   kOscillation,
   kSteeringRate,  ///< The steering rate must be within the actuator's limit.
   kCollision,     ///< The scenario contains the check in `expect.collision`.

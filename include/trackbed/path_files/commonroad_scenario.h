@@ -58,8 +58,9 @@ struct CommonRoadScenario {
   double speed = 0.0;
   /// Heading of the route at the goal, continued from the start's heading without jumps [rad].
   double goal_yaw = 0.0;
-  /// Smallest distances from the route's points to the edge of the lanelets of any direction, to
-  /// the left and to the right [m], at most 8 m. The points up to the goal count.
+  /// Smallest distances from the route to the edge of the road, to the left and to the right [m],
+  /// at most 8 m. Lanelets of both directions belong to the road. The distances are measured at the
+  /// route's points up to the goal.
   double room_left = 0.0;
   double room_right = 0.0;
   DrawnLanes lanes;                ///< Lanelets within 150 m of the route.

@@ -111,8 +111,8 @@ std::vector<AccelerationCap> SectionsOfLessGrip(const Path& path, const PlanRequ
 
 /// Returns speed caps for each bend in which the plan exceeds the friction ellipse. A bend here is
 /// a stretch of the path between two straights. With these caps, the car stays within the friction
-/// ellipse in the bend, even if it speeds up or slows down. It does so at the acceleration limits
-/// of the request, or at the shares kBendShares of the road's grip if these are lower.
+/// ellipse in the bend, even while it speeds up or slows down. The acceleration is then at most the
+/// limit of the request, and at most the share kBendShares of the road's grip.
 std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request);
 
 }  // namespace trackbed::feasible_speeds

@@ -165,7 +165,7 @@ bool IsLeftOut(const Route& route, const std::vector<Vec2>& waypoints, int i) {
   if (number == route.numbers.end()) {
     return true;
   }
-  // An added point behind the first waypoint keeps it on the route, a point before it does not.
+  // The path passes the first waypoint if the added point lies behind it, not if it lies before it.
   const Vec2& point = route.waypoints[static_cast<std::size_t>(number - route.numbers.begin())];
   const Vec2& given = waypoints[static_cast<std::size_t>(i)];
   return (point - waypoints[0]).norm() < (given - waypoints[0]).norm();

@@ -244,8 +244,8 @@ std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongReques
 
 namespace {
 
-/// Returns why a car cannot finish passing that accelerates to `passing_speed` [m/s] after the
-/// motion; empty if it can.
+/// Returns why the car cannot finish passing if it accelerates to `passing_speed` [m/s] after the
+/// motion. Empty if it can.
 std::string WhyNotPastAt(double passing_speed, const RouteFrame& frame, const AlongRequest& request,
                          const AlongSettings& settings, const FrenetLimits& limits,
                          const Leader& leader, const FrenetMotion& motion) {

@@ -21,7 +21,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-/// Returns every problem between the options, as "key: message".
+/// Returns every contradiction between the options, as "key: message".
 std::vector<std::string> Problems(
     const PlannerOptions& options,
     const CouldReadKey& could_read = [](const std::string&) { return true; }) {
