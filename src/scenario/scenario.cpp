@@ -9,6 +9,7 @@
 
 #include "src/scenario/car_lengths.h"
 #include "src/scenario/check_requirements.h"
+#include "src/scenario/check_values.h"
 #include "src/scenario/commonroad_yaml.h"
 #include "src/scenario/cross_check.h"
 #include "src/scenario/input_files.h"
@@ -233,16 +234,19 @@ Expectations ReadExpectations(const std::filesystem::path& file) {
 }
 
 void CheckScenario(const Scenario& scenario) {
-  std::vector<Problem> problems;
-  for (const auto& [key, message] : CrossProblems(scenario, [](const auto&) { return true; })) {
-    problems.push_back({"", 0, 0, key, message});
+  // Rules between keys assume that each value is valid, and formulas need the columns of a log.
+  auto found = ValueProblems(scenario);
+  if (found.empty()) {
+    found = CrossProblems(scenario, [](const auto&) { return true; });
   }
-  if (problems.empty()) {
-    for (const auto& [key, message] : RequirementProblems(scenario)) {
+  if (found.empty()) {
+    found = RequirementProblems(scenario);
+  }
+  if (!found.empty()) {
+    std::vector<Problem> problems;
+    for (const auto& [key, message] : found) {
       problems.push_back({"", 0, 0, key, message});
     }
-  }
-  if (!problems.empty()) {
     throw InputError(problems);
   }
 }

@@ -7,7 +7,6 @@
 
 #include "src/scenario/car_lengths.h"
 #include "src/scenario/yaml_value.h"
-#include "trackbed/core/file_name.h"
 #include "trackbed/core/spelling.h"
 
 // Implements a KeyVisitor that reads a YAML mapping. Each call of Field reads one key of the
@@ -238,13 +237,11 @@ void YamlReader::Field(const Key& key, std::optional<std::string>& value) {
 
 void YamlReader::Identifier(const Key& key, std::string& value) {
   Field(key, value, Need::kRequired);
-  if (!value.empty() && (value.size() > kMaxFileNameLength || !IsFileName(value))) {
+  const std::string problem = value.empty() ? "" : FolderNameProblem(value);
+  if (!problem.empty()) {
     for (const auto& entry : node_) {
       if (entry.first.IsScalar() && entry.first.Scalar() == key.name) {
-        AddError(entry.second, Dotted(key.name),
-                 fmt::format("'{}' is not a valid folder name; must be up to 100 letters, digits, "
-                             "'_', '-' and '.', not starting with '.'",
-                             value));
+        AddError(entry.second, Dotted(key.name), problem);
         return;
       }
     }

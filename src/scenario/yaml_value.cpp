@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "trackbed/core/angle.h"
+#include "trackbed/core/file_name.h"
 
 namespace trackbed {
 namespace {
@@ -46,6 +47,25 @@ std::string CountNumbers(std::size_t count) {
                     : fmt::format("{} {}", count, count == 1 ? "number" : "numbers");
 }
 
+std::string NumberProblem(double number, const Range& range) {
+  if (!std::isfinite(number)) {
+    return fmt::format("expected a finite number, found {}", number);
+  }
+  if (number < range.min || number > range.max || number <= range.above) {
+    return fmt::format("{} is out of range; must be {}", number, AllowedBy(range));
+  }
+  return "";
+}
+
+std::string FolderNameProblem(const std::string& name) {
+  return name.size() <= kMaxFileNameLength && IsFileName(name)
+             ? ""
+             : fmt::format(
+                   "'{}' is not a valid folder name; must be up to 100 letters, digits, "
+                   "'_', '-' and '.', not starting with '.'",
+                   name);
+}
+
 std::string ParseNumber(const YAML::Node& node, Range range, double& value) {
   double number = 0.0;
   const bool is_number = Decode(node, number);
@@ -64,8 +84,8 @@ std::string ParseNumber(const YAML::Node& node, Range range, double& value) {
   if (!std::isfinite(number)) {
     return fmt::format("expected a finite number, found {}", DescribeValue(node));
   }
-  if (number < range.min || number > range.max || number <= range.above) {
-    return fmt::format("{} is out of range; must be {}", number, AllowedBy(range));
+  if (std::string problem = NumberProblem(number, range); !problem.empty()) {
+    return problem;
   }
   value = range.is_direction ? WrapAngle(number) : number;
   return "";

@@ -39,6 +39,12 @@ std::string DescribeWrong(const YAML::Node& node) {
 /// Returns a number of numbers as text: "an empty list", "1 number", "3 numbers".
 std::string CountNumbers(std::size_t count);
 
+/// Returns the problem of a number that is not finite or outside of the range; "" without one.
+std::string NumberProblem(double number, const Range& range);
+
+/// Returns the problem of a name that cannot be the name of a folder; "" without one.
+std::string FolderNameProblem(const std::string& name);
+
 /// Reads a finite number within the range. Returns "", or the problem of the value; `value` then
 /// stays unchanged.
 std::string ParseNumber(const YAML::Node& node, Range range, double& value);

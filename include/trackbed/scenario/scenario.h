@@ -260,9 +260,9 @@ World ReadWorld(const std::filesystem::path& file);
 /// Reads only the `expect` section of a scenario file, for reports. Throws InputError.
 Expectations ReadExpectations(const std::filesystem::path& file);
 
-/// Checks that the values of the scenario's keys can be combined; throws InputError if not.
-/// ReadScenario calls CheckScenario; programs that fill a Scenario in code must call CheckScenario
-/// themselves.
+/// Checks a scenario that a program fills in code as strictly as ReadScenario checks a file. Throws
+/// InputError, which lists the problems with their dotted keys. RunScenario calls CheckScenario;
+/// programs that call PlanScenario or SimulateScenario must call CheckScenario themselves.
 void CheckScenario(const Scenario& scenario);
 
 /// Formats the scenario as YAML, including all default values. ReadScenario reads an equal scenario

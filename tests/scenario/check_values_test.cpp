@@ -1,0 +1,100 @@
+#include "src/scenario/check_values.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/error_text.h"
+#include "trackbed/control/preview.h"
+#include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/scenario/scenario.h"
+
+// Tests that a scenario that a program fills in code is checked as strictly as a file.
+namespace trackbed {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Returns a scenario without problems.
+Scenario InCode() {
+  Scenario scenario;
+  scenario.name = "corner";
+  scenario.vehicle.model = "prius";
+  scenario.mission.speed = 3.0;
+  scenario.mission.waypoints = {{0.0, 0.0}, {30.0, 0.0}, {30.0, 30.0}};
+  scenario.plan = PlanSpec{.global = FilletOptions{}};
+  scenario.control.steering = PreviewOptions{.distance = 2.5};
+  return scenario;
+}
+
+struct WrongValue {
+  const char* name;
+  std::function<void(Scenario&)> set;
+  const char* message;
+};
+
+class ScenarioInCode : public ::testing::TestWithParam<WrongValue> {};
+
+TEST_P(ScenarioInCode, IsRefusedWithTheKey) {
+  Scenario scenario = InCode();
+  EXPECT_NO_THROW(CheckScenario(scenario));
+  GetParam().set(scenario);
+  EXPECT_EQ(ErrorText([&] { CheckScenario(scenario); }), GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, ScenarioInCode,
+    ::testing::Values(
+        WrongValue{"not_a_number", [](Scenario& s) { s.mission.waypoints[1].x() = kNan; },
+                   "mission.waypoints[1][0]: expected a finite number, found nan"},
+        WrongValue{"option_of_a_method",
+                   [](Scenario& s) { s.control.steering = PreviewOptions{.distance = -1.0}; },
+                   "control.distance: -1 is out of range; must be at least 0.01 and at most 1000"},
+        WrongValue{"optional_number", [](Scenario& s) { s.mission.start.speed = -1.0; },
+                   "mission.start.speed: -1 is out of range; must be at least 0 and at most 100"},
+        WrongValue{"list_of_numbers",
+                   [](Scenario& s) {
+                     s.mission.headings = {0.0, 0.0, kNan};
+                   },
+                   "mission.headings[2]: expected a finite number, found nan"},
+        WrongValue{"unknown_name", [](Scenario& s) { s.drive.plants = {"kinematik"}; },
+                   "drive.plants[0]: unknown 'kinematik'; did you mean 'kinematic'?"},
+        WrongValue{"name_twice",
+                   [](Scenario& s) {
+                     s.drive.plants = {"mujoco", "mujoco"};
+                   },
+                   "drive.plants[1]: 'mujoco' is listed twice"},
+        WrongValue{"name_of_the_folder", [](Scenario& s) { s.name = "../corner"; },
+                   "name: '../corner' is not a valid folder name; must be up to 100 letters, "
+                   "digits, '_', '-' and '.', not starting with '.'"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST(ScenarioInCodeValues, AreListedTogether) {
+  Scenario scenario = InCode();
+  scenario.drive.timestep = 1.0;
+  scenario.drive.plants = {"kinematik"};
+  scenario.render.fps = 0.0;
+  std::vector<std::string> keys;
+  for (const auto& [key, message] : ValueProblems(scenario)) {
+    keys.push_back(key);
+  }
+  EXPECT_THAT(keys, ::testing::ElementsAre("drive.plants[0]", "drive.timestep", "render.fps"));
+}
+
+// ValueProblems checks by the same declarations as the reader, so it accepts what the reader does.
+TEST(ScenarioInCodeValues, OfEveryScenarioFileHaveNoProblem) {
+  for (const auto& file : std::filesystem::directory_iterator(TRACKBED_SOURCE_DIR "/scenarios")) {
+    if (file.path().extension() == ".yaml") {
+      EXPECT_THAT(ValueProblems(ReadScenario(file.path())), ::testing::IsEmpty()) << file.path();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
