@@ -10,6 +10,7 @@
 #include "src/scenario/yaml_value.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/options/number_visitor.h"
+#include "trackbed/scenario/cameras.h"
 
 namespace trackbed {
 namespace {
@@ -91,11 +92,25 @@ class ValueChecker final : public NumberVisitor {
 
 }  // namespace
 
+std::string CameraProblem(const std::string& camera) {
+  std::vector<std::string> names;
+  for (const CameraName& each : CameraNames()) {
+    names.push_back(each.name);
+  }
+  return std::find(names.begin(), names.end(), camera) == names.end()
+             ? "unknown " + UnknownName(camera, names)
+             : "";
+}
+
 std::vector<std::pair<std::string, std::string>> ValueProblems(const Scenario& scenario) {
   Scenario visited = scenario;
   ValueChecker checker;
   Visit(checker, visited);
-  return checker.TakeFound();
+  std::vector<std::pair<std::string, std::string>> found = checker.TakeFound();
+  if (const std::string problem = CameraProblem(scenario.render.camera); !problem.empty()) {
+    found.emplace_back("render.camera", problem);
+  }
+  return found;
 }
 
 }  // namespace trackbed

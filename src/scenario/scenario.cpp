@@ -33,7 +33,6 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/road_network/open_drive.h"
-#include "trackbed/scenario/cameras.h"
 #include "trackbed/scenario/input_files.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/sim/scene.h"
@@ -145,13 +144,8 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
     add_error("vehicle.model", error.problems().front().message);
   }
   const std::vector<Problem> of_inputs = ReadInputs(scenario, context, add_error);
-  const std::string& camera = scenario.render.camera;
-  std::vector<std::string> cameras;
-  for (const CameraName& each : CameraNames()) {
-    cameras.push_back(each.name);
-  }
-  if (std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
-    add_error("render.camera", "unknown " + UnknownName(camera, cameras));
+  if (std::string problem = CameraProblem(scenario.render.camera); !problem.empty()) {
+    add_error("render.camera", std::move(problem));
   }
   if (std::find(context.overridden.begin(), context.overridden.end(), "drive.plants") !=
       context.overridden.end()) {

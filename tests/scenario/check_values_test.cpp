@@ -65,6 +65,8 @@ INSTANTIATE_TEST_SUITE_P(
                    "mission.headings[2]: expected a finite number, found nan"},
         WrongValue{"unknown_name", [](Scenario& s) { s.drive.plants = {"kinematik"}; },
                    "drive.plants[0]: unknown 'kinematik'; did you mean 'kinematic'?"},
+        WrongValue{"unknown_camera", [](Scenario& s) { s.render.camera = "chas"; },
+                   "render.camera: unknown 'chas'; did you mean 'chase'?"},
         WrongValue{"name_twice",
                    [](Scenario& s) {
                      s.drive.plants = {"mujoco", "mujoco"};
