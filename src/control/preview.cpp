@@ -3,74 +3,20 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <functional>
 
 #include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
-#include "src/control/tracking.h"
+#include "src/control/timely_steering.h"
 #include "src/control/turn_round.h"
-#include "trackbed/core/angle.h"
 
 namespace trackbed {
 namespace {
 
-/// Returns the heading error [rad] of the car in the steady turn on its path. The curvature of the
-/// turn is the mean over the next wheelbase, so that a short flaw of the path does not move the
-/// wheels. A car without tyre coefficients heads along its path.
-double SteadyHeading(const ControlInput& input, int direction) {
-  if (!HasTyres(input.vehicle)) {
-    return 0.0;
-  }
-  const Path& path = input.reference.path;
-  const double ahead = input.vehicle.wheelbase;
-  const double turned =
-      AngleDifference(path.At(input.station + ahead).pose.yaw, path.At(input.station).pose.yaw);
-  const double curvature = turned / (direction * ahead);
-  const double speed = direction * std::abs(input.state.speed);
-  // A slip angle of SteadyTurnOn is the ratio of the lateral to the longitudinal speed.
-  return std::atan(SteadyTurnOn(input.vehicle, curvature, speed).heading_error);
-}
-
-class Preview final : public SteeringController {
- public:
-  explicit Preview(const PreviewOptions& options) : options_(options) {}
-
-  double Steer(const ControlInput& input) override {
-    const double shortest = options_.distance ? *options_.distance : planned_.Next(input);
-    const double distance =
-        std::max({shortest, options_.time * std::abs(input.state.speed), ReturnDistance(input)});
-    const double angle =
-        PreviewAngle(input.reference.path, input.state.pose, input.station, distance);
-    if (const std::optional<double> steering = turn_round_.Steer(input, angle)) {
-      return *steering;
-    }
-    const int direction = input.reference.path.BendAt(input.station).direction;
-    // In the steady turn, the heading differs from the direction of motion.
-    const double u = angle + (options_.slip ? SteadyHeading(input, direction) : 0.0);
-    // In reverse gear, steering to the right turns the direction of motion to the left.
-    const double bend =
-        direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
-    const double limit = input.vehicle.steering_limit;
-    return std::clamp(SteeringOn(input, bend, direction), -limit, limit);
-  }
-
- private:
-  /// Returns the steering angle delta for a curvature [rad].
-  [[nodiscard]] double SteeringOn(const ControlInput& input, double curvature,
-                                  int direction) const {
-    const double speed = direction * std::abs(input.state.speed);
-    const SteadyTurn turn = options_.slip ? SteadyTurnOn(input.vehicle, curvature, speed)
-                                          : TurnWithoutSlip(input.vehicle, curvature, speed);
-    return options_.law == PreviewLaw::kLinear ? std::tan(turn.steering) : turn.steering;
-  }
-
-  PreviewOptions options_;
-  HeldPreviewDistance planned_;
-  TurnRound turn_round_;
-};
-
-/// Returns the station of the first path point after `station` that is `distance` away from the
-/// point `p`.
-double PreviewStation(const Path& path, const Vec2& p, double station, double distance) {
+/// Returns the station of the first point of `path` after `station` that is `distance` away from
+/// the point `p`. `path` is a Path or a RampedPath.
+template <typename SomePath>
+double PreviewStation(const SomePath& path, const Vec2& p, double station, double distance) {
   const auto beyond = [&](double s) { return (path.At(s).pose.position() - p).norm() - distance; };
   if (beyond(station) >= 0.0) {
     return station + distance;
@@ -92,23 +38,97 @@ double PreviewStation(const Path& path, const Vec2& p, double station, double di
   return 0.5 * (low + high);
 }
 
+/// Returns the preview angle u [rad], as PreviewAngle. `direction` is that of the path at
+/// `station`.
+template <typename SomePath>
+double AngleTo(const SomePath& path, int direction, const Pose2& pose, double station,
+               double distance) {
+  const double s = PreviewStation(path, pose.position(), station, distance);
+  // In reverse, the direction of motion is opposite to the heading.
+  const Vec2 to_point = direction * ToLocal(pose, path.At(s).pose.position());
+  return std::atan2(to_point.y(), to_point.x());
+}
+
+class Preview final : public SteeringController {
+ public:
+  explicit Preview(const PreviewOptions& options) : options_(options) {}
+
+  double Steer(const ControlInput& input) override {
+    const VehicleParams& vehicle = input.vehicle;
+    const double speed = std::abs(input.state.speed);
+    const double shortest =
+        options_.distance.value_or(ShortestPreview(vehicle, input.state.speed, input.period));
+    const double least = std::max(shortest, options_.time * speed);
+    // A point of the path at the distance R has a station of at most R ahead on a straight path,
+    // and of less than 2 R in a turn of up to 200 degrees.
+    path_.Update(input, std::max(TimelySteering::Horizon(input),
+                                 2.0 * std::max(least, ReturnDistance(input))));
+    const Tracking tracking = path_.Track();
+    const double distance = std::max(least, ReturnDistance(vehicle, speed, tracking.cross_track));
+    const int direction = tracking.foot.direction;
+    const Pose2& pose = input.state.pose;
+    const double angle = AngleTo(path_, direction, pose, input.station, distance);
+    if (const std::optional<double> steering = turn_round_.Steer(input, angle)) {
+      return *steering;
+    }
+    const bool slip = options_.slip && HasTyres(vehicle);
+    const double slip_angle = slip ? SlipAngle(input, direction, distance) : 0.0;
+    const Vec2 to_left(-std::sin(tracking.foot.pose.yaw), std::cos(tracking.foot.pose.yaw));
+    const auto law = [&](const GainedErrors& gained) {
+      const Vec2 position = pose.position() + gained.cross_track * to_left;
+      const Pose2 later{position.x(), position.y(), pose.yaw + gained.heading};
+      const double u = AngleTo(path_, direction, later, input.station, distance) + slip_angle;
+      // In reverse gear, steering to the right turns the direction of motion to the left.
+      const double bend =
+          direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
+      const double limit = vehicle.steering_limit;
+      return std::clamp(SteeringOn(input, bend, direction), -limit, limit);
+    };
+    return options_.distance ? law({}) : timely_.Steer(input, path_, slip, std::cref(law));
+  }
+
+ private:
+  /// Returns the angle [rad] from the car's axis to the direction of motion of its rear axle, in
+  /// the steady turn of the arc to the preview point. If the curvature of a path changes evenly,
+  /// this arc has the curvature of the path a third of the distance ahead.
+  [[nodiscard]] double SlipAngle(const ControlInput& input, int direction, double distance) const {
+    PathPoint point = path_.At(input.station + distance / 3.0);
+    if (point.direction != direction) {
+      point = path_.At(input.station);
+    }
+    const double speed = direction * std::abs(input.state.speed);
+    // A slip angle of SteadyTurnOn is the ratio of the lateral to the longitudinal speed.
+    return std::atan(SteadyTurnOn(input.vehicle, point.curvature, speed).heading_error);
+  }
+
+  /// Returns the steering angle delta for a curvature [rad].
+  [[nodiscard]] double SteeringOn(const ControlInput& input, double curvature,
+                                  int direction) const {
+    const double speed = direction * std::abs(input.state.speed);
+    const SteadyTurn turn = options_.slip ? SteadyTurnOn(input.vehicle, curvature, speed)
+                                          : TurnWithoutSlip(input.vehicle, curvature, speed);
+    return options_.law == PreviewLaw::kLinear ? std::tan(turn.steering) : turn.steering;
+  }
+
+  PreviewOptions options_;
+  RampedPath path_;
+  TimelySteering timely_;
+  TurnRound turn_round_;
+};
+
 }  // namespace
 
 double PreviewAngle(const Path& path, const Pose2& pose, double station, double distance) {
   TRACKBED_REQUIRE(distance > 0.0 && std::isfinite(distance) && std::isfinite(station),
                    "PreviewAngle: {} m ahead of station {} m; must be finite, ahead", distance,
                    station);
-  const double s = PreviewStation(path, pose.position(), station, distance);
-  // In reverse, the direction of motion is opposite to the heading.
-  const Vec2 to_point = path.BendAt(station).direction * ToLocal(pose, path.At(s).pose.position());
-  return std::atan2(to_point.y(), to_point.x());
+  return AngleTo(path, path.BendAt(station).direction, pose, station, distance);
 }
 
 void Visit(KeyVisitor& keys, PreviewOptions& options) {
-  keys.Field(
-      {"distance", "m",
-       "minimum lookahead distance ahead of the rear axle; default: from car, speed and path"},
-      options.distance, kAhead);
+  keys.Field({"distance", "m",
+              "minimum lookahead distance ahead of the rear axle; default: from car and speed"},
+             options.distance, kAhead);
   keys.Field(kAheadTime, options.time, Need::kOptional, kNonNegative);
   static const EnumNames<PreviewLaw> laws{{PreviewLaw::kLinear, "linear"},
                                           {PreviewLaw::kExactArc, "exact_arc"}};

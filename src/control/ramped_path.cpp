@@ -54,10 +54,6 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
   input_ = &input;
   steps_.clear();
   const VehicleParams& vehicle = input.vehicle;
-  const SpeedProfile& planned = input.reference.speed;
-  const double speed = std::abs(input.state.speed);
-  const bool has_speeds = !planned.knots().empty();
-  const double excess = has_speeds ? speed - planned.SpeedAt(input.station) : 0.0;
   const auto steering = [&](double curvature) {
     return std::clamp(SteeringForCurvature(vehicle, curvature), -vehicle.steering_limit,
                       vehicle.steering_limit);
@@ -96,9 +92,9 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
       if (before.direction != segment.direction) {
         end_leg();
       } else if (const double end = before.CurvatureAt(before.length); end != segment.curvature) {
-        const double v = has_speeds ? std::max(planned.SpeedAt(station) + excess, 0.0) : speed;
-        const double ramp =
-            v * std::abs(steering(segment.curvature) - steering(end)) / vehicle.steering_rate;
+        const double ramp = SpeedAt(station) *
+                            std::abs(steering(segment.curvature) - steering(end)) /
+                            vehicle.steering_rate;
         const double reach = (0.5 + kTail) * ramp;
         if (station + reach > input.station && station - reach < last) {
           steps_.push_back({.station = station,
@@ -132,6 +128,15 @@ PathPoint RampedPath::At(double s) const {
     point.curvature += step.height * bend;
   }
   return point;
+}
+
+double RampedPath::SpeedAt(double s) const {
+  const SpeedProfile& planned = input_->reference.speed;
+  const double speed = std::abs(input_->state.speed);
+  if (planned.knots().empty()) {
+    return speed;
+  }
+  return std::max(planned.SpeedAt(s) + speed - planned.SpeedAt(input_->station), 0.0);
 }
 
 Tracking RampedPath::Track() const {

@@ -34,14 +34,17 @@ namespace trackbed {
 class RampedPath {
  public:
   /// Finds the steps that act between the car's station and `ahead` [m] beyond it. The speed v at a
-  /// step is the planned one, plus the amount by which the car now exceeds its plan. `input` must
-  /// outlive the other calls. Takes heap memory only if the path has more segments than each
-  /// before. Cost O(n) for a path of n segments.
+  /// step is SpeedAt. `input` must outlive the other calls. Takes heap memory only if the path has
+  /// more segments than each before. Cost O(n) for a path of n segments.
   void Update(const ControlInput& input, double ahead);
 
   /// Returns the ramped path's point beside station `s` of the path, which is between the stations
   /// of Update.
   [[nodiscard]] PathPoint At(double s) const;
+
+  /// Returns the speed [m/s] at which the car passes station `s`: the planned one, plus the amount
+  /// by which the car now exceeds its plan. Without a plan, it is the car's present speed.
+  [[nodiscard]] double SpeedAt(double s) const;
 
   /// Returns the position of the car relative to the ramped path.
   [[nodiscard]] Tracking Track() const;

@@ -146,7 +146,7 @@ TEST(RampedPath, PassesThroughEndsAndCusps) {
 class FollowerOfSteps : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Laws, FollowerOfSteps,
-                         testing::Values("lqr", "stanley", "rear_axle_feedback"),
+                         testing::Values("lqr", "stanley", "rear_axle_feedback", "preview"),
                          [](const auto& law) { return std::string(law.param); });
 
 TEST_P(FollowerOfSteps, StaysOnATurnLeftAndATurnRight) {

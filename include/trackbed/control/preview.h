@@ -26,34 +26,39 @@ enum class PreviewLaw {
 ///
 /// With a long preview distance R, the car cuts corners; on a circle of radius r, the car drives
 /// R^2/(8 r) further inside. With a short preview distance, the control is less robust to the
-/// limited steering rate. If the option `distance` is not given, R is computed from the car, its
-/// speed and the path:
-///   R = max(3/4 L,  3 v T,  0.65 S + v T).
+/// limited steering rate. If the option `distance` is not given, R is computed
+/// from the car and its speed:
+///   R = max(3/4 L,  3 v T).
 /// The response time T [s] is the sum of the control period, the steering lag, and the response
-/// time of the tyres. The latter is m v/(C_f + C_r), or 0 for a car without tyre coefficients. S
-/// [m] is the distance by which the rate-limited steering lags behind the path. S is the largest
-/// value of v abs(delta(s_2) - delta(s_1))/omega - (s_2 - s_1) for any two stations s_1 < s_2
-/// within R, with delta = atan(L kappa) of the path. The other symbols are L wheelbase [m], v speed
-/// [m/s], omega steering rate [rad/s], C_f, C_r cornering stiffnesses of the axles [N/rad], and m
-/// mass [kg]. Relative to the size of car and path, the tracking error depends only on v/(L omega)
-/// and v T/L. The page docs/algorithms/control.md has the derivation and the sources.
+/// time m v/(C_f + C_r) of the tyres, which is 0 for a car without tyre coefficients. The other
+/// symbols are L wheelbase [m], v speed [m/s], omega steering rate [rad/s], C_f, C_r cornering
+/// stiffnesses of the axles [N/rad], and m mass [kg]. The page docs/algorithms/control.md has the
+/// derivation and the sources.
 ///
-/// The formula for the preview distance R suits a car on its path. For a car at an offset e from
-/// the path, a distance R from the formula would require a higher steering rate than the car has.
-/// The car would then oscillate about the path. To avoid such oscillations, R is at least 1.5
-/// cbrt(e L v/omega).
+/// Wheels with a limited rate cannot follow a step of the path's curvature. The preview point
+/// therefore lies on a path whose steps are ramps. A car with a limited rate can drive the ramped
+/// path. It leaves the given path by at most kappa S^2/24, where kappa is the height of the step
+/// and S the distance driven while the wheels turn.
+///
+/// Without `distance`, the wheels turn no further than they can turn back in time: the angle is
+/// that of the law for the errors that the car will have when its wheels, turning at their full
+/// rate, have returned to the steering of the path. Beside a straight path, this bound acts on
+/// large deviations alone. Where the path itself turns the wheels at their full rate, it prevents
+/// that the car overshoots from one side to the other. With `distance`, the law is the textbook's.
+///
+/// For a car at an offset e from the path, R must be longer, or the car would oscillate about the
+/// path. R is therefore at least 1.5 cbrt(e L v/omega).
 struct PreviewOptions {
-  /// Shortest preview distance R [m], > 0; by default computed from the car, its speed and the
-  /// path.
+  /// Shortest preview distance R [m], > 0; by default computed from the car and its speed.
   std::optional<double> distance;
   /// Minimum preview time [s]: the preview distance R is at least `time` times |v|.
   double time = 0.0;
   PreviewLaw law = PreviewLaw::kExactArc;
-  /// Whether to account for tyre slip. If true, the steering angle is that of the steady turn on
-  /// tyres. The preview angle u is then measured from the direction in which the rear axle moves in
-  /// this turn. Without slip, understeer reduces the gain of the law: a 1:10 car at 30 m/s then
-  /// reaches an eighth of the wanted curvature. A car whose rear axle has never moved sideways has
-  /// no slip.
+  /// Whether to account for tyre slip: if true, the steering angle is that of the steady turn on
+  /// tyres, and the preview angle u is measured from the direction in which the rear axle moves in
+  /// the steady turn on the path. Without slip, understeer reduces the gain of the law: a 1:10 car
+  /// at 30 m/s then reaches an eighth of the wanted curvature. A car whose rear axle has never
+  /// moved sideways has no slip.
   bool slip = true;
 };
 void Visit(KeyVisitor& keys, PreviewOptions& options);
