@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/planning/curves/leg_speeds.h"
+#include "trackbed/planning/common/driving_time.h"
 #include "trackbed/planning/common/feasibility.h"
 
 namespace trackbed {
@@ -18,26 +18,6 @@ namespace {
 constexpr double kMostTime = 1.2;
 
 }  // namespace
-
-double DrivingTime(const Plan& plan, const VehicleParams& vehicle) {
-  const Path& path = plan.reference.path;
-  const std::vector<Segment>& segments = path.segments();
-  const auto stops = [&](double station) {
-    constexpr double kSameStation = 1e-6;  // [m]
-    return std::any_of(plan.stops.begin(), plan.stops.end(),
-                       [&](double stop) { return std::abs(stop - station) < kSameStation; });
-  };
-  double time = plan.Duration();
-  double station = 0.0;
-  for (std::size_t i = 1; i < segments.size(); ++i) {
-    const Segment& before = segments[i - 1];
-    station += before.length;
-    if (before.direction != segments[i].direction || stops(station)) {
-      time += SteeringTime(vehicle, before, segments[i]);
-    }
-  }
-  return time;
-}
 
 Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request) {
   // A plan that keeps the limits only if the request allows to exceed them does not fit.

@@ -5,9 +5,6 @@
 /// Chooses between a path of continuous curvature and one with steps.
 namespace trackbed {
 
-/// Returns the driving time of a plan, with the time in which the wheels turn at rest [s].
-double DrivingTime(const Plan& plan, const VehicleParams& vehicle);
-
 /// Returns the plan `continuous` unless the car cannot drive it, or drives the plan `steps` in much
 /// less time. The latter happens on short legs where the car can only turn its wheels at rest. A
 /// plan with steps gets a note that says why. If the car can drive neither of the plans, returns

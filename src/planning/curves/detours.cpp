@@ -15,9 +15,9 @@
 #include <limits>
 #include <utility>
 
-#include "src/planning/curves/continuous_or_steps.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/fewer_corners.h"
+#include "trackbed/planning/common/plan_comparison.h"
 #include "trackbed/planning/common/waypoint_miss.h"
 
 namespace trackbed {
@@ -82,27 +82,6 @@ std::vector<Pose2> WithShortestHeadings(std::vector<Pose2> stops, double radius,
   return stops;
 }
 
-double LengthOf(const Plan& plan) {
-  return plan.ok() ? plan.reference.path.length() : std::numeric_limits<double>::infinity();
-}
-
-/// Whether a path is longer than the lines between the waypoints by the smallest turning radius.
-bool IsDetour(const Plan& plan, const PlanRequest& request) {
-  Vec2 at = request.start.position();
-  double straight = 0.0;
-  for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
-    straight += (request.waypoints[i] - at).norm();
-    at = request.waypoints[i];
-  }
-  return LengthOf(plan) >= straight + request.vehicle.min_turning_radius();
-}
-
-/// Whether a plan is shorter by the smallest turning radius, and not slower.
-bool IsBetter(const Plan& plan, const Plan& best, const VehicleParams& car) {
-  return plan.ok() && (!best.ok() || (LengthOf(plan) + car.min_turning_radius() <= LengthOf(best) &&
-                                      DrivingTime(plan, car) <= DrivingTime(best, car)));
-}
-
 class DetourPlanner {
  public:
   DetourPlanner(const PlanRequest& request, const CurveLength& length,
@@ -138,14 +117,14 @@ class DetourPlanner {
       request.headings.push_back(stop.yaw);
     }
     Plan other = plan_(request);
-    if (IsBetter(other, best, request_.vehicle)) {
+    if (IsShorterAndNotSlower(other, best, request_.vehicle)) {
       best = std::move(other);
     }
   }
 
   void TryFewerWaypoints(Plan& best) const {
     std::vector<Vec2> tried = request_.waypoints;
-    const double with_all = LengthOf(best);
+    const double with_all = PlanLength(best);
     for (const double room : {1.0, 4.0, 16.0}) {
       const double near = kUnnoticedShareOfWidth * request_.vehicle.width;
       std::vector<Vec2> fewer = LeaveOutCloseWaypoints(
@@ -166,9 +145,9 @@ class DetourPlanner {
       TryOtherHeadings(plan, request);
       const auto miss =
           plan.ok() ? LargestWaypointMiss(plan.reference.path, request_.waypoints) : std::nullopt;
-      if (miss && miss->distance <= near && IsBetter(plan, best, request_.vehicle)) {
+      if (miss && miss->distance <= near && IsShorterAndNotSlower(plan, best, request_.vehicle)) {
         best = std::move(plan);
-        best.notes.push_back(DescribeLeftOut(request.waypoints, *miss, with_all, LengthOf(best)));
+        best.notes.push_back(DescribeLeftOut(request.waypoints, *miss, with_all, PlanLength(best)));
       }
     }
   }
@@ -195,11 +174,11 @@ class DetourPlanner {
     PlanRequest request = request_;
     request.start_speed = 0.0;
     const Plan at_rest = plan_(request);
-    if (IsBetter(at_rest, best, request_.vehicle)) {
+    if (IsShorterAndNotSlower(at_rest, best, request_.vehicle)) {
       best.notes.push_back(
           fmt::format("the path is {:.4g} m long, because the car starts at {:.3g} m/s; with "
                       "mission.start.speed: 0, it is {:.4g} m long",
-                      LengthOf(best), request_.start_speed, LengthOf(at_rest)));
+                      PlanLength(best), request_.start_speed, PlanLength(at_rest)));
     }
   }
 
@@ -214,41 +193,6 @@ class DetourPlanner {
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
                     const std::function<Plan(const PlanRequest&)>& plan) {
   return DetourPlanner(request, length, plan).Make();
-}
-
-Plan WithLessCornerRoom(const PlanRequest& request, double corner_room,
-                        const std::function<Plan(const PlanRequest&, double)>& plan) {
-  Plan best = plan(request, corner_room);
-  if (request.max_samples < kMaxSamples) {
-    return best;
-  }
-  PlanRequest left = request;
-  for (const double share : {0.3, 0.0}) {
-    const PlanStatus status = best.status;
-    const bool may_help =
-        best.ok() ? best.partial.empty() && IsDetour(best, request)
-                  : status == PlanStatus::kNoPath || status == PlanStatus::kTurnTooTight ||
-                        status == PlanStatus::kCollides || status == PlanStatus::kBudgetUsedUp ||
-                        status == PlanStatus::kStartBlocked;
-    left.max_samples = request.max_samples - best.diagnostics.samples;
-    if (!may_help || corner_room == 0.0 || request.obstacles.empty() || left.max_samples <= 0) {
-      break;
-    }
-    Plan own = plan(left, share * corner_room);
-    const long samples = best.diagnostics.samples + own.diagnostics.samples;
-    if (own.partial.empty() && IsBetter(own, best, request.vehicle)) {
-      own.notes.push_back(fmt::format(
-          "corner_room is reduced from {:.3g} m to {:.3g} m: {}", corner_room, share * corner_room,
-          best.ok() ? fmt::format("the path is {:.4g} m long instead of {:.4g} m", LengthOf(own),
-                                  LengthOf(best))
-                    : "with more, there is no path"));
-      best = std::move(own);
-      best.diagnostics.samples = samples;
-      break;
-    }
-    best.diagnostics.samples = samples;
-  }
-  return best;
 }
 
 }  // namespace trackbed

@@ -25,14 +25,4 @@ using CurveLength = std::function<double(const Pose2&, const Pose2&, double)>;
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
                     const std::function<Plan(const PlanRequest&)>& plan);
 
-/// Returns the plan of `plan` with the clearance `corner_room` for rounded corners [m], or with 0.3
-/// or none of it. Less clearance is tried if there is no path, as around a gate that the car fits
-/// through. It is also tried if the path is longer than the straight lines between the waypoints by
-/// the car's smallest turning radius or more. It is taken only if it makes a path possible, or the
-/// path shorter by this radius or more and not slower. A note then says so. Costs one plan if
-/// `corner_room` is 0 or the request allows fewer samples than by default, as for detours;
-/// otherwise up to three.
-Plan WithLessCornerRoom(const PlanRequest& request, double corner_room,
-                        const std::function<Plan(const PlanRequest&, double corner_room)>& plan);
-
 }  // namespace trackbed

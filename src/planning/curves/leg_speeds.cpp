@@ -38,13 +38,6 @@ double PieceTime(const SpeedLimits& limits, double length, double from, double t
 
 }  // namespace
 
-double SteeringTime(const VehicleParams& vehicle, const Segment& before, const Segment& after) {
-  const double steering =
-      std::abs(SteeringForCurvature(vehicle, after.curvature) -
-               SteeringForCurvature(vehicle, before.CurvatureAt(before.length)));
-  return steering / vehicle.steering_rate;
-}
-
 std::vector<LegPiece> LegPieces(const LegLimits& limits, const std::vector<Segment>& segments,
                                 double least) {
   constexpr int kParts = 8;  // of a clothoid; the speed on a part is within 6 % of the limit

@@ -27,10 +27,6 @@ struct LegPiece {
   bool stops = false;   // the car changes its direction of motion before the piece
 };
 
-/// Returns the time that the wheels need to turn from the end of a segment to the start of the next
-/// one [s].
-double SteeringTime(const VehicleParams& vehicle, const Segment& before, const Segment& after);
-
 /// Splits segments into pieces, clothoids into eight of equal length. The speed of a piece is the
 /// largest that keeps the limits at its ends, but at least `least`.
 std::vector<LegPiece> LegPieces(const LegLimits& limits, const std::vector<Segment>& segments,

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/planning/curves/detours.h"
 #include "src/planning/sampling/prune_waypoints.h"
 #include "src/planning/sampling/sampling_task.h"
 #include "trackbed/geometry/box_index.h"
+#include "trackbed/planning/common/corner_room.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/lead_in.h"
 #include "trackbed/planning/common/route.h"

@@ -7,10 +7,10 @@
 #include <limits>
 #include <optional>
 
-#include "src/planning/curves/detours.h"
 #include "src/planning/sampling/prune_waypoints.h"
 #include "src/planning/sampling/sampling_task.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/common/corner_room.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/sampling/comparator.h"

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "src/planning/curves/detours.h"
 #include "src/planning/sampling/sampling_task.h"
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/box_index.h"
+#include "trackbed/planning/common/corner_room.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/route.h"
 

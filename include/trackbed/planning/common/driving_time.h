@@ -1,0 +1,16 @@
+#pragma once
+
+#include "trackbed/planning/common/planner.h"
+
+/// Times of driving a plan and of turning the wheels.
+namespace trackbed {
+
+/// Returns the time that the wheels need to turn from the end of a segment to the start of the next
+/// one [s].
+[[nodiscard]] double SteeringTime(const VehicleParams& vehicle, const Segment& before,
+                                  const Segment& after);
+
+/// Returns the driving time of a plan, with the time in which the wheels turn at rest [s].
+[[nodiscard]] double DrivingTime(const Plan& plan, const VehicleParams& vehicle);
+
+}  // namespace trackbed

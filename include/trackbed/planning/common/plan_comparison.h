@@ -1,0 +1,20 @@
+#pragma once
+
+#include "trackbed/planning/common/planner.h"
+
+/// Compares plans by length and driving time.
+namespace trackbed {
+
+/// Returns the length of the planned path [m]; infinity if there is no path.
+[[nodiscard]] double PlanLength(const Plan& plan);
+
+/// Returns whether the path is longer than the straight lines from the start through the waypoints
+/// by the car's smallest turning radius or more. A refused plan is a detour.
+[[nodiscard]] bool IsDetour(const Plan& plan, const PlanRequest& request);
+
+/// Returns whether `plan` is shorter than `best` by the car's smallest turning radius or more, and
+/// takes no longer to drive. Every path is better than a refusal.
+[[nodiscard]] bool IsShorterAndNotSlower(const Plan& plan, const Plan& best,
+                                         const VehicleParams& car);
+
+}  // namespace trackbed
