@@ -148,12 +148,25 @@ class CornerChoice {
     return corner.tangent <= room && (!is_waypoint_[at] || corner.gap <= limits_.max_gap);
   }
 
+  /// Whether the turn from the car's heading to the first leg fits on half of this leg.
+  [[nodiscard]] bool FitsAtStart(std::size_t to) const {
+    if (!limits_.start_yaw) {
+      return true;
+    }
+    const Vec2 leg = points_[to] - points_[0];
+    const double turn = std::abs(WrapAngle(std::atan2(leg.y(), leg.x()) - *limits_.start_yaw));
+    return limits_.room(turn).tangent <= 0.5 * leg.norm();
+  }
+
   [[nodiscard]] Leg CheapestLeg(std::size_t from, std::size_t to) const {
     const std::optional<Cost> own = LeftOut(from, to);
     if (!own) {
       return {};
     }
     Leg best{.exists = from == 0, .cost = *own};
+    if (from == 0 && !FitsAtStart(to)) {
+      best.cost.tight += 1;
+    }
     for (std::size_t before = from; before-- > 0;) {
       const Leg& leg = LegBetween(before, from);
       if (!leg.exists) {

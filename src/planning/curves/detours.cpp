@@ -2,8 +2,8 @@
 //
 // 1. The headings of the shortest route: dynamic programming over sixteen directions, and the
 //    default one, at each waypoint. Start and goal keep their headings.
-// 2. Fewer waypoints: LeaveOutCloseWaypoints for corners of several radii, because curves of
-//    continuous curvature need more room than arcs, and more the faster the car is.
+// 2. Fewer waypoints: LeaveOutCloseWaypoints with the room that curves of continuous curvature need
+//    at four speeds. The quickest of the shorter paths, or of those with fewer stops, is chosen.
 // The shortest path of bounded curvature through a sequence of points is the problem of Goaoc, Kim
 // and Lazard 2013, who solve it by convex optimization for distant points.
 #include "src/planning/curves/detours.h"
@@ -13,9 +13,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "trackbed/core/angle.h"
+#include "trackbed/planning/common/driving_time.h"
+#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/fewer_corners.h"
 #include "trackbed/planning/common/plan_comparison.h"
 #include "trackbed/planning/common/waypoint_miss.h"
@@ -82,6 +85,16 @@ std::vector<Pose2> WithShortestHeadings(std::vector<Pose2> stops, double radius,
   return stops;
 }
 
+/// Returns the number of places between start and goal at which the car stops.
+std::size_t Stops(const Plan& plan) {
+  std::size_t count = plan.stops.size();
+  const std::vector<Segment>& segments = plan.reference.path.segments();
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    count += segments[i].direction != segments[i - 1].direction ? std::size_t{1} : std::size_t{0};
+  }
+  return count;
+}
+
 class DetourPlanner {
  public:
   DetourPlanner(const PlanRequest& request, const CurveLength& length,
@@ -94,7 +107,7 @@ class DetourPlanner {
   [[nodiscard]] Plan Make() {
     Plan best = plan_(request_);
     if (request_.waypoints.size() < 2 || best.status == PlanStatus::kDuplicateWaypoints ||
-        !IsDetour(best, request_)) {
+        !HasDetour(best)) {
       return best;
     }
     if (request_.headings.empty() && request_.waypoints.size() > 2) {
@@ -106,6 +119,28 @@ class DetourPlanner {
   }
 
  private:
+  [[nodiscard]] bool HasDetour(const Plan& plan) const {
+    return IsDetour(plan, request_) || Stops(plan) > 0 || !IsDrivable(plan);
+  }
+
+  /// Whether the car can drive a plan from its start speed, if need be more slowly.
+  [[nodiscard]] bool IsDrivable(const Plan& plan) const {
+    PlanRequest request = request_;
+    request.infeasible = InfeasiblePolicy::kSlowDown;
+    return plan.ok() && MakeFeasible(plan, request).ok();
+  }
+
+  /// Whether only this plan is drivable; if both are, whether it is shorter by the smallest turning
+  /// radius, or stops less often, and takes no longer to drive.
+  [[nodiscard]] bool IsBetter(const Plan& plan, const Plan& best) const {
+    if (const bool drivable = IsDrivable(plan); drivable != IsDrivable(best)) {
+      return drivable;
+    }
+    return IsShorterAndNotSlower(plan, best, request_.vehicle) ||
+           (plan.ok() && best.ok() && Stops(plan) < Stops(best) &&
+            DrivingTime(plan, request_.vehicle) <= DrivingTime(best, request_.vehicle));
+  }
+
   /// Replaces `best` by a shorter plan for the request with other headings.
   void TryOtherHeadings(Plan& best, PlanRequest request) const {
     const std::vector<Pose2> stops = PlannedStops(request);
@@ -117,24 +152,24 @@ class DetourPlanner {
       request.headings.push_back(stop.yaw);
     }
     Plan other = plan_(request);
-    if (IsShorterAndNotSlower(other, best, request_.vehicle)) {
+    if (IsBetter(other, best)) {
       best = std::move(other);
     }
   }
 
   void TryFewerWaypoints(Plan& best) const {
     std::vector<Vec2> tried = request_.waypoints;
-    const double with_all = PlanLength(best);
-    for (const double room : {1.0, 4.0, 16.0}) {
+    std::optional<Plan> fewest;
+    const double fastest = std::max(request_.speed.speed, request_.start_speed);
+    for (const double share : {0.25, 0.5, 1.0, 2.0}) {
       const double near = kUnnoticedShareOfWidth * request_.vehicle.width;
       std::vector<Vec2> fewer = LeaveOutCloseWaypoints(
           request_.waypoints, {.waypoints = request_.waypoints,
                                .max_gap = near,
-                               .room = [&](double turn) -> CornerRoom {
-                                 return {.tangent = room * radius_ * std::tan(0.5 * turn),
-                                         .gap = 0.0};
-                               },
-                               .keeps_first_direction = false});
+                               .room = [&](double turn) { return RoomOf(turn, share * fastest); },
+                               .end_share = 0.5,
+                               .keeps_first_direction = false,
+                               .start_yaw = request_.start.yaw});
       if (fewer == tried || fewer == request_.waypoints) {
         continue;
       }
@@ -145,25 +180,56 @@ class DetourPlanner {
       TryOtherHeadings(plan, request);
       const auto miss =
           plan.ok() ? LargestWaypointMiss(plan.reference.path, request_.waypoints) : std::nullopt;
-      if (miss && miss->distance <= near && IsShorterAndNotSlower(plan, best, request_.vehicle)) {
-        best = std::move(plan);
-        best.notes.push_back(DescribeLeftOut(request.waypoints, *miss, with_all, PlanLength(best)));
+      if (miss && miss->distance <= near && IsBetter(plan, best) &&
+          (!fewest ||
+           DrivingTime(plan, request_.vehicle) < DrivingTime(*fewest, request_.vehicle))) {
+        plan.notes.push_back(DescribeLeftOut(request.waypoints, *miss, best, plan));
+        fewest = std::move(plan);
       }
+    }
+    if (fewest) {
+      best = *std::move(fewest);
     }
   }
 
+  /// Returns the room of a corner at a speed [m/s]: the tangent of an arc, or half of a leg on
+  /// which the car corrects a heading error e without leaving the leg at its ends. Two triangular
+  /// lobes of curvature of opposite signs do so, whose lengths have the golden ratio phi. With the
+  /// sharpness sigma, they need a leg of length sqrt(4 phi^3 e/sigma).
+  [[nodiscard]] CornerRoom RoomOf(double turn, double speed) const {
+    const VehicleParams& car = request_.vehicle;
+    const double sharpness = car.steering_rate / (car.wheelbase * speed);
+    const double phi = std::numbers::phi;
+    return {.tangent = std::max(radius_ * std::tan(0.5 * turn),
+                                std::sqrt(phi * phi * phi * turn / sharpness)),
+            .gap = 0.0};
+  }
+
   [[nodiscard]] std::string DescribeLeftOut(const std::vector<Vec2>& kept, const WaypointMiss& miss,
-                                            double with_all, double length) const {
+                                            const Plan& all, const Plan& plan) const {
     const std::size_t left_out = request_.waypoints.size() - kept.size();
     return fmt::format(
         "{} left out, because {}; the path passes {} at {:.3g} m; to drive through every waypoint, "
         "set mission.headings",
         left_out == 1 ? "1 waypoint is" : fmt::format("{} waypoints are", left_out),
-        std::isfinite(with_all) ? fmt::format("the path through all waypoints would be {:.4g} m "
-                                              "long instead of {:.4g} m",
-                                              with_all, length)
-                                : "no path leads through all waypoints",
-        DescribeWaypoint(miss.waypoint, miss.at), miss.distance);
+        WhyLeftOut(all, plan), DescribeWaypoint(miss.waypoint, miss.at), miss.distance);
+  }
+
+  [[nodiscard]] std::string WhyLeftOut(const Plan& all, const Plan& plan) const {
+    if (!IsDrivable(all)) {
+      return all.ok() ? "the car cannot drive the path through all waypoints at its start speed"
+                      : "no path leads through all waypoints";
+    }
+    const double length = PlanLength(plan);
+    if (length + radius_ <= PlanLength(all)) {
+      return fmt::format(
+          "the path through all waypoints would be {:.4g} m long instead of {:.4g} m",
+          PlanLength(all), length);
+    }
+    return fmt::format(
+        "the path through all waypoints would stop {} instead of {} times between "
+        "start and goal",
+        Stops(all), Stops(plan));
   }
 
   /// Adds a note if a car at rest would not drive the detour.

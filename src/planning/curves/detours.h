@@ -13,15 +13,16 @@ using CurveLength = std::function<double(const Pose2&, const Pose2&, double)>;
 
 /// Returns the plan of `plan` for the request, or a plan without detours. A detour is a path that
 /// is longer than the straight lines between the waypoints by the car's smallest turning radius or
-/// more. If the request has no headings, the function tries these remedies against a
-/// detour or a refusal:
+/// more, that stops between start and goal, or that the car cannot drive from its start speed. If
+/// the request has no headings, the function tries these remedies against a detour or a refusal:
 /// * other headings at the waypoints between start and goal: those of the shortest curves among
 ///   sixteen directions at each waypoint;
 /// * fewer waypoints: those within a quarter of the car's width from the lines between the others
 ///   are left out, if the path passes them within this distance. A note names them.
-/// A remedy is taken only if the path becomes shorter by this radius or more, and not slower. If a
-/// detour is left that a car at rest would not drive, a note says so, with the length from rest.
-/// Costs one plan if there is no detour, otherwise up to nine.
+/// A remedy is taken only if the path becomes shorter by this radius or more, or has fewer stops
+/// because waypoints are left out, and if it takes no longer to drive. If a longer path is left
+/// that a car at rest would not drive, a note says so, with the length from rest. Costs one plan if
+/// there is no detour, otherwise up to eleven.
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
                     const std::function<Plan(const PlanRequest&)>& plan);
 

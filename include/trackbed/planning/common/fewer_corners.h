@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "trackbed/planning/common/corners.h"
@@ -23,6 +24,9 @@ struct WaypointChoice {
   double end_share = 1.0;
   /// Whether the first leg keeps its direction, as for a car that starts straight along it.
   bool keeps_first_direction = true;
+  /// Heading of the car at the start [rad], if the path begins with a turn from this heading to the
+  /// first leg. The turn needs the room of a corner.
+  std::optional<double> start_yaw;
 };
 
 /// Share of the car's width within which a path passes a point unnoticed.
