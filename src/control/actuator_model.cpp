@@ -263,9 +263,11 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
   /// Returns the angle that the control law wants in the predicted `state` of the car, within
   /// AllowedSteering.
   double SteerWithin(const ControlInput& input, const VehicleState& state) {
-    const SteeringRange range = AllowedSteering(vehicle_, state);
+    ControlInput ahead = Ahead(input, state);
+    const double curvature = input.reference.path.BendAt(ahead.station).curvature;
+    const SteeringRange range = AllowedSteering(vehicle_, state, curvature);
     vehicle_.steering_limit = std::max(-range.lowest, range.highest);
-    return std::clamp(inner_->Steer(Ahead(input, state)), range.lowest, range.highest);
+    return std::clamp(inner_->Steer(ahead), range.lowest, range.highest);
   }
 
   /// Returns the inputs of the controller for the predicted `state` of the car.

@@ -59,8 +59,9 @@ double SteeringAtGrip(const VehicleParams& vehicle, double speed) {
   return SteeringAt(vehicle, speed, LateralGrip(vehicle));
 }
 
-double SteeringInAStep(const VehicleParams& vehicle, double speed) {
-  const double allowed = std::min(LateralGrip(vehicle), kRollShare * RigidRollOver(vehicle));
+double SteeringInAStep(const VehicleParams& vehicle, double speed, double held) {
+  const double rolling = kRollShare * RigidRollOver(vehicle) + (1.0 - kRollShare) * held;
+  const double allowed = std::min(LateralGrip(vehicle), rolling);
   const double linear = SteeringAt(vehicle, speed, allowed);
   if (linear >= vehicle.steering_limit) {
     return linear;
@@ -75,11 +76,16 @@ double TurnRoundLimit(const VehicleParams& vehicle, double speed) {
   return SteeringAt(vehicle, speed, kReturnGripShare * LateralGrip(vehicle));
 }
 
-SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& state) {
-  const double step = SteeringInAStep(vehicle, state.speed);
+SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& state,
+                              double curvature) {
+  const double present = state.speed * state.yaw_rate;
+  const double planned = state.speed * state.speed * curvature;
+  const double left = std::max(std::min(present, planned), 0.0);
+  const double right = std::max(std::min(-present, -planned), 0.0);
   const double rolling =
       std::clamp(FrontDirection(vehicle, state), -vehicle.steering_limit, vehicle.steering_limit);
-  return {.lowest = std::min(-step, rolling), .highest = std::max(step, rolling)};
+  return {.lowest = std::min(-SteeringInAStep(vehicle, state.speed, right), rolling),
+          .highest = std::max(SteeringInAStep(vehicle, state.speed, left), rolling)};
 }
 
 }  // namespace trackbed

@@ -72,6 +72,44 @@ TEST(SteeringInAStep, LeavesRoomForTheSlipAtTheGrip) {
   EXPECT_GT(SteeringInAStep(car, speed), SteeringAtGrip(car, speed));
 }
 
+/// A car whose inner wheels lift before its tyres slide.
+VehicleParams TallCar() {
+  VehicleParams car = ReferenceCar();
+  car.friction_lateral = 2.0;
+  car.track_front = 1.6;
+  car.track_rear = 1.6;
+  car.braking.axles = {{.weight = 0.5, .force = 0.5, .transfer = 0.7 / car.wheelbase}};
+  return car;
+}
+
+TEST(AllowedSteering, AdmitsMoreInATurnThatTheCarHolds) {
+  // A tall car on high grip, limited by roll-over: g b/(2 h) = 9.81 1.6/1.4 = 11.2 m/s^2.
+  const VehicleParams car = TallCar();
+  const double roll = kGravity * 1.6 / (2.0 * 0.7);
+  VehicleState state;
+  state.speed = 10.0;
+  state.yaw_rate = 0.6;
+  const auto angle = [&](double acceleration) {
+    return std::atan(car.wheelbase * acceleration / (state.speed * state.speed));
+  };
+  // The car holds 6 m/s^2 on its path.
+  EXPECT_NEAR(AllowedSteering(car, state, 0.06).highest, angle(0.65 * roll + 0.35 * 6.0),
+              Tolerance(1e-12));
+  EXPECT_NEAR(AllowedSteering(car, state, 0.06).lowest, -angle(0.65 * roll), Tolerance(1e-12));
+  // The path asks for less than the car turns, for nothing, and for the other side.
+  EXPECT_NEAR(AllowedSteering(car, state, 0.02).highest, angle(0.65 * roll + 0.35 * 2.0),
+              Tolerance(1e-12));
+  EXPECT_NEAR(AllowedSteering(car, state, 0.0).highest, angle(0.65 * roll), Tolerance(1e-12));
+  EXPECT_NEAR(AllowedSteering(car, state, -0.06).highest, angle(0.65 * roll), Tolerance(1e-12));
+  // To the right, and in reverse, it is alike.
+  state.yaw_rate = -0.6;
+  EXPECT_NEAR(AllowedSteering(car, state, -0.06).lowest, -angle(0.65 * roll + 0.35 * 6.0),
+              Tolerance(1e-12));
+  state.speed = -10.0;
+  EXPECT_NEAR(AllowedSteering(car, state, 0.06).highest, angle(0.65 * roll + 0.35 * 6.0),
+              Tolerance(1e-12));
+}
+
 TEST(AllowedSteering, AlwaysIncludesTheDirectionOfTheFrontWheels) {
   // A car that slides to the left with its nose to the right may steer to the left up to the
   // direction of its front axle, and to the right no farther than without a slide.
