@@ -123,7 +123,7 @@ class DetourPlanner {
     return IsDetour(plan, request_) || Stops(plan) > 0 || !IsDrivable(plan);
   }
 
-  /// Whether the car can drive a plan from its start speed, if need be more slowly.
+  /// Whether the car can drive a plan from its start speed. Slowing down later is allowed.
   [[nodiscard]] bool IsDrivable(const Plan& plan) const {
     PlanRequest request = request_;
     request.infeasible = InfeasiblePolicy::kSlowDown;
