@@ -4,6 +4,8 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
+#include "trackbed/core/angle.h"
+
 namespace trackbed {
 namespace {
 
@@ -33,49 +35,59 @@ void TimelySteering::Follow(const ControlInput& input, const RampedPath& path, b
   step_ = StepTime(car);
   rate_ = car.steering_rate;
   moments_.clear();
-  moments_.reserve(kSwings * kSteps + 1);
+  moments_.reserve(kSwings * kSteps);
   const double end = input.reference.path.length();
   const int direction = input.reference.path.BendAt(input.station).direction;
   double station = input.station;
-  double left = 0.0;
-  for (int i = 0; i <= kSwings * kSteps; ++i) {
+  PathPoint point = path.At(station);
+  for (int i = 0; i < kSwings * kSteps && station < end && point.direction == direction; ++i) {
+    const double way = path.SpeedAt(station) * step_;
     const double speed = direction * path.SpeedAt(station);
-    const PathPoint point = path.At(station);
-    const bool leaves = station >= end || point.direction != direction;
-    moments_.push_back({.tangent = tangent(point.curvature, speed),
+    const PathPoint next = path.At(station + way);
+    const bool turns = way > 0.0 && next.direction == direction;
+    const double curvature =
+        turns ? AngleDifference(next.pose.yaw, point.pose.yaw) / (direction * way)
+              : point.curvature;
+    moments_.push_back({.tangent = tangent(curvature, speed),
                         .speed = speed,
-                        .length = tangent(kGentle, speed) / kGentle,
-                        .leaves = leaves});
+                        .length = tangent(kGentle, speed) / kGentle});
     // Wheels that begin at `most` have met the path's steering.
-    const double met = std::atan(moments_.back().tangent);
-    const double turned = rate_ * step_ * i;
-    left = i == 0 ? most - met : left;
-    const double wheels = most - std::copysign(turned, left);
-    if (leaves || (wheels - met) * left <= 0.0) {
+    const double first = most - std::atan(moments_.front().tangent);
+    const double wheels = most - std::copysign(rate_ * step_ * (i + 1), first);
+    if ((wheels - std::atan(moments_.back().tangent)) * first <= 0.0) {
       return;
     }
-    station += std::abs(speed) * step_;
+    station += way;
+    point = next;
   }
 }
 
 GainedErrors TimelySteering::GainedFrom(double steering) const {
+  if (moments_.empty()) {
+    return {};
+  }
   const double side = std::tan(steering) > moments_.front().tangent ? 1.0 : -1.0;
-  const auto ahead = [&](const Moment& moment, double wheels) {
-    return side * (std::tan(wheels) - moment.tangent) / moment.length;
-  };
   GainedErrors gained;
   double wheels = steering;
-  double now = ahead(moments_.front(), wheels);
-  for (std::size_t i = 0; i + 1 < moments_.size() && now > 0.0 && !moments_[i].leaves; ++i) {
+  for (const Moment& moment : moments_) {
+    const auto ahead = [&](double angle) {
+      return side * (std::tan(angle) - moment.tangent) / moment.length;
+    };
+    const double begin = ahead(wheels);
     wheels -= side * rate_ * step_;
-    const double next = ahead(moments_[i + 1], wheels);
+    const double end = ahead(wheels);
+    if (begin <= 0.0) {
+      break;
+    }
     // Fraction of the step after which the wheels have met the path's steering.
-    const double share = next > 0.0 ? 1.0 : now / (now - next);
-    const double way = moments_[i].speed * share * step_;
+    const double share = end > 0.0 ? 1.0 : begin / (begin - end);
+    const double way = moment.speed * share * step_;
     const double before = gained.heading;
-    gained.heading += side * 0.5 * (now + std::max(next, 0.0)) * way;
+    gained.heading += side * 0.5 * (begin + std::max(end, 0.0)) * way;
     gained.cross_track += 0.5 * (before + gained.heading) * way;
-    now = next;
+    if (end <= 0.0) {
+      break;
+    }
   }
   return gained;
 }
@@ -84,6 +96,9 @@ double TimelySteering::Steer(const ControlInput& input, const RampedPath& path, 
                              const std::function<double(const GainedErrors&)>& law) {
   const double untimely = law({});
   Follow(input, path, slip, untimely);
+  if (moments_.empty()) {
+    return untimely;  // the path ends here
+  }
   const double planned = std::atan(moments_.front().tangent);
   const auto excess = [&](double steering) { return law(GainedFrom(steering)) - steering; };
   const double at_planned = untimely - planned;

@@ -49,19 +49,19 @@ class TimelySteering {
   static double Horizon(const ControlInput& input);
 
  private:
-  /// A moment of the drive along the path.
+  /// A step of the drive along the path. The curvature of the path is averaged over the step, so
+  /// that a short flaw of the path does not move the wheels.
   struct Moment {
     double tangent = 0.0;  // tan(delta_p)
     double speed = 0.0;    // Signed speed [m/s].
     double length = 0.0;   // L' [m]
-    bool leaves = false;   // Whether the path ends here, or changes its direction.
   };
 
   [[nodiscard]] GainedErrors GainedFrom(double steering) const;
   void Follow(const ControlInput& input, const RampedPath& path, bool slip, double most);
 
   std::vector<Moment> moments_;
-  double step_ = 0.0;  // Time between two moments [s].
+  double step_ = 0.0;  // Duration of a step [s].
   double rate_ = 0.0;  // omega
 };
 
