@@ -20,14 +20,16 @@ inline constexpr double kReturnGripShare = 0.5;
 double SteeringAtGrip(const VehicleParams& vehicle, double speed);
 
 /// Returns the largest steering angle [rad] that a control law commands at `speed`, even in a step:
-/// the steering limit, or the angle of the steady turn with the lateral acceleration a, whichever is
-/// less. Beyond this angle, the tyres slide without more lateral force, or a tall car rolls over.
+/// the steering limit, or the angle of the steady turn with the lateral acceleration a, whichever
+/// is less. Beyond this angle, the tyres slide without more lateral force, or a tall car rolls
+/// over.
 ///   a = min(mu_y g,  c g b/(2 h) + (1 - c) a_0),  c = 0.65
 /// A step from a_0 to a makes the car lean as in a steady turn with a + (1/c - 1) (a - a_0), which
 /// must not exceed g b/(2 h). `held` is a_0 >= 0 [m/s^2]: the lateral acceleration in which the car
 /// already drives steadily, to the same side. The angle of the turn is the largest one of a car
 /// without slip, of linear tyres, and of the brush model: at the grip, an understeering car needs
-/// more steering than linear tyres, and an oversteering car needs less in the turn than to enter it.
+/// more steering than linear tyres, and an oversteering car needs less in the turn than to enter
+/// it.
 double SteeringInAStep(const VehicleParams& vehicle, double speed, double held = 0.0);
 
 /// Returns the largest steering angle [rad] with which a car may turn round at `speed` [m/s]: the
@@ -45,9 +47,9 @@ struct SteeringRange {
 /// sides, extended up to the direction in which the front axle moves, but at most the steering
 /// limit. Wheels that roll in their direction of motion exert no lateral force, so a sliding car
 /// may always steer into its slide. `curvature` is that of the path at the car [1/m]. The lateral
-/// acceleration a_0 of SteeringInAStep is the lesser of those in which the car turns now and in which
-/// its path turns, and 0 if these have opposite signs. A step of the path, or of the car beside its
-/// path, is therefore not held.
+/// acceleration a_0 of SteeringInAStep is the lesser of those in which the car turns now and in
+/// which its path turns, and 0 if these have opposite signs. A step of the path, or of the car
+/// beside its path, is therefore not held.
 SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& state,
                               double curvature = 0.0);
 
