@@ -9,6 +9,7 @@
 #include "src/control/preview_distance.h"
 #include "src/control/timely_steering.h"
 #include "src/control/turn_round.h"
+#include "trackbed/core/angle.h"
 
 namespace trackbed {
 namespace {
@@ -59,10 +60,14 @@ class Preview final : public SteeringController {
     const double shortest =
         options_.distance.value_or(ShortestPreview(vehicle, input.state.speed, input.period));
     const double least = std::max(shortest, options_.time * speed);
-    // A point of the path at the distance R has a station of at most R ahead on a straight path,
-    // and of less than 2 R in a turn of up to 200 degrees.
-    path_.Update(input, std::max(TimelySteering::Horizon(input),
-                                 2.0 * std::max(least, ReturnDistance(input))));
+    if (options_.distance) {
+      path_.UpdateWithoutRamps(input);
+    } else {
+      // A point of the path at the distance R has a station of at most R ahead on a straight path,
+      // and of less than 2 R in a turn of up to 200 degrees.
+      path_.Update(input, std::max(TimelySteering::Horizon(input),
+                                   2.0 * std::max(least, ReturnDistance(input))));
+    }
     const Tracking tracking = path_.Track();
     const double distance = std::max(least, ReturnDistance(vehicle, speed, tracking.cross_track));
     const int direction = tracking.foot.direction;
@@ -72,7 +77,7 @@ class Preview final : public SteeringController {
       return *steering;
     }
     const bool slip = options_.slip && HasTyres(vehicle);
-    const double slip_angle = slip ? SlipAngle(input, direction, distance) : 0.0;
+    const double slip_angle = slip ? SteadyHeading(input, direction) : 0.0;
     const Vec2 to_left(-std::sin(tracking.foot.pose.yaw), std::cos(tracking.foot.pose.yaw));
     const auto law = [&](const GainedErrors& gained) {
       const Vec2 position = pose.position() + gained.cross_track * to_left;
@@ -88,17 +93,17 @@ class Preview final : public SteeringController {
   }
 
  private:
-  /// Returns the angle [rad] from the car's axis to the direction of motion of its rear axle, in
-  /// the steady turn of the arc to the preview point. If the curvature of a path changes evenly,
-  /// this arc has the curvature of the path a third of the distance ahead.
-  [[nodiscard]] double SlipAngle(const ControlInput& input, int direction, double distance) const {
-    PathPoint point = path_.At(input.station + distance / 3.0);
-    if (point.direction != direction) {
-      point = path_.At(input.station);
-    }
+  /// Returns the heading error [rad] of the car in the steady turn on its path. The curvature of
+  /// the turn is the mean over the next wheelbase, so that a short flaw of the path does not move
+  /// the wheels.
+  [[nodiscard]] double SteadyHeading(const ControlInput& input, int direction) const {
+    const double ahead = input.vehicle.wheelbase;
+    const double turned =
+        AngleDifference(path_.At(input.station + ahead).pose.yaw, path_.At(input.station).pose.yaw);
     const double speed = direction * std::abs(input.state.speed);
     // A slip angle of SteadyTurnOn is the ratio of the lateral to the longitudinal speed.
-    return std::atan(SteadyTurnOn(input.vehicle, point.curvature, speed).heading_error);
+    return std::atan(
+        SteadyTurnOn(input.vehicle, turned / (direction * ahead), speed).heading_error);
   }
 
   /// Returns the steering angle delta for a curvature [rad].

@@ -113,6 +113,11 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
   std::erase_if(steps_, [](const Step& step) { return !(step.ramp > 0.0); });
 }
 
+void RampedPath::UpdateWithoutRamps(const ControlInput& input) {
+  input_ = &input;
+  steps_.clear();
+}
+
 PathPoint RampedPath::At(double s) const {
   PathPoint point = input_->reference.path.At(s);
   for (const Step& step : steps_) {

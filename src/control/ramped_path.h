@@ -38,6 +38,9 @@ class RampedPath {
   /// more segments than each before. Cost O(n) for a path of n segments.
   void Update(const ControlInput& input, double ahead);
 
+  /// Takes the path of `input` as it is.
+  void UpdateWithoutRamps(const ControlInput& input);
+
   /// Returns the ramped path's point beside station `s` of the path, which is between the stations
   /// of Update.
   [[nodiscard]] PathPoint At(double s) const;

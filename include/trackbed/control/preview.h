@@ -35,16 +35,17 @@ enum class PreviewLaw {
 /// stiffnesses of the axles [N/rad], and m mass [kg]. The page docs/algorithms/control.md has the
 /// derivation and the sources.
 ///
-/// Wheels with a limited rate cannot follow a step of the path's curvature. The preview point
-/// therefore lies on a path whose steps are ramps. A car with a limited rate can drive the ramped
-/// path. It leaves the given path by at most kappa S^2/24, where kappa is the height of the step
-/// and S the distance driven while the wheels turn.
+/// Wheels with a limited rate cannot follow a step of the path's curvature. Without `distance`, the
+/// preview point therefore lies on a path whose steps are ramps. A car with a limited rate can
+/// drive the ramped path. It leaves the given path by at most kappa S^2/24, where kappa is the
+/// height of the step and S the distance driven while the wheels turn.
 ///
 /// Without `distance`, the wheels turn no further than they can turn back in time: the angle is
 /// that of the law for the errors that the car will have when its wheels, turning at their full
 /// rate, have returned to the steering of the path. Beside a straight path, this bound acts on
 /// large deviations alone. Where the path itself turns the wheels at their full rate, it prevents
-/// that the car overshoots from one side to the other. With `distance`, the law is the textbook's.
+/// that the car overshoots from one side to the other. With `distance`, the law is the
+/// textbook's, on the path itself.
 ///
 /// For a car at an offset e from the path, R must be longer, or the car would oscillate about the
 /// path. R is therefore at least 1.5 cbrt(e L v/omega).
