@@ -15,10 +15,10 @@ TEST(Replanning, KeepsAMotionThatLeadsPastWhatNewOnesDoNot) {
   const Scenario scenario = ParseScenario(
       "schema: 1\nname: lattice\n"
       "mission: {speed: 3, waypoints: [[0, 0], [30, 0], [60, 20], [60, 60]]}\n"
-      "world: {obstacles: [{box: {x: 60, y: 40.5, length: 2, width: 1}, known_from: {range: "
+      "world: {obstacles: [{box: {x: 60, y: 42, length: 2, width: 1}, known_from: {range: "
       "25}}]}\n"
       "plan: {global: {method: fillet}, replan: {along: {method: lattice}, road: {left: 5, right: "
-      "5}}}\ncontrol: {method: preview}\ndrive: {plants: [kinematic]}\n",
+      "5}}}\ncontrol: {method: lqr}\ndrive: {plants: [kinematic]}\n",
       "lattice.yaml", ".");
   const CarModel car = LoadCar(scenario);
   const RunLog log =
