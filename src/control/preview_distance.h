@@ -2,7 +2,9 @@
 
 #include "trackbed/control/steering_controller.h"
 
-/// Default preview distance R [m] of controllers that steer toward a point of the path.
+/// Default preview distance R [m] of controllers that steer toward a point of the path. `preview`
+/// steers toward a point of RampedPath, which has no steps of the curvature, and uses the first two
+/// terms alone.
 ///
 /// The symbols are:
 ///   L      wheelbase [m]

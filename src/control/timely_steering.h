@@ -31,16 +31,15 @@ struct GainedErrors {
 ///
 /// E(delta_p) is 0. Beside a path of constant curvature, E grows with the square of delta -
 /// delta_p, so small errors are corrected as by the law alone. The solution lies between delta_p
-/// and law(0), and depends continuously on the state of the car. It does not depend on the present
-/// angle of the wheels.
+/// and law(0). It does not depend on the present angle of the wheels.
 class TimelySteering {
  public:
   /// Returns the steering angle [rad]. `law` returns an angle within the steering limit for a car
   /// that has gained errors, and falls with errors to the left. `path` was updated for `input`, for
   /// the stations up to Horizon ahead. With `slip`, delta_p and L' are those of SteadyTurnOn,
-  /// otherwise those of TurnWithoutSlip. The equation is solved to a
-  /// relative 1e-12. Takes heap memory in the first call alone. Cost: up to 160 points of the path,
-  /// and about ten calls of `law`.
+  /// otherwise those of TurnWithoutSlip. The equation is solved to a relative 1e-12. Takes heap
+  /// memory in the first call alone. Cost: up to 160 points of the path, and about ten calls of
+  /// `law`.
   double Steer(const ControlInput& input, const RampedPath& path, bool slip,
                const std::function<double(const GainedErrors&)>& law);
 

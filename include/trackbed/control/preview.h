@@ -26,8 +26,8 @@ enum class PreviewLaw {
 ///
 /// With a long preview distance R, the car cuts corners; on a circle of radius r, the car drives
 /// R^2/(8 r) further inside. With a short preview distance, the control is less robust to the
-/// limited steering rate. If the option `distance` is not given, R is computed
-/// from the car and its speed:
+/// limited steering rate. If the option `distance` is not given, R is computed from the car and its
+/// speed:
 ///   R = max(3/4 L,  3 v T).
 /// The response time T [s] is the sum of the control period, the steering lag, and the response
 /// time m v/(C_f + C_r) of the tyres, which is 0 for a car without tyre coefficients. The other
@@ -43,9 +43,9 @@ enum class PreviewLaw {
 /// Without `distance`, the wheels turn no further than they can turn back in time: the angle is
 /// that of the law for the errors that the car will have when its wheels, turning at their full
 /// rate, have returned to the steering of the path. Beside a straight path, this bound acts on
-/// large deviations alone. Where the path itself turns the wheels at their full rate, it prevents
-/// that the car overshoots from one side to the other. With `distance`, the law is the
-/// textbook's, on the path itself.
+/// large deviations alone. Where the path itself turns the wheels at their full rate, it keeps
+/// the car from overshooting to one side after the other. With `distance`, the law is that of the
+/// textbook, on the path itself.
 ///
 /// For a car at an offset e from the path, R must be longer, or the car would oscillate about the
 /// path. R is therefore at least 1.5 cbrt(e L v/omega).
