@@ -79,17 +79,23 @@ class Preview final : public SteeringController {
     const bool slip = options_.slip && HasTyres(vehicle);
     const double slip_angle = slip ? SteadyHeading(input, direction) : 0.0;
     const Vec2 to_left(-std::sin(tracking.foot.pose.yaw), std::cos(tracking.foot.pose.yaw));
-    const auto law = [&](const GainedErrors& gained) {
-      const Vec2 position = pose.position() + gained.cross_track * to_left;
-      const Pose2 later{position.x(), position.y(), pose.yaw + gained.heading};
-      const double u = AngleTo(path_, direction, later, input.station, distance) + slip_angle;
+    const auto toward = [&](double angle_to_point) {
+      const double u = angle_to_point + slip_angle;
       // In reverse gear, steering to the right turns the direction of motion to the left.
       const double bend =
           direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
       const double limit = vehicle.steering_limit;
       return std::clamp(SteeringOn(input, bend, direction), -limit, limit);
     };
-    return options_.distance ? law({}) : timely_.Steer(input, path_, slip, std::cref(law));
+    if (options_.distance) {
+      return toward(angle);
+    }
+    const auto law = [&](const GainedErrors& gained) {
+      const Vec2 position = pose.position() + gained.cross_track * to_left;
+      const Pose2 later{position.x(), position.y(), pose.yaw + gained.heading};
+      return toward(AngleTo(path_, direction, later, input.station, distance));
+    };
+    return timely_.Steer(input, path_, slip, toward(angle), std::cref(law));
   }
 
  private:

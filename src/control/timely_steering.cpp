@@ -93,8 +93,8 @@ GainedErrors TimelySteering::GainedFrom(double steering) const {
 }
 
 double TimelySteering::Steer(const ControlInput& input, const RampedPath& path, bool slip,
+                             double untimely,
                              const std::function<double(const GainedErrors&)>& law) {
-  const double untimely = law({});
   Follow(input, path, slip, untimely);
   if (moments_.empty()) {
     return untimely;  // the path ends here

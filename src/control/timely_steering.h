@@ -34,13 +34,13 @@ struct GainedErrors {
 /// and law(0). It does not depend on the present angle of the wheels.
 class TimelySteering {
  public:
-  /// Returns the steering angle [rad]. `law` returns an angle within the steering limit for a car
-  /// that has gained errors, and falls with errors to the left. `path` was updated for `input`, for
-  /// the stations up to Horizon ahead. With `slip`, delta_p and L' are those of SteadyTurnOn,
-  /// otherwise those of TurnWithoutSlip. The equation is solved to a relative 1e-12. Takes heap
-  /// memory in the first call alone. Cost: up to 160 points of the path, and about ten calls of
-  /// `law`.
-  double Steer(const ControlInput& input, const RampedPath& path, bool slip,
+  /// Returns the steering angle [rad]. `untimely` is law(0) [rad]. `law` returns an angle within
+  /// the steering limit for a car that has gained errors, and falls with errors to the left. `path`
+  /// was updated for `input`, for the stations up to Horizon ahead. With `slip`, delta_p and L' are
+  /// those of SteadyTurnOn, otherwise those of TurnWithoutSlip. The equation is solved to a
+  /// relative 1e-12. Takes heap memory in the first call alone. Cost: up to 160 points of the path,
+  /// and about ten calls of `law`.
+  double Steer(const ControlInput& input, const RampedPath& path, bool slip, double untimely,
                const std::function<double(const GainedErrors&)>& law);
 
   /// Returns the longest distance [m] in which Steer follows the path: the car drives it in the

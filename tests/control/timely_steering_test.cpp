@@ -31,7 +31,7 @@ double SteerBy(const Path& path, double station,
                            .period = 0.02};
   RampedPath ramped;
   ramped.Update(input, TimelySteering::Horizon(input));
-  return TimelySteering().Steer(input, ramped, false, law);
+  return TimelySteering().Steer(input, ramped, false, law({}), law);
 }
 
 TEST(TimelySteering, SolvesTheReturnToAStraightPath) {
