@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <fstream>
+#include <string>
 #include <utility>
 
 #include "render/video.h"
@@ -17,36 +19,74 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Size of the chunk IEND, the last one of a PNG file.
+constexpr std::streamoff kPngEnd = 12;
+/// Position of the size in the header of a RIFF file: the number of bytes that follow it.
+constexpr std::streamoff kRiffSizeAt = 4;
+constexpr std::size_t kRiffSizeBytes = 4;
+
+/// Moves the end chunk of an APNG file behind the mark.
+void MarkApng(std::fstream& film) {
+  std::string end(static_cast<std::size_t>(kPngEnd), '\0');
+  film.seekg(-kPngEnd, std::ios::end);
+  film.read(end.data(), kPngEnd);
+  film.seekp(-kPngEnd, std::ios::end);
+  film << PictureMark() << end;
+}
+
+/// Appends the mark to a WebP file, and counts its bytes in the header.
+void MarkWebp(std::fstream& film) {
+  film.seekp(0, std::ios::end);
+  film << WebpMark();
+  const auto size = static_cast<std::uint64_t>(film.tellp()) - kRiffSizeAt - kRiffSizeBytes;
+  std::string bytes;
+  for (std::size_t i = 0; i < kRiffSizeBytes; ++i) {  // little-endian
+    bytes.push_back(static_cast<char>((size >> (8 * i)) & 0xFF));
+  }
+  film.seekp(kRiffSizeAt);
+  film << bytes;
+}
+
+/// Adds the mark by which HasMark recognizes the film.
+void AddMark(std::fstream& film, FilmCodec codec) {
+  switch (codec) {
+    case FilmCodec::kH264:
+      film.seekp(0, std::ios::end);
+      film << VideoMark();
+      return;
+    case FilmCodec::kWebp:
+      MarkWebp(film);
+      return;
+    case FilmCodec::kApng:
+      MarkApng(film);
+      return;
+  }
+}
+
 /// Writes a film into a single file, under a temporary name until the film is complete.
 class VideoOutput : public FilmOutput {
  public:
   VideoOutput(fs::path output, FilmCodec codec, const FilmPictures& pictures)
       : output_(std::move(output)),
-        has_boxes_(codec == FilmCodec::kH264),
+        codec_(codec),
         temporary_(output_),
         writer_(temporary_.path(), output_, codec, pictures) {}
 
   void Add(const Image& image) override { writer_.Add(image); }
   void Finish() override {
     writer_.Finish();
-    if (has_boxes_) {
-      AppendMark();
+    std::fstream film(temporary_.path(), std::ios::binary | std::ios::in | std::ios::out);
+    AddMark(film, codec_);
+    film.flush();
+    if (!film) {
+      throw RunError(fmt::format("cannot write {}: no room for its last bytes", output_.string()));
     }
     temporary_.Publish();
   }
 
  private:
-  void AppendMark() const {
-    std::ofstream out(temporary_.path(), std::ios::binary | std::ios::app);
-    out << VideoMark() << std::flush;
-    if (!out) {
-      throw RunError(fmt::format("cannot write {}: no room for its last bytes", output_.string()));
-    }
-  }
-
   fs::path output_;
-  // Whether the film is an MP4 file, at whose end Trackbed adds a box as its mark.
-  bool has_boxes_;
+  FilmCodec codec_;
   // The file is declared before the writer, so that it outlives the writer.
   TemporaryFile temporary_;
   VideoWriter writer_;

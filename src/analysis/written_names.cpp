@@ -19,8 +19,8 @@
 // 1. AllResultNames and AllVerbNames are the tables of results and of verbs.
 // 2. A name matches a pattern if it consists of the fixed parts of the pattern in order, with at
 //    least one character between two fixed parts.
-// 3. HasMark recognizes pictures, pages and films of Trackbed by marks in their contents: a PNG
-//    chunk, a line of the page, or a box of the MP4 file.
+// 3. HasMark recognizes pictures, pages and films of Trackbed by marks in their contents: a chunk
+//    of PNG or WebP, a line of the page, or a box of the MP4 file.
 namespace trackbed {
 namespace {
 
@@ -243,9 +243,19 @@ const std::string& VideoMark() {
   return box;
 }
 
+const std::string& WebpMark() {
+  static const std::string chunk("tkbd\x08\0\0\0Trackbed", 16);
+  return chunk;
+}
+
 bool HasMark(const std::filesystem::path& file) {
   // Size of the signature and the chunk IHDR at the start of a PNG file.
   constexpr std::streamoff kPngHeader = 33;
+  // Size of the chunk IEND at the end of a PNG file.
+  constexpr std::streamoff kPngEnd = 12;
+  const auto size = [](const std::string& mark) {
+    return static_cast<std::streamoff>(mark.size());
+  };
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, ignored))) {
     return false;
@@ -257,9 +267,15 @@ bool HasMark(const std::filesystem::path& file) {
   if (ending == ".png") {
     return BytesAt(file, kPngHeader, PictureMark().size()) == PictureMark();
   }
-  const std::string& box = VideoMark();
-  return ending == ".mp4" &&
-         BytesAt(file, -static_cast<std::streamoff>(box.size()), box.size()) == box;
+  if (ending == ".apng") {
+    const std::string& mark = PictureMark();
+    return BytesAt(file, -size(mark) - kPngEnd, mark.size()) == mark;
+  }
+  if (ending == ".webp" || ending == ".mp4") {
+    const std::string& mark = ending == ".webp" ? WebpMark() : VideoMark();
+    return BytesAt(file, -size(mark), mark.size()) == mark;
+  }
+  return false;
 }
 
 }  // namespace trackbed

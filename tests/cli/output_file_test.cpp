@@ -132,6 +132,35 @@ TEST(OutputFileTest, IsNoModelThatWasEditedSince) {
   EXPECT_EQ(ReadFile(folder.path() / "car.xml"), text);
 }
 
+class OutputFilm : public testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Endings, OutputFilm, testing::Values("png", "mp4", "webp", "apng"),
+                         [](const auto& ending) { return ending.param; });
+
+TEST_P(OutputFilm, IsReplacedByTheNextOneUnlessItIsOfAnotherProgram) {
+  const TempFolder folder;
+  if (!HasVideo(folder)) {
+    GTEST_SKIP() << "built without video";
+  }
+  ASSERT_EQ(Trackbed(folder, "run -q " + ScenarioFile("winding") + kStopsSoon + " -o r").code, 3);
+  const std::string render = "render r --size 128x72 --fps 10 --out film." + GetParam() +
+                             (GetParam() == "png" ? " --at 0.1" : "");
+  ASSERT_EQ(Trackbed(folder, render).code, 0);
+  const std::string film = ReadFile(folder.path() / ("film." + GetParam()));
+  const Outcome again = Trackbed(folder, render);
+  EXPECT_EQ(again.code, 0) << again.output;
+  EXPECT_EQ(ReadFile(folder.path() / ("film." + GetParam())), film);
+
+  // Cut at its end, the film has no mark.
+  const std::string other =
+      GetParam() == "png" ? "\x89PNG" : film.substr(0, film.size() - 8) + "of a user";
+  folder.Write("film." + GetParam(), other);
+  const Outcome refused = Trackbed(folder, render);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.output, HasSubstr("is not a file that this option has written"));
+  EXPECT_EQ(ReadFile(folder.path() / ("film." + GetParam())), other);
+}
+
 // The manifest of another program is in nobody's way.
 TEST(OutputFileTest, MayBeInAFolderOfAnotherProgram) {
   const TempFolder folder;

@@ -57,15 +57,19 @@ bool IsNameOf(std::string_view result, const std::string& name);
 
 /// The text in the head of a page by which WriteReport recognizes pages that Trackbed wrote.
 inline constexpr std::string_view kPageMark = "<meta name=\"generator\" content=\"Trackbed\">";
-/// Returns the PNG chunk that marks a picture as written by Trackbed. The chunk follows the PNG
-/// header (W3C, Portable Network Graphics, section 11.3.4: tEXt).
+/// Returns the PNG chunk that marks a picture as written by Trackbed (W3C, Portable Network
+/// Graphics, section 11.3.4: tEXt). The chunk follows the header of a .png file, and precedes the
+/// end chunk of an .apng file.
 const std::string& PictureMark();
 /// Returns the last bytes of a video, which mark the video as written by Trackbed. These bytes are
 /// a box that players skip (ISO/IEC 14496-12, section 8.1.2: free).
 const std::string& VideoMark();
+/// Returns the last chunk of an animated WebP, which marks it as written by Trackbed. Readers skip
+/// chunks that they do not know (RFC 9649, section 2.7.1.6).
+const std::string& WebpMark();
 
-/// Whether a page (.html), picture (.png) or video (.mp4) carries the mark of a file that Trackbed
-/// wrote. Returns false for links.
+/// Whether a page (.html), picture (.png), video (.mp4) or animation (.webp, .apng) carries the
+/// mark of a file that Trackbed wrote. Returns false for links.
 bool HasMark(const std::filesystem::path& file);
 
 }  // namespace trackbed
