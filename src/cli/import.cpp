@@ -121,9 +121,10 @@ int Import(const ImportOptions& options) {
 void AddImport(const Command& command) {
   const auto options = std::make_shared<ImportOptions>();
   command
-      .AddPositional("log", options->log,
-                     "Log of a real vehicle: CSV, GPX, KML, GeoJSON, or a bag of ROS 2 (.mcap, "
-                     ".db3, a folder)")
+      .AddPositional(
+          "log", options->log,
+          "Log of a real vehicle: CSV, VBO, GPX, KML, GeoJSON, or a bag of ROS 2 (.mcap, "
+          ".db3, a folder)")
       .Required()
       .TypeName("LOG");
   command

@@ -1,9 +1,11 @@
 #include "src/core/csv_delimiter.h"
 
 #include <algorithm>
+#include <boost/algorithm/string.hpp>
 #include <cstddef>
 #include <utility>
 
+#include "src/core/csv_number.h"
 #include "trackbed/core/csv_rows.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/text_table.h"
@@ -50,6 +52,21 @@ bool HasBlanks(std::string_view line, std::string_view rest) {
   return CountCells(NextLine(rest), below) == count && below == count;
 }
 
+/// Whether all cells of a line are numbers, which may have decimal commas.
+bool AreNumbers(std::string_view line, char delimiter) {
+  for (bool more = true; more;) {
+    const std::size_t end = line.find(delimiter);
+    more = end != std::string_view::npos;
+    std::string cell = boost::trim_copy(std::string(line.substr(0, end)));
+    NormalizeNumber(cell, true);
+    if (!CellNumber(cell)) {
+      return false;
+    }
+    line.remove_prefix(more ? end + 1 : line.size());
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string BlankRuns::Replace(std::string_view part) {
@@ -87,6 +104,12 @@ char FindDelimiter(const std::filesystem::path& file) {
     const auto count = std::count(line.begin(), line.end(), candidate);
     if (count > most) {
       most = count;
+      delimiter = candidate;
+    }
+  }
+  for (const char candidate : {';', '\t'}) {
+    if (delimiter == ',' && line.find(candidate) != std::string_view::npos &&
+        AreNumbers(line, candidate)) {
       delimiter = candidate;
     }
   }

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string_view>
 
+#include "src/core/csv_number.h"
+#include "src/core/vbo.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/text_table.h"
 
@@ -60,6 +62,21 @@ std::vector<Line> FirstLines(std::string_view begin, char delimiter) {
   return lines;
 }
 
+/// Rewrites the numbers of lines (NormalizeNumber). Returns whether they have decimal commas.
+bool Normalize(std::vector<Line>& lines, char delimiter) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Line& line : lines) {
+    rows.push_back(line.cells);
+  }
+  const bool has_decimal_commas = delimiter != ',' && HasDecimalCommas(rows);
+  for (Line& line : lines) {
+    for (std::string& cell : line.cells) {
+      NormalizeNumber(cell, has_decimal_commas);
+    }
+  }
+  return has_decimal_commas;
+}
+
 std::size_t Numbers(const Line& line) {
   return static_cast<std::size_t>(std::count_if(line.cells.begin(), line.cells.end(),
                                                 [](const auto& c) { return CellNumber(c); }));
@@ -96,7 +113,8 @@ bool IsUnit(const std::string& cell) {
 
 /// Returns the head of a table that has a preamble or units.
 std::optional<CsvHead> HeadWith(std::string_view begin, char delimiter) {
-  const std::vector<Line> lines = FirstLines(begin, delimiter);
+  std::vector<Line> lines = FirstLines(begin, delimiter);
+  const bool has_decimal_commas = Normalize(lines, delimiter);
   std::size_t data = 0;
   while (data + 1 < lines.size() && !(IsData(lines[data]) && IsData(lines[data + 1]) &&
                                       AreAlike(lines[data], lines[data + 1]))) {
@@ -113,7 +131,7 @@ std::optional<CsvHead> HeadWith(std::string_view begin, char delimiter) {
   if (names == data || (names > 0 && !has_preamble)) {
     return std::nullopt;
   }
-  CsvHead head{.delimiter = delimiter};
+  CsvHead head{.delimiter = delimiter, .has_decimal_commas = has_decimal_commas};
   if (has_preamble) {
     head.preamble_lines = lines[names].number - 1;
   }
@@ -140,12 +158,16 @@ CsvHead FindCsvHead(const std::filesystem::path& file, char delimiter) {
   if (constexpr std::string_view kMark = "\xEF\xBB\xBF"; text.starts_with(kMark)) {
     text.remove_prefix(kMark.size());
   }
+  if (const std::optional<CsvHead> head = FindVboHead(text)) {
+    return *head;
+  }
   for (const char candidate : {delimiter, ',', ';', '\t'}) {
     if (const std::optional<CsvHead> head = HeadWith(text, candidate)) {
       return *head;
     }
   }
-  return {.delimiter = delimiter};
+  std::vector<Line> lines = FirstLines(text, delimiter);
+  return {.delimiter = delimiter, .has_decimal_commas = Normalize(lines, delimiter)};
 }
 
 std::string NameWithUnit(const std::string& name, const std::string& unit) {

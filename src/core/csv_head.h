@@ -14,13 +14,16 @@ struct CsvHead {
   int preamble_lines = 0;  ///< Lines before the line of the names.
   int first_row = 0;       ///< Line of the first row of numbers; 0 without lines of units.
   std::vector<std::string> units{};  ///< Unit of each column, "" where it has none.
+  bool has_decimal_commas = false;   ///< Whether numbers have them (HasDecimalCommas).
+  bool is_vbo = false;               ///< Whether cells are those of a VBO file (VboCells).
 };
 
 /// Finds the head of a table by the first 64 KiB of the file. The names are the first of the lines
 /// directly above the first row of numbers that have as many cells as this row. Lines before the
 /// names are a preamble only if the first of them has another number of cells. Lines between the
 /// names and the numbers are units if one of their cells is a unit and none is a number. Tries
-/// `delimiter` before other delimiters; keeps `delimiter` if no table has a preamble or units.
+/// `delimiter` before other delimiters; keeps `delimiter` if no table has a preamble or units. In
+/// VBO files, finds the table by the names of sections (FindVboHead).
 CsvHead FindCsvHead(const std::filesystem::path& file, char delimiter);
 
 /// Appends the unit to the name of a column, as in "Speed [km/h]", unless the name has one.

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "src/core/csv_delimiter.h"
 #include "src/core/csv_head.h"
+#include "src/core/csv_number.h"
+#include "src/core/vbo.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/text_table.h"
@@ -18,7 +21,8 @@
 // 1. CommentFilter removes lines that begin with '#', before libcsv interprets quotes.
 // 2. RowReader collects the cells of a row, and calls the caller for each row with its line.
 // 3. NamedRows skips a preamble (src/core/csv_head.h), and finds the names of columns in the
-// header, or in a comment before rows of numbers.
+// header, or in a comment before rows of numbers. It rewrites numbers such as "+1" and "0,5", and
+// the cells of VBO files (src/core/vbo.h).
 namespace trackbed {
 namespace {
 
@@ -67,10 +71,11 @@ struct RowReader {
     if (stopped) {
       return;
     }
-    if (!any_row && !cells.empty() && cells.front().starts_with("File created on ")) {
+    if (!any_row && !cells.empty() &&
+        (cells.front().starts_with("File created on ") || cells.front() == "[header]")) {
       Stop(
-          "a VBO file of RaceLogic, whose latitudes and longitudes are in minutes, positive to the "
-          "west; export it from VBOX Test Suite as GPX or KML, or as CSV with degrees");
+          "a VBO file of Racelogic whose first 64 KiB have no table: expected a line of names in "
+          "the section [column names], and the section [data]");
     }
     if (!cells.empty() && !stopped) {
       any_row = true;
@@ -202,8 +207,14 @@ void ReadRowsBehind(int preamble, const std::filesystem::path& file, const CsvLi
   };
   CommentFilter comments(reader, parser, preamble);
   const auto take_block = [&](std::string_view block) {
-    if (std::exchange(at_begin, false) && block.starts_with(kByteOrderMark)) {
-      block.remove_prefix(kByteOrderMark.size());
+    if (std::exchange(at_begin, false)) {
+      if (block.starts_with("\xFF\xFE") || block.starts_with("\xFE\xFF")) {
+        reader.Stop("text in UTF-16; save it as UTF-8, as by: iconv -f UTF-16 -t UTF-8");
+        return false;
+      }
+      if (block.starts_with(kByteOrderMark)) {
+        block.remove_prefix(kByteOrderMark.size());
+      }
     }
     return limits.comments ? comments.Take(block, parse) : parse(block);
   };
@@ -281,11 +292,21 @@ class NamedRows {
       }
       return;
     }
+    for (std::string& cell : cells) {
+      NormalizeNumber(cell, head_.has_decimal_commas);
+    }
     if (columns_ == 0 && !is_broken_ && TakeNames(cells, line)) {
       return;
     }
     if (!is_broken_ && line >= head_.first_row) {
       DropEmptyEnd(cells, columns_);
+      // Spreadsheets write delimiters without cells behind the last row.
+      if (std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.empty(); })) {
+        return;
+      }
+      if (const std::string problem = vbo_ ? vbo_->Convert(cells) : ""; !problem.empty()) {
+        problems_.Add({.file = file_.string(), .line = line, .message = problem});
+      }
       take_(cells, line);
     }
   }
@@ -308,6 +329,9 @@ class NamedRows {
       columns_ = row.size();
       for (std::size_t i = 0; i < std::min(row.size(), head_.units.size()); ++i) {
         row[i] = NameWithUnit(row[i], head_.units[i]);
+      }
+      if (head_.is_vbo) {
+        vbo_.emplace(row);
       }
       take_names_(row, line);
       return true;
@@ -347,6 +371,7 @@ class NamedRows {
   ProblemList& problems_;
   const TakeCsvNames& take_names_;
   const TakeCsvRow& take_;
+  std::optional<VboCells> vbo_;    // converts cells of a VBO file
   std::vector<Comment> comments_;  // the last comments before the first row
   std::size_t columns_ = 0;        // 0: the names are not known yet
   bool is_broken_ = false;

@@ -90,10 +90,51 @@ TEST(ReadCsvTable, SkipsCommentsWhateverTheyContain) {
               HasSubstr("a comment of more than 65536 characters"));
 }
 
-TEST(ReadCsvTable, RefusesFilesOfRaceLogic) {
+// 3120 minutes are 52 degrees; longitudes are positive to the west in the file.
+TEST(ReadCsvTable, ReadsVboFiles) {
+  const std::string head =
+      "File created on 01/03/2016 @ 14:26\r\n\r\n[header]\r\nsatellites\r\ntime\r\nlatitude\r\n"
+      "longitude\r\nvelocity mph\r\nYaw rate deg/s\r\n\r\n[comments]\r\nMade by, \"me\r\n"
+      "# \r\n[column names]\r\nsats time lat long velocity  YawRate \r\n\r\n[data]\r\n";
+  EXPECT_EQ(TableText(head + "014 235959.500 +3120.0 -0060.0 018.0 +1.5\r\n"
+                             "015 000000.25 -3120,00 +0090,0 018,0 -1,5\r\n"),
+            "15:sats|time [s]|lat [deg]|long [deg]|velocity [mph]|YawRate [deg/s]\n"
+            "18:014|86399.500000|52|1|018.0|1.5\n19:015|86400.250000|-52|-1.5|018.0|-1.5\n");
+  // RaceChrono writes no first line; without a description, velocities are in km/h.
+  EXPECT_EQ(TableText("[column names]\ntime velocity\n[data]\n010203.4 5\n"),
+            "2:time [s]|velocity [kmh]\n4:3723.400000|5\n");
+  EXPECT_THAT(TableText("[column names]\ntime velocity\n[data]\n017503.4 5\n"),
+              HasSubstr("t.csv:4: '017503.4' is no time of day hhmmss"));
   EXPECT_THAT(TableText("File created on 01/03/2016 @ 14:26\r\n\r\n[header]\r\nsats\r\n"),
-              HasSubstr("t.csv:1: a VBO file of RaceLogic"));
+              HasSubstr("t.csv:1: a VBO file of Racelogic whose first 64 KiB have no table"));
   EXPECT_THAT(TableText("File created,b\n1,2\n"), HasSubstr("1:File created|b"));
+}
+
+TEST(ReadCsvTable, ReadsDecimalCommas) {
+  EXPECT_EQ(TableText("x;y\n0,5;1,25\n-1,5;+2\n"), "1:x|y\n2:0.5|1.25\n3:-1.5|2\n");
+  EXPECT_EQ(TableText("t\tv\n0,5\t1,125\n"), "1:t|v\n2:0.5|1.125\n");
+  EXPECT_EQ(TableText("0,5;1,5;2\n1;2,5;3\n", kFindDelimiter, true),
+            "1:1|2|3\n1:0.5|1.5|2\n2:1|2.5|3\n");
+  EXPECT_EQ(TableText("day;v\n12.05.2024;1,5e-3\n"), "1:day|v\n2:12.05.2024|1.5e-3\n");
+  EXPECT_EQ(TableText("Made by a logger\n\nt;v\ns;km/h\n0,5;36,0\n1;36,0\n"),
+            "3:t [s]|v [km/h]\n5:0.5|36.0\n6:1|36.0\n");
+}
+
+// Such a comma may be between thousands.
+TEST(ReadCsvTable, KeepsOtherCommas) {
+  EXPECT_EQ(TableText("x;y\n1,000;2,500\n"), "1:x|y\n2:1,000|2,500\n");
+  EXPECT_EQ(TableText("x;y\n1,5;2.5\n"), "1:x|y\n2:1,5|2.5\n");
+  EXPECT_EQ(TableText("x;y\n1,5;1.234,5\n"), "1:x|y\n2:1,5|1.234,5\n");
+  EXPECT_EQ(TableText("x;y\n1,5;1,234,567\n"), "1:x|y\n2:1,5|1,234,567\n");
+  EXPECT_EQ(TableText("x,y\n\"1,5\",2\n"), "1:x|y\n2:1,5|2\n");
+}
+
+TEST(ReadCsvTable, RemovesTheSignPlus) {
+  EXPECT_EQ(TableText("x,y\n+1.5,+.5e+1\n+a,+\n"), "1:x|y\n2:1.5|.5e+1\n3:+a|+\n");
+}
+
+TEST(ReadCsvTable, RefusesUtf16) {
+  EXPECT_THAT(TableText(std::string("\xFF\xFEx\0,\0y\0\n\0", 10)), HasSubstr("save it as UTF-8"));
 }
 
 // Loggers write about the session before the table, in lines with other numbers of cells.
@@ -125,6 +166,7 @@ TEST(ReadCsvTable, TakesNoHeaderForAPreamble) {
 TEST(ReadCsvTable, DropsEmptyCellsAtTheEnd) {
   EXPECT_EQ(TableText("a,b,\n1,2,\n3,4\n5,,\n"), "1:a|b\n2:1|2\n3:3|4\n4:5|\n");
   EXPECT_EQ(TableText("# a,b\n1,2,\n"), "1:a|b\n2:1|2\n");
+  EXPECT_EQ(TableText("a,b\n1,2\n,\n,,\n3,4\n"), "1:a|b\n2:1|2\n5:3|4\n");
 }
 
 }  // namespace

@@ -82,6 +82,38 @@ TEST(ListLog, ProposesAMapWithTheUnitsOfALogger) {
   }
 }
 
+// To the east at 10 m/s along the parallel of 52 degrees, over midnight.
+TEST(ListLog, ProposesAMapThatReadsAVboFile) {
+  const TempFolder folder;
+  std::string text =
+      "[header]\nsatellites\ntime\nlatitude\nlongitude\nvelocity kmh\n\n[column names]\nsats time "
+      "lat long velocity\n\n[data]\n";
+  // Radius of the parallel on the ellipsoid of WGS 84: a cos(lat) / sqrt(1 - (e sin(lat))^2).
+  const double latitude = 52.0 * kPi / 180.0;
+  const double radius = 6378137.0 * std::cos(latitude) /
+                        std::sqrt(1.0 - 0.00669437999014 * std::pow(std::sin(latitude), 2.0));
+  for (int i = 0; i < 40; ++i) {
+    const double minutes = -60.0 - 0.5 * i / radius * 180.0 / kPi * 60.0;
+    text += fmt::format("009 {} +03120.00000000 {:+015.8f} 036.000\n",
+                        i < 20 ? fmt::format("2359{:05.2f}", 59.0 + 0.05 * i)
+                               : fmt::format("0000{:05.2f}", 0.05 * (i - 20)),
+                        minutes);
+  }
+  const std::filesystem::path log = folder.Write("drive.vbo", text);
+  const LogListing listing = ListLog(log);
+  ASSERT_TRUE(listing.map) << listing.problem;
+  EXPECT_EQ(listing.map->speed->unit, "km/h");
+  const RecordedDrive drive = ImportLog(log, *listing.map);
+  EXPECT_NEAR(drive.duration(), 39 * 0.05, Tolerance(0.03));
+  for (const RecordedSample& sample : drive.samples) {
+    EXPECT_NEAR(sample.velocity_V.x(), 10.0, Tolerance(1e-9));
+    // Minutes have 8 decimals, 1e-5 m here, in rows 0.5 m apart. The parallel bends away from the
+    // east by less than x tan(lat) / radius = 1e-5 rad.
+    EXPECT_NEAR(sample.pose.yaw, 0.0, Tolerance(1e-4));
+    EXPECT_NEAR(sample.pose.x, 10.0 * sample.time, Tolerance(1e-3));
+  }
+}
+
 TEST(ListLog, ReadsPosesOfRostopic) {
   const TempFolder folder;
   std::string text =
