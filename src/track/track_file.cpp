@@ -13,6 +13,7 @@
 
 #include "src/track/track_fold.h"
 #include "src/track/track_rows.h"
+#include "src/track/track_steps.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/table.h"
@@ -111,47 +112,8 @@ void CheckFolds(TrackRows& rows, std::optional<double> smoothing) {
   rows.problems.ThrowIfAny();
 }
 
-/// Adds points on the straight lines of steps that are longer than four times the median step: with
-/// nothing between their ends, a smooth curve would swing aside there.
-void FillLongSteps(TrackRows& rows) {
-  const std::size_t count = rows.points.size();
-  std::vector<double> steps;
-  for (std::size_t i = 0; i < count; ++i) {
-    steps.push_back((rows.points[(i + 1) % count].position - rows.points[i].position).norm());
-  }
-  std::vector<double> sorted = steps;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  std::vector<TrackPoint> points;
-  std::vector<int> lines;
-  for (std::size_t i = 0; i < count; ++i) {
-    const TrackPoint& from = rows.points[i];
-    const TrackPoint& to = rows.points[(i + 1) % count];
-    const double parts = steps[i] > 4.0 * *middle ? std::ceil(steps[i] / (2.0 * *middle)) : 1.0;
-    if (points.size() + static_cast<std::size_t>(parts) > Track::kMaxPoints) {
-      return;
-    }
-    for (double k = 0.0; k < parts; k += 1.0) {
-      const double w = k / parts;
-      points.push_back({from.position + w * (to.position - from.position),
-                        std::lerp(from.width_right, to.width_right, w),
-                        std::lerp(from.width_left, to.width_left, w)});
-      lines.push_back(rows.lines[i]);
-    }
-  }
-  if (points.size() == count) {
-    return;
-  }
-  rows.notes.push_back(fmt::format(
-      "{} points are added on the straight lines between points that are more than {:.4g} m apart, "
-      "four times the median distance",
-      points.size() - count, 4.0 * *middle));
-  rows.points = std::move(points);
-  rows.lines = std::move(lines);
-}
-
-/// Largest distance by which a default smoothing may move a point, as a fraction of the narrowest
-/// width of the track.
+/// Largest distance by which a default smoothing may move a point or swing aside on a long step, as
+/// a fraction of the narrowest width of the track.
 constexpr double kMaxShift = 0.1;
 
 /// Largest shift of a point of this track by a default smoothing [m].
@@ -163,15 +125,38 @@ double LargestShift(const TrackRows& rows) {
   return kMaxShift * narrowest;
 }
 
-/// Returns the track if no edge would have to be narrowed to less than half and no point is moved
-/// by more than LargestShift.
+/// Whether the center line leaves the straight line of a long step by more than LargestShift.
+bool SwingsAside(const Track& track, const TrackRows& rows) {
+  const TrackSteps steps = StepsOf(rows.points);
+  const double largest = LargestShift(rows);
+  for (std::size_t i = 0; i < rows.points.size(); ++i) {
+    if (!steps.IsLong(i)) {
+      continue;
+    }
+    const Vec2& from = rows.points[i].position;
+    const Vec2& to = rows.points[(i + 1) % rows.points.size()].position;
+    constexpr int kParts = 32;
+    for (int k = 1; k < kParts; ++k) {
+      const double w = static_cast<double>(k) / kParts;
+      const TrackPlace place =
+          track.Locate(from + w * (to - from), track.StationOf(i) + w * steps.lengths[i]);
+      if (std::abs(place.offset) > largest) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Returns the track if no edge would have to be narrowed to less than half, no point is moved by
+/// more than LargestShift, and the track does not swing aside on long steps.
 std::optional<Track> FittingTrack(const TrackRows& rows, std::optional<double> smoothing) {
   if (FindFold(Halved(rows.points), smoothing)) {
     return std::nullopt;
   }
   Track track(rows.points, smoothing);
-  return track.deviation_max() <= LargestShift(rows) ? std::optional(std::move(track))
-                                                     : std::nullopt;
+  const bool fits = track.deviation_max() <= LargestShift(rows) && !SwingsAside(track, rows);
+  return fits ? std::optional(std::move(track)) : std::nullopt;
 }
 
 /// Whether the polyline turns to both sides within eight points before and after a point.

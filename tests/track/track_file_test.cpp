@@ -289,6 +289,20 @@ double FarthestFromStadium(const Track& track, double radius, double length) {
   return farthest;
 }
 
+// A straight between two bends of the same side, of points that are dense in the bends: the smooth
+// curve through them alone moves no point, but swings aside between the bends. The bound is a tenth
+// of the width of 8 m.
+TEST(ReadTrack, KeepsToALongStraightIfNoPointWouldMove) {
+  const std::vector<TrackPoint> points = StadiumPoints(90.0, 900.0, 3.0, 900.0, 4.0);
+  const Track smooth(points);
+  ASSERT_LT(smooth.deviation_max(), 0.8);
+  ASSERT_GT(FarthestFromStadium(smooth, 90.0, 900.0), 0.8);
+  const TempFolder folder;
+  const TrackFile read = ReadTrackFile(folder.Write("t.csv", TrackCsv(points)));
+  EXPECT_LT(FarthestFromStadium(read.track, 90.0, 900.0), 0.8);
+  EXPECT_THAT(read.notes, testing::Contains(HasSubstr("points are added on the straight lines")));
+}
+
 // Some files have points in bends only. Four times the mean distance of these points is longer than
 // a bend, and would move points by more than 1 m; and a smooth curve through them alone swings
 // aside on the straights. The bound is the greatest shift that the reader allows, a tenth of the
