@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -266,6 +267,16 @@ std::vector<std::string> CommentCells(std::string_view comment, char delimiter) 
   return cells;
 }
 
+/// Numbers names that repeat, as in "speed [m/s] (2)": loggers write the same quantity of several
+/// sensors.
+void NumberRepeats(std::vector<std::string>& names) {
+  std::map<std::string, int> counts;
+  for (std::string& name : names) {
+    const int count = ++counts[name];
+    name += count > 1 ? fmt::format(" ({})", count) : "";
+  }
+}
+
 /// Finds the names of a table's columns, and passes names and rows on.
 class NamedRows {
  public:
@@ -329,6 +340,9 @@ class NamedRows {
       columns_ = row.size();
       for (std::size_t i = 0; i < std::min(row.size(), head_.units.size()); ++i) {
         row[i] = NameWithUnit(row[i], head_.units[i]);
+      }
+      if (!head_.units.empty()) {
+        NumberRepeats(row);
       }
       if (head_.is_vbo) {
         vbo_.emplace(row);

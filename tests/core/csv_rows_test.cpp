@@ -147,6 +147,9 @@ TEST(ReadCsvTable, SkipsThePreambleOfLoggers) {
   EXPECT_EQ(TableText("Made by a logger\nFormat,3\n\nt,lap,x,y\nunix time,,m,m\n,,100: gps,calc\n"
                       "7,1,0,0\n8,1,5,0\n"),
             "4:t [unix time]|lap|x [m]|y [m]\n7:7|1|0|0\n8:8|1|5|0\n");
+  // The same quantity of two sensors.
+  EXPECT_EQ(TableText("Made by a logger\n\nt,v,v,v\ns,m/s,m/s,km/h\n7,1,2,3\n8,1,2,3\n"),
+            "3:t [s]|v [m/s]|v [m/s] (2)|v [km/h]\n5:7|1|2|3\n6:8|1|2|3\n");
   // A preamble that is not valid CSV, and one with another delimiter than the table.
   EXPECT_EQ(
       TableText(
