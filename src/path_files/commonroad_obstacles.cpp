@@ -15,7 +15,8 @@
 // 2. A moving obstacle has the poses of its trajectory. Without a trajectory, it keeps its
 //    velocity.
 // 3. States without an orientation head in the direction of motion.
-// 4. An occupancy set becomes boxes at the middle of their time, with the size of the largest box.
+// 4. An occupancy set becomes boxes as large as the smallest of its places, which spread out as the
+//    places grow. Each place is at the middle of its time.
 // 5. Approximations counts what was changed in steps 1 to 4, for the notes.
 namespace trackbed {
 namespace {
@@ -137,6 +138,7 @@ State ReadState(const XMLElement& element, const CommonRoadClock& clock,
 struct Approximations {
   int boxes = 0;
   int sets = 0;
+  int pieces = 0;  // boxes that cover the sets
   int skipped_states = 0;
   int without_place = 0;
 };
@@ -189,46 +191,121 @@ std::vector<State> ReadStates(const XMLElement& obstacle, const CommonRoadClock&
   return states;
 }
 
-/// Reads an obstacle that is given by the places that it occupies over time. The obstacle has the
-/// size of the largest place.
-std::optional<CommonRoadObstacle> ReadOccupancies(const XMLElement& set,
-                                                  const CommonRoadClock& clock,
-                                                  const CommonRoadReading& reading) {
-  CommonRoadObstacle found;
+/// A box that an obstacle may occupy at a time [s].
+using Occupancy = std::pair<double, OrientedBox>;
+
+/// Describes a box by the one of its four directions that is nearest to a yaw.
+OrientedBox TurnedTo(double yaw, const OrientedBox& box) {
+  const double turn = AngleDifference(yaw, box.center.yaw);
+  const double quarters = std::round(turn / (0.5 * kPi));
+  OrientedBox turned = box;
+  turned.center.yaw = WrapAngle(box.center.yaw + 0.5 * kPi * quarters);
+  if (std::abs(std::remainder(quarters, 2.0)) > 0.5) {
+    std::swap(turned.length, turned.width);
+  }
+  return turned;
+}
+
+/// Reads the boxes around the places that an obstacle may occupy, with increasing times: the place
+/// of its initial state, if it has one, and those of the set.
+std::vector<Occupancy> ReadOccupancies(const XMLElement& obstacle, const XMLElement& set,
+                                       const CommonRoadClock& clock,
+                                       const CommonRoadReading& reading) {
+  std::vector<Occupancy> found;
+  const auto add = [&](double time, const OrientedBox& box) {
+    if (time >= 0.0 && (found.empty() || time > found.back().first)) {
+      found.emplace_back(time, found.empty() ? box : TurnedTo(found.back().second.center.yaw, box));
+    }
+  };
+  const XMLElement* shape = obstacle.FirstChildElement("shape");
+  if (const XMLElement* initial = obstacle.FirstChildElement("initialState");
+      initial != nullptr && shape != nullptr) {
+    const State state = ReadState(*initial, clock, reading);
+    OrientedBox box = ReadShapes(*shape, {reading.file, reading.largest}).box;
+    box.center = Compose(state.place, box.center);
+    add(state.time, box);
+  }
   for (const XMLElement* each = set.FirstChildElement("occupancy"); each != nullptr;
        each = each->NextSiblingElement("occupancy")) {
     const OrientedBox box = ReadShapes(RequiredChild(*each, "shape", reading), reading).box;
     const auto step = IntervalOfChild(*each, "time", reading);
-    const double time = clock.timestep * ((step ? step->middle() : 0.0) - clock.start);
-    if (time >= 0.0 && (found.poses.empty() || time > found.poses.back().first)) {
-      found.poses.emplace_back(time, box.center);
-      found.box.length = std::max(found.box.length, box.length);
-      found.box.width = std::max(found.box.width, box.width);
-    }
-  }
-  if (found.poses.empty()) {
-    return std::nullopt;
-  }
-  found.box.center = found.poses.front().second;
-  if (found.poses.size() == 1) {
-    found.poses.clear();
+    add(clock.timestep * ((step ? step->middle() : 0.0) - clock.start), box);
   }
   return found;
 }
 
-std::optional<CommonRoadObstacle> ReadObstacle(const XMLElement& element, bool moves,
-                                               const CommonRoadClock& clock,
-                                               const CommonRoadReading& reading,
-                                               Approximations& notes) {
+/// Returns the offset of a piece from the middle of a row of `count` pieces that cover a length.
+double PieceOffset(int index, int count, double length, double piece) {
+  return count < 2 || length <= piece ? 0.0 : (length - piece) * (index / (count - 1.0) - 0.5);
+}
+
+/// Covers places that grow and shrink by boxes that keep their sizes and move. Each box is as large
+/// as the smallest place; at each time of the set, the boxes together cover the place, and nothing
+/// beyond it unless they would be more than kMost along one side.
+std::vector<CommonRoadObstacle> CoverOccupancies(const std::vector<Occupancy>& occupancies) {
+  struct Side {
+    double smallest = std::numeric_limits<double>::infinity();
+    double largest = 0.0;
+    int count = 1;
+    double piece = 0.0;
+
+    void Take(double size) {
+      smallest = std::min(smallest, size);
+      largest = std::max(largest, size);
+    }
+    void Divide() {
+      constexpr int kMost = 8;
+      // Sizes have four decimals.
+      count = std::min(kMost, static_cast<int>(std::ceil((largest - 1e-3) / smallest)));
+      piece = count < kMost ? std::min(smallest + 1e-3, largest) : largest / count;
+    }
+  };
+  Side along;
+  Side across;
+  for (const auto& [time, box] : occupancies) {
+    along.Take(box.length);
+    across.Take(box.width);
+  }
+  along.Divide();
+  across.Divide();
+  std::vector<CommonRoadObstacle> pieces;
+  for (int i = 0; i < along.count; ++i) {
+    for (int j = 0; j < across.count; ++j) {
+      CommonRoadObstacle& piece = pieces.emplace_back();
+      for (const auto& [time, box] : occupancies) {
+        const Pose2 offset{PieceOffset(i, along.count, box.length, along.piece),
+                           PieceOffset(j, across.count, box.width, across.piece), 0.0};
+        piece.poses.emplace_back(time, Compose(box.center, offset));
+      }
+      piece.box = {piece.poses.front().second, along.piece, across.piece};
+      if (piece.poses.size() == 1) {
+        piece.poses.clear();
+      }
+    }
+  }
+  return pieces;
+}
+
+/// Reads an obstacle; one that is given by a set of places becomes several boxes.
+std::vector<CommonRoadObstacle> ReadObstacle(const XMLElement& element, bool moves,
+                                             const CommonRoadClock& clock,
+                                             const CommonRoadReading& reading,
+                                             Approximations& notes) {
   if (const XMLElement* set = element.FirstChildElement("occupancySet"); set != nullptr && moves) {
+    const std::vector<Occupancy> occupancies = ReadOccupancies(element, *set, clock, reading);
+    if (occupancies.empty()) {
+      return {};
+    }
     ++notes.sets;
-    return ReadOccupancies(*set, clock, reading);
+    std::vector<CommonRoadObstacle> pieces = CoverOccupancies(occupancies);
+    notes.pieces += static_cast<int>(pieces.size());
+    return pieces;
   }
   const XMLElement* shapes = element.FirstChildElement("shape");
   const std::vector<State> states = ReadStates(element, clock, reading, notes);
   if (shapes == nullptr || states.empty()) {
     ++notes.without_place;
-    return std::nullopt;
+    return {};
   }
   // A shape is in the frame of the obstacle.
   const Shape shape = ReadShapes(*shapes, {reading.file, reading.largest});
@@ -243,7 +320,7 @@ std::optional<CommonRoadObstacle> ReadObstacle(const XMLElement& element, bool m
       obstacle.poses.emplace_back(state.time, Compose(state.place, shape.box.center));
     }
   }
-  return obstacle;
+  return {obstacle};
 }
 
 }  // namespace
@@ -282,8 +359,8 @@ std::vector<CommonRoadObstacle> ReadCommonRoadObstacles(const XMLElement& root,
         name == "dynamicObstacle" || name == "phantomObstacle" ||
         (name == "obstacle" && text != nullptr && std::string_view(text) == "dynamic");
     if (is_dynamic || name == "staticObstacle" || name == "obstacle") {
-      if (auto found = ReadObstacle(*child, is_dynamic, clock, reading, counted)) {
-        obstacles.push_back(std::move(*found));
+      for (CommonRoadObstacle& found : ReadObstacle(*child, is_dynamic, clock, reading, counted)) {
+        obstacles.push_back(std::move(found));
       }
     }
   }
@@ -293,7 +370,10 @@ std::vector<CommonRoadObstacle> ReadCommonRoadObstacles(const XMLElement& root,
     }
   };
   note(counted.boxes, "obstacles are discs or polygons; their enclosing boxes are larger");
-  note(counted.sets, "obstacles are sets of occupied places; they are boxes in the middle of each");
+  if (counted.sets > 0) {
+    notes.push_back(fmt::format("{} obstacles are sets of occupied places: {} boxes cover them",
+                                counted.sets, counted.pieces));
+  }
   note(counted.skipped_states, "states of obstacles are not later than the state before: left out");
   note(counted.without_place, "obstacles have no shape or no state: left out");
   return obstacles;

@@ -73,9 +73,11 @@ PlanningProblem ReadProblem(const XMLElement& root, const Lanelets& lanelets, do
                             const CommonRoadReading& reading, std::vector<std::string>& notes) {
   const XMLElement* element = root.FirstChildElement("planningProblem");
   if (element == nullptr) {
-    Refuse(reading.file, "planningProblem",
-           "missing: the file describes a road and traffic, but neither start nor goal of a car",
-           root.GetLineNum());
+    Refuse(
+        reading.file, "planningProblem",
+        "missing: the file describes a road and traffic, but neither start nor goal of a car; add "
+        "a planningProblem with an initialState and a goalState",
+        root.GetLineNum());
   }
   if (element->NextSiblingElement("planningProblem") != nullptr) {
     notes.emplace_back("several planning problems: the first is driven");
@@ -279,10 +281,12 @@ std::vector<LaneletLane> LanesOf(const PlanningProblem& problem, const Lanelets&
   }
   auto lanes = FindLaneletRoute(lanelets, starts, goals);
   if (!lanes) {
-    Refuse(reading.file, "goalState",
-           fmt::format("no successors and lane changes lead from lanelet {} to lanelet {}",
-                       fmt::join(starts, " or "), fmt::join(goals, " or ")),
-           line);
+    Refuse(
+        reading.file, "goalState",
+        fmt::format("no successors and lane changes lead from lanelet {} to lanelet {}; a route "
+                    "follows the elements successor, adjacentLeft and adjacentRight of lanelets",
+                    fmt::join(starts, " or "), fmt::join(goals, " or ")),
+        line);
   }
   return *lanes;
 }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -219,6 +220,68 @@ TEST(CommonRoadScenario, EnclosesShapesByBoxes) {
   EXPECT_NEAR(disc.center.x, 20.0, Tolerance(1e-12));
   EXPECT_NEAR(disc.center.y, 5.0, Tolerance(1e-12));
   EXPECT_THAT(scenario.notes, testing::Contains(HasSubstr("1 obstacles are discs or polygons")));
+}
+
+// A car whose place is known at first, and then within boxes that grow and turn. The smallest box
+// of each place may be described with any of its sides as the length.
+TEST(CommonRoadScenario, CoversOccupanciesByBoxesThatSpreadOut) {
+  const std::vector<OrientedBox> places{{{20.0, 4.0, 0.0}, 4.0, 2.0},
+                                        {{26.0, 4.0, 0.1}, 9.0, 2.0},
+                                        {{31.0, 4.5, 0.2}, 14.0, 5.0},
+                                        {{36.0, 5.0, 0.3}, 18.0, 3.0}};
+  std::string set;
+  for (std::size_t step = 1; step < places.size(); ++step) {
+    const auto corners = places[step].Corners();
+    std::string polygon;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec2& corner = corners[(i + step) % corners.size()];
+      polygon += Point(corner.x(), corner.y());
+    }
+    set += fmt::format(
+        "<occupancy><shape><polygon>{}</polygon></shape><time><exact>{}</exact></time>"
+        "</occupancy>",
+        polygon, step);
+  }
+  const CommonRoadScenario scenario =
+      Read(Roads() +
+           "<dynamicObstacle id=\"7\"><shape><rectangle><length>4</length><width>2</width>"
+           "</rectangle></shape>" +
+           State("initialState", places[0].center, 0, 60.0) + "<occupancySet>" + set +
+           "</occupancySet></dynamicObstacle>" + PlanningProblem({5.0, 0.0, 0.0}, 10.0, "", 0, 50));
+  // 18 m of 4 m, and 5 m of 2 m.
+  ASSERT_EQ(scenario.obstacles.size(), 5U * 3U);
+  EXPECT_THAT(scenario.notes, Contains(HasSubstr("1 obstacles are sets of occupied places: 15")));
+  for (std::size_t step = 0; step < places.size(); ++step) {
+    std::vector<OrientedBox> pieces;
+    OrientedBox outer = places[step];
+    // The sizes of pieces allow for the four decimals of files by 1 mm.
+    outer.length += 3e-3;
+    outer.width += 3e-3;
+    for (const CommonRoadObstacle& obstacle : scenario.obstacles) {
+      ASSERT_EQ(obstacle.poses.size(), places.size());
+      EXPECT_EQ(obstacle.poses[step].first, 0.1 * static_cast<double>(step));
+      pieces.push_back(obstacle.box);
+      pieces.back().center = obstacle.poses[step].second;
+      for (const Vec2& corner : pieces.back().Corners()) {
+        EXPECT_TRUE(trackbed::Contains(outer, corner)) << step;
+      }
+    }
+    constexpr int kPoints = 40;
+    // The outer sides of pieces are those of the place up to rounding.
+    constexpr double kRounding = 1e-9;
+    for (int i = 0; i <= kPoints; ++i) {
+      for (int j = 0; j <= kPoints; ++j) {
+        const Vec2 point =
+            ToWorld(places[step].center,
+                    {(places[step].length - kRounding) * (static_cast<double>(i) / kPoints - 0.5),
+                     (places[step].width - kRounding) * (static_cast<double>(j) / kPoints - 0.5)});
+        EXPECT_TRUE(
+            std::any_of(pieces.begin(), pieces.end(),
+                        [&](const OrientedBox& piece) { return trackbed::Contains(piece, point); }))
+            << "step " << step << " at " << i << " " << j;
+      }
+    }
+  }
 }
 
 TEST(CommonRoadScenario, ReadsCoordinatesOfAMapProjection) {

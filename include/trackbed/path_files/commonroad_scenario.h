@@ -85,8 +85,9 @@ bool IsCommonRoadScenario(const std::string& text);
 /// Its lateral acceleration is at most 1.5 m/s^2 where the road is long enough.
 ///
 /// Properties that Trackbed does not model are approximated, with a note. Discs and polygons become
-/// their smallest enclosing boxes, sets of occupied places become boxes at the middle of their
-/// time, and states with intervals the middle of the intervals. Does not read traffic signs,
+/// their smallest enclosing boxes. Sets of occupied places become several boxes, which together
+/// cover each place at the middle of its time. States with intervals become the middle of the
+/// intervals. Does not read traffic signs,
 /// traffic lights, stop lines, speed limits and environment obstacles. If there are several
 /// planning problems or goals, reads the first.
 ///
