@@ -258,6 +258,20 @@ void OrientCar(const FoundModel& found, const AdaptOptions& options, FoundVehicl
                              NameOf(*found.model, mjOBJ_JOINT, wheels[1].steer)));
 }
 
+/// Whether the wheels stand on at most two axles, of which one has more than two wheels.
+bool CrowdAnAxle(const std::vector<FoundWheel>& wheels) {
+  const Vector forward = wheels.front().axis.cross(Vector::UnitZ());
+  std::vector<double> axles;
+  for (const FoundWheel& wheel : wheels) {
+    const double at = wheel.round.center.dot(forward);
+    if (std::none_of(axles.begin(), axles.end(),
+                     [&](double axle) { return std::abs(axle - at) < 0.5 * wheel.round.radius; })) {
+      axles.push_back(at);
+    }
+  }
+  return wheels.size() > 4 && axles.size() <= 2;
+}
+
 /// Describes an arrangement of wheels that is neither a car nor a differential drive.
 [[noreturn]] void RefuseCount(const FoundModel& found, const std::vector<FoundWheel>& wheels) {
   if (wheels.empty()) {
@@ -269,14 +283,16 @@ void OrientCar(const FoundModel& found, const AdaptOptions& options, FoundVehicl
             "give their radius by --wheel-radius R [m].") +
             WhyNoWheels(found));
   }
-  const char* called = wheels.size() == 3   ? "a tricycle"
-                       : wheels.size() == 1 ? "a unicycle"
-                       : wheels.size() > 4  ? "a vehicle with tracks or more than two axles"
-                                            : "a motorcycle or bicycle";
+  const char* called = wheels.size() == 3    ? "a tricycle"
+                       : wheels.size() == 1  ? "a unicycle"
+                       : CrowdAnAxle(wheels) ? "a vehicle with more than two wheels on an axle"
+                       : wheels.size() > 4   ? "a vehicle with tracks or more than two axles"
+                                             : "a motorcycle or bicycle";
   Ask(found, "wheels",
       fmt::format("{} wheels on the ground ({}): {}, which Trackbed does not drive; it drives cars "
-                  "with four wheels, and differential drive with two wheels and casters",
-                  wheels.size(), Listed(wheels), called));
+                  "with four wheels, and differential drive with two wheels and casters{}",
+                  wheels.size(), Listed(wheels), called,
+                  CrowdAnAxle(wheels) ? "; remove the other wheels from the file" : ""));
 }
 
 /// Sets the wheel radius, the origin and the distances between the wheels.

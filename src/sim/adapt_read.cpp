@@ -240,7 +240,8 @@ Scene ComposeUrdf(const fs::path& file, XMLDocument& document, const AdaptOption
 }
 
 /// Returns the scene with MuJoCo's remedies for bodies without mass or with impossible inertia.
-Scene WithRemedies(const Scene& scene, bool is_urdf) {
+/// `drops_visual` drops visual geometry of URDF, whose meshes may have no volume.
+Scene WithRemedies(const Scene& scene, bool is_urdf, bool drops_visual) {
   Scene own = scene;
   XMLDocument document;
   ParseComposed(scene.xml, document);
@@ -251,8 +252,8 @@ Scene WithRemedies(const Scene& scene, bool is_urdf) {
   compiler->SetAttribute("boundmass", "1e-6");
   compiler->SetAttribute("boundinertia", "1e-10");
   compiler->SetAttribute("balanceinertia", true);
-  if (is_urdf) {
-    compiler->SetAttribute("discardvisual", true);  // drops visual meshes without volume
+  if (drops_visual) {
+    compiler->SetAttribute("discardvisual", true);
   }
   own.xml = Print(document);
   own.trusted = false;
@@ -269,17 +270,23 @@ MujocoModel CompileFound(const Scene& scene, const std::string& name, bool is_ur
         text.find("mesh") == std::string::npos) {
       throw;
     }
-    MujocoModel model;
-    try {
-      model = CompileScene(WithRemedies(scene, is_urdf), name, Looks::kKept);
-    } catch (const InputError&) {
-      throw error;
+    // Files for display have wheels with visual geometry only: keep it if MuJoCo can.
+    for (const bool drops_visual : {false, true}) {
+      try {
+        MujocoModel model =
+            CompileScene(WithRemedies(scene, is_urdf, drops_visual), name, Looks::kKept);
+        notes.push_back(fmt::format(
+            "MuJoCo refuses the file ({}); read with boundmass 1e-6 kg, boundinertia "
+            "1e-10 kg m^2 and balanceinertia{}",
+            error.problems().front().message, drops_visual ? ", without visual geometry" : ""));
+        return model;
+      } catch (const InputError&) {
+        if (drops_visual || !is_urdf) {
+          throw error;
+        }
+      }
     }
-    notes.push_back(
-        fmt::format("MuJoCo refuses the file ({}); read with boundmass 1e-6 kg, boundinertia "
-                    "1e-10 kg m^2 and balanceinertia{}",
-                    error.problems().front().message, is_urdf ? ", without visual geometry" : ""));
-    return model;
+    throw;
   }
 }
 

@@ -223,8 +223,13 @@ class ModelChecker {
     const double largest = bound->largest;
     const bool non_negative =
         std::find(kNonNegative.begin(), kNonNegative.end(), array) != kNonNegative.end();
+    const bool is_inertia = array == "body_mass" || array == "body_inertia";
     for (int i = 0; i < row_count * columns; ++i) {
       const double number = numbers[i];
+      // Bodies that are fixed to the world, such as walls, never accelerate.
+      if (is_inertia && m_.body_weldid[i / columns] == 0 && std::isfinite(number)) {
+        continue;
+      }
       if (!(std::abs(number) <= largest) || (non_negative && number < 0.0)) {
         AddError(Owner(rows, i / columns),
                  fmt::format("{} is {:g}; must be {}", array, number,

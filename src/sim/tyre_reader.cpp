@@ -50,14 +50,12 @@ void CheckTyre(const Numerics& numerics, const MagicFormula& tyre, const char* a
   need(tyre.p_cx1 > 0.0, "p_cx1", "above 0", tyre.p_cx1);
   need(tyre.p_dx1 > 0.0, "p_dx1", "above 0", tyre.p_dx1);
   need(tyre.p_kx1 > 0.0, "p_kx1", "above 0", tyre.p_kx1);
-  need(tyre.p_ex1 <= 1.0, "p_ex1", "at most 1", tyre.p_ex1);
   need(tyre.p_cy1 > 0.0, "p_cy1", "above 0", tyre.p_cy1);
   need(tyre.p_dy1 > 0.0, "p_dy1", "above 0", tyre.p_dy1);
   need(tyre.p_ky1 < 0.0, "p_ky1",
        "below 0: a positive slip angle, with the tyre moving to the left, gives a force to the "
        "right",
        tyre.p_ky1);
-  need(tyre.p_ey1 <= 1.0, "p_ey1", "at most 1", tyre.p_ey1);
   need(tyre.p_ky2 >= 0.0, "p_ky2", "at least 0", tyre.p_ky2);
   need(tyre.p_ky4 > 0.0, "p_ky4", "above 0", tyre.p_ky4);
   need(tyre.version == 0.0 || tyre.version == 5.2 || tyre.version == 6.1, "magic_formula_version",

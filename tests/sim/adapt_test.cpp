@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <string_view>
 
 #include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
@@ -222,8 +223,34 @@ TEST(Adapt, NamesWhatCannotBeDriven) {
   const std::size_t wheel = xml.find("<body name='w3'");
   const std::string without = xml.substr(0, wheel) + xml.substr(xml.find("</body>", wheel) + 7);
   EXPECT_THAT(Refusal(without), HasSubstr("a tricycle"));
+  // A fifth wheel in the middle of the rear axle, as a copy of the fourth.
+  std::string fifth = xml.substr(wheel, xml.find("</body>", wheel) + 7 - wheel);
+  for (const char* name : {"w3", "roll3"}) {
+    const std::string quoted = fmt::format("'{}'", name);
+    fifth.replace(fifth.find(quoted), quoted.size(), fmt::format("'middle_{}'", name));
+  }
+  const std::size_t place = fifth.find("pos='");
+  const std::size_t first = fifth.find(' ', place);
+  const std::size_t second = fifth.find(' ', first + 1);
+  fifth.replace(first, second - first, " 0");
+  std::string five = xml;
+  five.insert(wheel, fifth);
+  EXPECT_THAT(Refusal(five), AllOf(HasSubstr("a vehicle with more than two wheels on an axle"),
+                                   HasSubstr("remove the other wheels from the file")));
   EXPECT_THAT(Refusal("<mujoco><worldbody><geom type='plane' size='1 1 1'/></worldbody></mujoco>"),
               AllOf(HasSubstr("no wheels found"), HasSubstr("no hinge joints")));
+}
+
+// 25 000 m^3 of MuJoCo's usual density: a wall of 2.5e7 kg, which stands.
+TEST(Adapt, TakesTheMassOfWallsForIrrelevant) {
+  std::string xml = ForeignXml(Foreign{});
+  const std::string wall =
+      "<body name='wall' pos='0 80 0'>{}<geom type='box' size='50 25 2.5'/></body>";
+  std::string standing = xml;
+  standing.insert(standing.find("</worldbody>"), fmt::format(fmt::runtime(wall), ""));
+  EXPECT_EQ(AdaptText(standing).kind, VehicleKind::kSteered);
+  xml.insert(xml.find("</worldbody>"), fmt::format(fmt::runtime(wall), "<freejoint/>"));
+  EXPECT_THAT(Refusal(xml), HasSubstr("wall: body_mass is 2.5e+07; must be within 1e+06 of 0"));
 }
 
 TEST(Adapt, AsksForALimitThatTheModelDoesNotHave) {
@@ -352,6 +379,24 @@ TEST(Adapt, ReadsUrdf) {
   // MuJoCo gives each of the two hubs a bounded mass of 1e-6 kg.
   EXPECT_NEAR(adapted.params().mass, 3.8, Tolerance(1e-5));
   EXPECT_THAT(NotesOf(model), HasSubstr("boundmass"));
+}
+
+// Files for display have visual geometry only, and hubs without mass.
+TEST(Adapt, FindsWheelsOfVisualGeometry) {
+  const Foreign car;
+  std::string urdf = ForeignUrdf(car, "<cylinder radius='0.05' length='0.03'/>");
+  for (const auto& [from, to] :
+       {std::pair("<collision>", "<visual>"), std::pair("</collision>", "</visual>")}) {
+    for (std::size_t at = urdf.find(from); at != std::string::npos; at = urdf.find(from)) {
+      urdf.replace(at, std::string_view(from).size(), to);
+    }
+  }
+  const AdaptedModel model = AdaptText(urdf, {}, "car.urdf");
+  const CarModel adapted(Scene{.xml = model.xml, .assets = {}, .lines = {}}, "car");
+  EXPECT_NEAR(adapted.params().wheelbase, car.wheelbase, Tolerance(1e-9));
+  EXPECT_NEAR(adapted.params().wheel_radius, car.radius, Tolerance(1e-9));
+  // MuJoCo gives each of the two hubs a bounded mass of 1e-6 kg.
+  EXPECT_NEAR(adapted.params().mass, 3.8, Tolerance(1e-5));
 }
 
 TEST(Adapt, NamesMeshesOfUrdfThatItCannotRead) {
