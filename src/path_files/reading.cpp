@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <utility>
 
 #include "trackbed/core/error.h"
@@ -24,6 +25,51 @@ void Refuse(const fs::path& file, const std::string& key, std::string message, i
       Problem{.file = file.string(), .line = line, .key = key, .message = std::move(message)});
 }
 
+namespace {
+
+/// Returns the first point that is reached before its predecessor, or at the same time as all
+/// points; the number of points if there is none.
+std::size_t FirstTimeOutOfOrder(const std::vector<double>& times) {
+  if (times.size() > 1 && times.front() == times.back() &&
+      std::is_sorted(times.begin(), times.end())) {
+    return 1;
+  }
+  return static_cast<std::size_t>(std::is_sorted_until(times.begin(), times.end()) - times.begin());
+}
+
+/// Separates the times of points that share one time, as clocks with whole seconds write. Such
+/// points and the next one are reached at a constant speed; the last points of a file, at the speed
+/// before them. Returns the speed of each step [m/s].
+std::vector<double> SpreadEqualTimes(const std::vector<Vec2>& points, std::vector<double>& times) {
+  std::vector<double> step_speeds;
+  std::size_t first = 0;
+  while (first + 1 < times.size()) {
+    std::size_t next = first + 1;
+    while (next < times.size() && times[next] == times[first]) {
+      ++next;
+    }
+    const std::size_t end = std::min(next, times.size() - 1);
+    double length = 0.0;
+    for (std::size_t i = first; i < end; ++i) {
+      length += (points[i + 1] - points[i]).norm();
+    }
+    const bool is_last = next == times.size();
+    const double before = step_speeds.empty() ? 0.0 : step_speeds.back();
+    const double speed = is_last ? before : length / (times[next] - times[first]);
+    const double pace = speed > 0.0 ? 1.0 / speed : 0.0;
+    for (std::size_t i = first; i < end; ++i) {
+      if (i + 1 < next) {
+        times[i + 1] = times[i] + pace * (points[i + 1] - points[i]).norm();
+      }
+      step_speeds.push_back(speed);
+    }
+    first = next;
+  }
+  return step_speeds;
+}
+
+}  // namespace
+
 void TakeTimes(PathFile& found, std::vector<double> times, const std::string& file) {
   PathPoints& points = found.points;
   const bool has_speeds = !points.speed.empty();
@@ -34,26 +80,22 @@ void TakeTimes(PathFile& found, std::vector<double> times, const std::string& fi
                                     .key = "time",
                                     .message = std::move(message)});
   };
-  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
-    const double duration = times[i + 1] - times[i];
-    if (duration <= 0.0) {
-      drop(i + 1, fmt::format("{} s of point {} must be above the previous point's {} s",
-                              times[i + 1], i + 2, times[i]));
-      return;
-    }
-    if (has_speeds) {
-      continue;
-    }
-    const double speed = (points.points[i + 1] - points.points[i]).norm() / duration;
-    if (speed > kMaxPathSpeed) {
-      drop(i + 1, fmt::format("{:.4g} m/s from point {} to the next; must be at most {} m/s", speed,
-                              i + 1, kMaxPathSpeed));
-      return;
-    }
-    points.speed.push_back(speed);
+  if (const std::size_t wrong = FirstTimeOutOfOrder(times); wrong < times.size()) {
+    drop(wrong, fmt::format("{} s of point {} must be above the previous point's {} s",
+                            times[wrong], wrong + 1, times[wrong - 1]));
+    return;
   }
-  if (!has_speeds && !points.speed.empty()) {
-    points.speed.push_back(points.speed.back());
+  const std::vector<double> step_speeds = SpreadEqualTimes(points.points, times);
+  for (std::size_t i = 0; i < step_speeds.size() && !has_speeds; ++i) {
+    if (step_speeds[i] > kMaxPathSpeed) {
+      drop(i + 1, fmt::format("{:.4g} m/s from point {} to the next; must be at most {} m/s",
+                              step_speeds[i], i + 1, kMaxPathSpeed));
+      return;
+    }
+  }
+  if (!has_speeds && !step_speeds.empty()) {
+    points.speed = step_speeds;
+    points.speed.push_back(step_speeds.back());
   }
   const double first = times.empty() ? 0.0 : times.front();
   for (double& time : times) {

@@ -22,7 +22,8 @@ inline constexpr std::size_t kMaxGlobeBytes = std::size_t{64} << 20U;
 std::string LowerEnding(const std::filesystem::path& file);
 
 /// Stores the times at which the points are reached, from 0 [s]. If the points have no speeds,
-/// computes the speed at each point from the times. If the times do not increase, or if a computed
+/// computes the speed at each point from the times. Points of one equal time are reached at a
+/// constant speed until the next time. If the times decrease or are all equal, or if a computed
 /// speed is out of range, drops the speeds and the times. Then adds a problem that names the point
 /// to PathFile::speed_problems.
 void TakeTimes(PathFile& found, std::vector<double> times, const std::string& file);

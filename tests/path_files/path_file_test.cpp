@@ -232,8 +232,23 @@ TEST(PathCsv, KeepsTheTimesOfACarThatStands) {
   const PathPoints again = Read("path.csv", PathCsv(waits));
   EXPECT_EQ(again.time, waits.time);
   EXPECT_EQ(again.speed, waits.speed);
-  EXPECT_THAT(SpeedProblem("t,x,y,v\n0,0,0,3\n1,3,0,3\n1,4,0,3\n"),
-              HasSubstr("4: time: 1 s of point 3 must be above the previous point's 1 s"));
+  EXPECT_THAT(SpeedProblem("t,x,y,v\n0,0,0,3\n1,3,0,3\n0.5,4,0,3\n"),
+              HasSubstr("4: time: 0.5 s of point 3 must be above the previous point's 1 s"));
+}
+
+// A clock of whole seconds repeats the times of a car at 3 m/s, recorded at unequal distances: the
+// times that are exact in binary come back as 1/3 s per meter.
+TEST(PathCsv, SeparatesTimesOfACoarseClock) {
+  const std::string rows = "0,0,0\n0,0.75,0\n0,2.25,0\n1,3,0\n1,4.5,0\n2,6,0\n2,6,0\n2,7.5,0\n";
+  const PathPoints found = Read("p.csv", "t,x,y\n" + rows);
+  ASSERT_EQ(found.points.size(), 8U);
+  for (std::size_t i = 0; i < found.points.size(); ++i) {
+    // One rounding per sum of the times of a second.
+    EXPECT_NEAR(found.time[i], found.points[i].x() / 3.0, 1e-15 * 8.0) << i;
+    EXPECT_NEAR(found.speed[i], 3.0, 1e-15 * 8.0) << i;
+  }
+  EXPECT_THAT(SpeedProblem("t,x,y\n1,0,0\n1,3,0\n1,4,0\n"),
+              HasSubstr("3: time: 1 s of point 2 must be above the previous point's 1 s"));
 }
 
 /// A nav_msgs/Path of poses 1 m apart with the given stamps.
