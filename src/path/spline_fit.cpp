@@ -34,10 +34,20 @@ double Deviation(const SmoothingSpline& spline, const ChordPoints& points) {
   return deviation;
 }
 
-/// Fits the spline with the largest smoothing length that keeps the spline within `tolerance` [m]
-/// of all given and fitted points. Returns the smoothing length found.
+/// Share of the largest deviation for the spline. The rest is for the segments, which approximate
+/// the spline.
+constexpr double kSplineShare = 0.95;
+
+/// Rounds a positive length up to three significant digits.
+double RoundUp(double length) {
+  const double digit = std::pow(10.0, std::floor(std::log10(length)) - 2.0);
+  return digit * std::ceil(length / digit);
+}
+
+/// Fits the spline with the largest smoothing length that keeps the spline within kSplineShare of
+/// `max_deviation` [m] of all given and fitted points. Returns the smoothing length found.
 double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordPoints& fitted,
-                 double tolerance) {
+                 double max_deviation) {
   const std::vector<double>& knots = spline.knots();
   const double length = knots.back() - knots.front();
   double least = length;
@@ -51,7 +61,7 @@ double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordP
     }
     const double deviation = std::max(Deviation(spline, given), Deviation(spline, fitted));
     smallest_deviation = std::min(smallest_deviation, deviation);
-    return deviation <= tolerance;
+    return deviation <= kSplineShare * max_deviation;
   };
   double good = length / static_cast<double>(knots.size() - 1);
   double bad = good;
@@ -67,9 +77,10 @@ double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordP
       good *= 0.5;
       if (good < 1e-3 * least) {
         FailFit("max_deviation",
-                fmt::format("{:.3g} m cannot be kept: the nearest spline deviates by "
-                            "{:.3g} m",
-                            tolerance, smallest_deviation));
+                fmt::format("{:.3g} m cannot be kept: the nearest spline deviates by {:.3g} m; "
+                            "use at least {:.3g} m",
+                            max_deviation, smallest_deviation,
+                            RoundUp(smallest_deviation / kSplineShare)));
       }
     } while (!fits(good));
     bad = 2.0 * good;
@@ -361,8 +372,7 @@ void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct,
                           headings,
                           max_curvature};
   SmoothingSpline spline(local.knots, local.period, headings);
-  // Reserve 5 % of the tolerance for the segments, which approximate the spline.
-  double smoothing_length = FitWithin(spline, local.given, local.knots, 0.95 * tolerance);
+  double smoothing_length = FitWithin(spline, local.given, local.knots, tolerance);
   const auto curve = [&](std::size_t knot, double share) -> Vec2 {
     return spline.At(std::lerp(spline.knots()[knot], spline.knots()[knot + 1], share));
   };

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -226,6 +227,33 @@ TEST(FitPath, SaysHowMuchDeviationTheNoiseNeeds) {
       const double allowed = std::stod(text.substr(value + 13));
       const FittedPath fitted = FitPath(given, {.max_deviation = allowed, .resample = 0.5});
       EXPECT_TRUE(fitted.reversals.empty());
+      ++messages;
+    }
+  }
+  EXPECT_GE(messages, 3);
+}
+
+// The spline follows points at every meter, and misses the points between them by the noise.
+TEST(FitPath, SaysHowMuchDeviationTheSplineNeeds) {
+  Dice dice(53);
+  int messages = 0;
+  for (int run = 0; run < 10; ++run) {
+    PathPoints given;
+    for (double s = 0.0; s < 30.0; s += 0.5) {
+      given.points.push_back(Vec2(20.0 * std::sin(s / 20.0), 20.0 * (1.0 - std::cos(s / 20.0))) +
+                             Vec2(dice.Normal(0.02), dice.Normal(0.02)));
+    }
+    const double wanted = dice.Between(0.03, 0.05);
+    try {
+      static_cast<void>(FitPath(given, {.max_deviation = wanted, .resample = 1.0}));
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_THAT(text, ::testing::HasSubstr(fmt::format("{:.3g} m cannot be kept", wanted)));
+      const std::size_t value = text.find("use at least ");
+      ASSERT_NE(value, std::string::npos) << text;
+      const double allowed = std::stod(text.substr(value + 13));
+      EXPECT_GT(allowed, wanted);
+      EXPECT_LE(FitPath(given, {.max_deviation = allowed, .resample = 1.0}).deviation, allowed);
       ++messages;
     }
   }
