@@ -143,6 +143,13 @@ std::string DescribeMiss(double max_miss, const FilletTurn& turn, double radius)
       miss, max_miss, turn.heading_change * 180.0 / kPi, radius, RemedyForMiss(miss));
 }
 
+/// Describes the remedy for a turn that needs `needed` [m] of half of each leg, rounded so that it
+/// is sufficient.
+std::string LongerLegs(double needed) {
+  return fmt::format("make its legs at least {:.10g} m long, or use plan.method: dubins",
+                     0.01 * std::ceil(200.0 * needed));
+}
+
 /// Describes a turn whose legs are too short for the radius `radius` [m], with a remedy. The remedy
 /// is a smaller radius if the car can turn on it, otherwise a longer leg or another planner.
 std::string DescribeShortLeg(const FilletTurn& turn, double radius, double min_turning_radius) {
@@ -153,8 +160,7 @@ std::string DescribeShortLeg(const FilletTurn& turn, double radius, double min_t
   const std::string remedy =
       half_leg * per_leg >= min_turning_radius
           ? fmt::format("set plan.radius to at most {:.10g}", 0.001 * std::floor(millimeters))
-          : fmt::format("make the shorter leg at least {:.10g} m long, or use plan.method: dubins",
-                        0.01 * std::ceil(200.0 * radius / per_leg));
+          : LongerLegs(radius / per_leg);
   return fmt::format(
       "radius {:.4g} m needs {:.4g} m of each leg; half of the shorter leg is {:.4g} m; {}", radius,
       radius / per_leg, half_leg, remedy);
@@ -186,7 +192,13 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
       "within half of the shorter leg, {:.4g} m",
       speed, bounds.low, bounds.high, turn.shorter_leg / 2.0);
   if (options.without_room == InfeasibleTurnPolicy::kRefuse) {
-    throw RefuseTurn(turn, PlanStatus::kNoRoomForSteering, why);
+    const double radius =
+        RoomiestRadius(vehicle, speed, turn.interior_angle, NeutralTowardTurn(turn), bounds);
+    const double needed =
+        SteeringRoom(vehicle, speed, turn.interior_angle, 0.0, NeutralTowardTurn(turn), radius);
+    throw RefuseTurn(
+        turn, PlanStatus::kNoRoomForSteering,
+        fmt::format("{}; set plan.without_room: slow_down, {}", why, LongerLegs(needed)));
   }
   if (options.without_room == InfeasibleTurnPolicy::kHalfLeg) {
     turn.note = why + "; under half_leg instead";
@@ -209,8 +221,9 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
   if (!room) {
     throw RefuseTurn(
         turn, PlanStatus::kNoRoomForSteering,
-        fmt::format("{}, and at {:.4g} m/s its ramps would overlap those of its neighbors", why,
-                    v));
+        fmt::format("{}, and at {:.4g} m/s its ramps would overlap those of its neighbors; {}", why,
+                    v,
+                    LongerLegs(LeastSteeringRoom(vehicle, 0.5 * v, turn.interior_angle, bounds))));
   }
   turn.speed = v;
   turn.note = fmt::format("{}; speed reduced to {:.4g} m/s, half of the ramp on the leg", why, v);

@@ -794,7 +794,9 @@ TEST(PlanFillets, RefusesLegsWithoutSteeringRoom) {
   ExpectRefused(PlanFillets(ReferenceCar(), route, kSpeed, options), PlanStatus::kNoRoomForSteering,
                 2,
                 "turn of -90 deg at waypoint 2: at 3 m/s no radius from 5.1 to 154 m leaves room "
-                "for the steering ramp within half of the shorter leg, 14 m");
+                "for the steering ramp within half of the shorter leg, 14 m; set "
+                "plan.without_room: slow_down, make its legs at least 28.67 m long, or use "
+                "plan.method: dubins");
 }
 
 // --- A turn for which C.40 has no feasible radius ------------------------------------------------
@@ -845,6 +847,7 @@ TEST(PlanFillets, TakesNoTurnFasterBecauseItsLegIsShorter) {
   EXPECT_EQ(slowest, 0.5);
   EXPECT_THAT(plan(13.4).turns.at(0).note, HasSubstr("speed reduced to 0.5 m/s, half of the ramp"));
   EXPECT_EQ(plan(11.8).status, PlanStatus::kNoRoomForSteering);
+  EXPECT_THAT(plan(11.8).reason, HasSubstr("make its legs at least 11.82 m long"));
 }
 
 TEST(PlanFillets, KeepsItsSpeedUnderHalfLegWhenAskedTo) {
