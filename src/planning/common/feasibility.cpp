@@ -64,11 +64,8 @@ bool IsAtLimit(const Plan& plan, const PlanRequest& request) {
 }
 
 void CheckStart(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
-  for (Excess& excess : start_excess::Displacement(plan, request)) {
+  for (Excess& excess : start_excess::At(plan, request)) {
     found.push_back(std::move(excess));
-  }
-  if (std::optional<Excess> step = start_excess::SteeringStep(plan, request)) {
-    found.push_back(std::move(*step));
   }
 }
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "src/planning/common/start_excess.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/course_schedule.h"
@@ -177,6 +179,43 @@ std::vector<Vec2> GoalsOutsideObstacles(const PlanRequest& request, const Collis
   std::copy_if(request.waypoints.begin() + 1, request.waypoints.end(), std::back_inserter(goals),
                [&](const Vec2& waypoint) { return clear.MayBeFree(waypoint); });
   return goals;
+}
+
+std::vector<Excess> FindStartExcesses(const Plan& plan, const PlanRequest& request) {
+  return start_excess::At(plan, request);
+}
+
+Plan GoalBlocked(const PlanRequest& request, std::size_t index, double safe_distance) {
+  TRACKBED_CHECK(!request.obstacles.empty(), "no obstacles");
+  const Vec2& waypoint = request.waypoints.at(index);
+  const CollisionChecker clear = CheckerFromStart(request, safe_distance);
+  const OrientedBox* nearest = nullptr;
+  double distance = 0.0;
+  double lack = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < request.obstacles.size(); ++i) {
+    const double away =
+        Separation({{waypoint.x(), waypoint.y(), 0.0}, 0.0, 0.0}, request.obstacles[i]);
+    const double own = clear.inner_radius() + clear.distances()[i] - away;
+    if (own > lack) {
+      nearest = &request.obstacles[i];
+      distance = away;
+      lack = own;
+    }
+  }
+  const auto millimeters_down = [](double length) { return 1e-3 * std::floor(1e3 * length); };
+  const double room = millimeters_down(distance - clear.inner_radius());
+  return Refused(
+      PlanStatus::kGoalBlocked,
+      fmt::format(
+          "waypoint {} is blocked: the obstacle at ({:.4g}, {:.4g}) {}; the rear axle's center "
+          "must be at least {:.4g} m away, {:.4g} m of them for the car; {}move the waypoint away "
+          "from the obstacle by {:.4g} m",
+          index, nearest->center.x, nearest->center.y,
+          distance > 0.0 ? fmt::format("is {:.3g} m away", distance)
+                         : fmt::format("covers it, {:.3g} m from the edge", -distance),
+          distance + lack, clear.inner_radius(),
+          room >= 0.0 ? fmt::format("set safe_distance to at most {:.4g} m, or ", room) : "",
+          -millimeters_down(-lack)));
 }
 
 Plan CheckStart(const PlanRequest& request, double safe_distance) {

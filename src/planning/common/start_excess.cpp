@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "src/planning/common/feasible_speeds.h"
 #include "trackbed/core/angle.h"
@@ -27,8 +28,6 @@ double RoundDown(double number) {
   const double digit = std::pow(10.0, std::floor(std::log10(number)) - 2.0);
   return digit * std::floor(number / digit);
 }
-
-}  // namespace
 
 std::vector<Excess> Displacement(const Plan& plan, const PlanRequest& request) {
   const Pose2 first = plan.reference.path.At(0.0).pose;
@@ -77,6 +76,16 @@ std::optional<Excess> SteeringStep(const Plan& plan, const PlanRequest& request)
                     "rad; set mission.start.steering: {0:.4g}, or start at rest with "
                     "mission.start.speed: 0",
                     fitting, request.start_steering)};
+}
+
+}  // namespace
+
+std::vector<Excess> At(const Plan& plan, const PlanRequest& request) {
+  std::vector<Excess> found = Displacement(plan, request);
+  if (std::optional<Excess> step = SteeringStep(plan, request)) {
+    found.push_back(std::move(*step));
+  }
+  return found;
 }
 
 Excess TooFast(double start_speed, double highest, const std::string& cause, double station) {

@@ -11,14 +11,10 @@
 namespace trackbed::start_excess {
 
 /// Returns an excess for each of position and heading in which the path begins elsewhere than the
-/// car. The hints give the values that fit.
-std::vector<Excess> Displacement(const Plan& plan, const PlanRequest& request);
-
-/// Returns an excess if the car rolls, and its start steering differs from the steering angle with
-/// which the path begins. Returns nullopt if the car cannot steer the start of the path at all,
-/// because the excess of the steering angle is the cause then. The hint gives the start steering
-/// that fits.
-std::optional<Excess> SteeringStep(const Plan& plan, const PlanRequest& request);
+/// car. Also returns one if the car rolls, and its start steering differs from the steering angle
+/// with which the path begins, unless the car cannot steer the start of the path at all; the excess
+/// of the steering angle is the cause then. The hints give the values that fit.
+std::vector<Excess> At(const Plan& plan, const PlanRequest& request);
 
 /// Returns the excess of a start speed above `highest`, the highest feasible start speed [m/s].
 /// `cause` tells what the car exceeds, and `station` where [m].

@@ -94,6 +94,9 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
     const int to = grid.CellAt(goal);
     const GridPath way = SearchGrid(grid, static_cast<std::size_t>(from),
                                     static_cast<std::size_t>(to), options.budget);
+    if (way.status == GridStatus::kGoalOccupied) {
+      return route::GoalBlocked(request, i, options.safe_distance);
+    }
     if (!way.ok()) {
       return Refused(ToPlanStatus(way.status),
                      fmt::format("from waypoint {} to {}: {}, after {} cells of {:.3g} m; "
@@ -195,12 +198,9 @@ Plan PlanOnGrid(const AStarOptions& options, const PlanRequest& request) {
   }
   const GridPlanner planner(options, request, area, inflation);
   Plan direct = planner.From({request.start.position()});
-  const std::vector<Excess> excesses =
-      direct.ok() ? FindExcesses(direct, request) : std::vector<Excess>{};
-  const auto wrong_start = std::find_if(excesses.begin(), excesses.end(), [](const Excess& excess) {
-    return excess.remedy == Remedy::kNone;
-  });
-  const bool begins_right = wrong_start == excesses.end();
+  const std::vector<Excess> wrong_start =
+      direct.ok() ? route::FindStartExcesses(direct, request) : std::vector<Excess>{};
+  const bool begins_right = wrong_start.empty();
   if (options.corners == Corners::kRefuse ||
       (direct.ok() && begins_right && MakeFeasible(direct, request).ok())) {
     return direct;
@@ -224,7 +224,7 @@ Plan PlanOnGrid(const AStarOptions& options, const PlanRequest& request) {
       fmt::format(
           "the path is not feasible: {}; no path was found that starts at the car's heading of "
           "{:.3g} rad{}",
-          ToString(*wrong_start), request.start.yaw,
+          ToString(wrong_start.front()), request.start.yaw,
           request.start_speed > 0.0
               ? fmt::format(" and leaves room to slow down from {:.3g} m/s", request.start_speed)
               : ""));

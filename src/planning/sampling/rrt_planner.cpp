@@ -192,7 +192,7 @@ std::string DescribeBudget(const RrtPlannerOptions& options, std::size_t trees, 
 /// reached.
 Plan RefusedAs(const TreePath& way, const Forest& forest) {
   if (way.status == RrtStatus::kGoalBlocked) {
-    return GoalBlocked(forest.task, way.goals + 1);
+    return route::GoalBlocked(forest.request, way.goals + 1, forest.options.safe_distance);
   }
   return route::Refused(
       PlanStatus::kBudgetUsedUp,

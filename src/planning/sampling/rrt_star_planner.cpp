@@ -16,10 +16,10 @@ namespace {
 
 /// Returns the failed plan for a tree that did not reach the waypoint `waypoint` from the previous
 /// waypoint.
-Plan StarRefused(const RrtStarPlannerOptions& options, const SamplingTask& task,
-                 const RrtStarResult& tree, std::size_t waypoint) {
+Plan StarRefused(const RrtStarPlannerOptions& options, const PlanRequest& request,
+                 const SamplingTask& task, const RrtStarResult& tree, std::size_t waypoint) {
   if (tree.status == RrtStarStatus::kGoalBlocked) {
-    return GoalBlocked(task, waypoint);
+    return route::GoalBlocked(request, waypoint, options.safe_distance);
   }
   double left = (task.goals[waypoint - 1] - tree.nodes.front().position).norm();
   for (const TreeNode& node : tree.nodes) {
@@ -94,7 +94,7 @@ TreesPlan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& 
                                 .cost = found.ok() ? std::optional(found.cost) : std::nullopt,
                                 .path = InWorld(request.start, found.path)});
     if (!found.ok()) {
-      return {StarRefused(options, task, found, i + 1)};
+      return {StarRefused(options, request, task, found, i + 1)};
     }
     AddNodes(found, request.start, tree);
     AddPruned(task, tangents, options.corner_cost, found.path, i + 1 == task.goals.size(), points);

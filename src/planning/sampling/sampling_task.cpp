@@ -64,7 +64,6 @@ SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequ
   }
   task.inflation = InflationAt(ends, task.obstacles, inflation);
   task.lead_inflation = InflationAt({{0.0, 0.0}}, task.obstacles, inflation);
-  task.goal_distance = clear.inner_radius() + options.safe_distance;
   std::vector<Vec2> points = task.goals;
   const std::ptrdiff_t after_start = task.departure.size() > 1 ? 1 : 0;
   points.insert(points.end(), task.departure.begin() + after_start, task.departure.end());
@@ -102,12 +101,6 @@ Plan CheckLeadIn(const SamplingTask& task, const PlanRequest& request, double sa
       PlanStatus::kStartBlocked,
       fmt::format("an obstacle is closer than {:.3g} m to the first {:.3g} m of straight path",
                   task.lead_inflation.most, length));
-}
-
-Plan GoalBlocked(const SamplingTask& task, std::size_t waypoint) {
-  return route::Refused(PlanStatus::kGoalBlocked,
-                        fmt::format("an obstacle is closer than {:.3g} m to waypoint {}",
-                                    task.goal_distance, waypoint));
 }
 
 CornerTangents::CornerTangents(const VehicleParams& vehicle, double speed) {

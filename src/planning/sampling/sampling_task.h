@@ -34,8 +34,7 @@ struct SamplingTask {
   Inflation inflation = 0.0;
   /// Distance of the departure from obstacles, reduced where the start is nearer.
   Inflation lead_inflation = 0.0;
-  double goal_distance = 0.0;  ///< Smallest distance of a goal from obstacles [m].
-  GridArea area;               ///< Area from which the planners sample.
+  GridArea area;  ///< Area from which the planners sample.
   WindScoring wind;
 };
 
@@ -106,9 +105,6 @@ void AddPruned(const SamplingTask& task, const CornerTangents& tangents, double 
                const std::vector<Vec2>& path, bool is_last, std::vector<Vec2>& points);
 
 std::vector<Vec2> InWorld(const Pose2& frame, std::vector<Vec2> points);
-
-/// Returns the failed plan for a blocked waypoint. The argument `waypoint` is counted from 0.
-Plan GoalBlocked(const SamplingTask& task, std::size_t waypoint);
 
 /// Returns the length of the initial straight [m]: `lead_in`, but at most half the distance to the
 /// first waypoint after the start.

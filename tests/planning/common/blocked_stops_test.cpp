@@ -56,5 +56,40 @@ TEST(CheckStops, NamesTheDepthOfAnOverlap) {
                         40.0 + front + 0.6));
 }
 
+/// Returns whether a car that keeps `safe_distance` may be clear of the obstacles at its goal.
+bool MayReachGoal(const PlanRequest& request, double safe_distance) {
+  const CollisionChecker clear = route::CheckerFromStart(request, safe_distance);
+  return route::GoalsOutsideObstacles(request, clear).size() == 1;
+}
+
+// The circle inside the car has a radius of 0.8 m, half its width. The first box is beside the
+// start, so the car may leave it.
+TEST(GoalBlocked, NamesTheObstacleAndRemediesThatFit) {
+  PlanRequest request = RouteWith({{0.0, 2.0}, {42.1004, 0.0}});
+  request.vehicle.width = 1.6;
+  ASSERT_FALSE(MayReachGoal(request, 0.5));
+  EXPECT_EQ(route::GoalBlocked(request, 1, 0.5).status, PlanStatus::kGoalBlocked);
+  EXPECT_EQ(
+      route::GoalBlocked(request, 1, 0.5).reason,
+      "waypoint 1 is blocked: the obstacle at (42.1, 0) is 1.1 m away; the rear axle's center "
+      "must be at least 1.3 m away, 0.8 m of them for the car; set safe_distance to at most "
+      "0.3 m, or move the waypoint away from the obstacle by 0.2 m");
+  EXPECT_TRUE(MayReachGoal(request, 0.3));
+  request.waypoints[1].x() -= 0.2;
+  EXPECT_TRUE(MayReachGoal(request, 0.5));
+}
+
+TEST(GoalBlocked, NamesNoSafeDistanceIfTheCarWouldHitTheObstacle) {
+  PlanRequest request = RouteWith({{40.4004, 0.0}});
+  request.vehicle.width = 1.6;
+  ASSERT_FALSE(MayReachGoal(request, 0.0));
+  EXPECT_EQ(route::GoalBlocked(request, 1, 0.5).reason,
+            "waypoint 1 is blocked: the obstacle at (40.4, 0) covers it, 0.6 m from the edge; the "
+            "rear axle's center must be at least 1.3 m away, 0.8 m of them for the car; move the "
+            "waypoint away from the obstacle by 1.9 m");
+  request.waypoints[1].x() -= 1.9;
+  EXPECT_TRUE(MayReachGoal(request, 0.5));
+}
+
 }  // namespace
 }  // namespace trackbed

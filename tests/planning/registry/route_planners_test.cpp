@@ -566,6 +566,17 @@ TEST(AStarPlanner, RefusesCornersWhenAsked) {
   EXPECT_TRUE(straight.ok()) << straight.reason;
 }
 
+// A grade of 0.2 pulls at 1.9 m/s^2, and the tyres hold at most 0.5 m/s^2.
+TEST(AStarPlanner, NamesThePullOfGravityOnIce) {
+  PlanRequest request = Between({}, {30.0, 0.0, 0.0}, {});
+  request.vehicle.friction_lateral = request.vehicle.friction_longitudinal = 1.0;
+  request.friction = 0.05;
+  request.ground.grade = {0.2, 0.0};
+  const Plan plan = MakePlan(request, AStarOptions{});
+  EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
+  EXPECT_NE(plan.reason.find("pull of gravity"), std::string::npos) << plan.reason;
+}
+
 TEST(AStarPlanner, TellsItsCorners) {
   const Plan plan = MakePlan(Blocked(), AStarOptions{});
   ASSERT_TRUE(plan.ok()) << plan.reason;

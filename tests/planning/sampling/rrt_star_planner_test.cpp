@@ -143,7 +143,7 @@ TEST(RrtStarPlanner, NamesTheWaypointThatIsBlocked) {
   request.obstacles.push_back({{61.0, 0.0, 0.0}, 1.0, 1.0});
   const Plan plan = MakePlan(request, RrtStarPlannerOptions{});
   EXPECT_EQ(plan.status, PlanStatus::kGoalBlocked);
-  EXPECT_THAT(plan.reason, HasSubstr("to waypoint 1"));
+  EXPECT_THAT(plan.reason, HasSubstr("waypoint 1 is blocked: the obstacle at (61, 0)"));
   EXPECT_EQ(DiagnosticsJson(plan)["trees"].size(), 1U);
 }
 

@@ -7,6 +7,7 @@
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/corners.h"
+#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/lead_in.h"
 #include "trackbed/planning/common/plan.h"
 
@@ -49,6 +50,15 @@ std::vector<Vec2> GoalsOutsideObstacles(const PlanRequest& request, const Collis
 /// list of obstacles must not be empty.
 std::string NearestObstacle(const VehicleParams& vehicle, const Pose2& pose,
                             const std::vector<OrientedBox>& obstacles, double distance);
+
+/// Returns the excesses with which FindExcesses says that the plan does not begin in the car's
+/// start state: in position, heading or, for a rolling car, steering.
+std::vector<Excess> FindStartExcesses(const Plan& plan, const PlanRequest& request);
+
+/// Returns the rejected plan for the waypoint `index`, at which the car cannot be clear of
+/// obstacles at any heading. The plan's reason names the obstacle, and a safe distance that fits or
+/// how far to move the waypoint.
+Plan GoalBlocked(const PlanRequest& request, std::size_t index, double safe_distance);
 
 /// Returns a rejected plan if an obstacle of the request overlaps the car's footprint at the start.
 Plan CheckStart(const PlanRequest& request, double safe_distance);
