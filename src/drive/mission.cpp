@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "src/drive/plan_remedies.h"
 #include "src/drive/replanning_monitor.h"
 #include "src/drive/scenario_parts.h"
 #include "trackbed/core/angle.h"
@@ -24,8 +25,8 @@
 // 1. Refuses a start at which the car overlaps an obstacle (StartOverlap).
 // 2. Makes the PlanRequest from the scenario: waypoints, obstacles known at the start, road,
 //    limits.
-// 3. MakePlan calls the planner and checks the feasibility. If there is no plan, WithHint plans
-//    without the obstacles known at the start, and names the remedy if that succeeds.
+// 3. MakePlan calls the planner and checks the feasibility. If there is no plan, PlanRemedies
+//    finds changes of the mission that lead to a plan.
 // 4. Adds notes on slow turns, missed waypoints, obstacles in the way, and turning round at the
 //    start.
 // 5. With plan.avoid, PlanAround leads the plan around the known obstacles.
@@ -196,27 +197,14 @@ FeasiblePlan Refused(PlanStatus status, std::string reason, const PlanRequest& r
   return MakeFeasible(std::move(plan), request);
 }
 
-/// Adds to the reason of a plan that failed how to leave obstacles to the layers that plan during
-/// the run. Adds nothing if the planner fails without the obstacles, too, or if the scenario has no
-/// such layers.
-FeasiblePlan WithHint(FeasiblePlan plan, PlanRequest request, const Scenario& scenario) {
-  const PlanSpec& spec = *scenario.plan;
-  const std::vector<OrientedBox>& walls = MapWalls(scenario.world);
-  if (!(spec.avoid || spec.replan) || request.obstacles.size() == walls.size()) {
-    return plan;
-  }
-  request.obstacles = walls;
-  if (!MakePlan(request, spec.global).ok()) {
-    return plan;
-  }
-  return Refused(
-      plan->status,
-      fmt::format("{}; without the obstacles that are known at the start, {} finds a path: to "
-                  "leave an obstacle to {}, give it known_from: {{time: 0.1}}, or use a planner "
-                  "that ignores obstacles, such as plan.global: {{method: course}}",
-                  plan->reason, PlannerFor(spec.global).name,
-                  spec.replan ? "plan.replan" : "plan.avoid"),
-      request);
+/// Adds to the reason of a plan that failed which remedies lead to a plan.
+FeasiblePlan WithRemedies(FeasiblePlan plan, const PlanRequest& request, const Scenario& scenario) {
+  const std::vector<std::string> remedies =
+      PlanRemedies(plan->status, request, *scenario.plan, MapWalls(scenario.world));
+  return remedies.empty()
+             ? std::move(plan)
+             : Refused(plan->status, fmt::format("{}; {}", plan->reason, fmt::join(remedies, "; ")),
+                       request);
 }
 
 /// Returns the plan of a mission without a path: a car that drives at the mission's speed.
@@ -278,7 +266,7 @@ FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle,
       .limits = std::move(limits)};
   FeasiblePlan plan = MakePlan(request, scenario.plan->global);
   if (!plan.ok()) {
-    return WithHint(std::move(plan), request, scenario);
+    return WithRemedies(std::move(plan), request, scenario);
   }
   NoteSlowTurns(plan, request.speed.speed);
   NoteTurnRound(plan, vehicle, start, scenario.control.speed, known);

@@ -1,4 +1,4 @@
-#include "src/scenario/car_lengths.h"
+#include "trackbed/scenario/car_lengths.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <memory>
 
-#include "src/scenario/car_lengths.h"
 #include "src/scenario/check_requirements.h"
 #include "src/scenario/check_values.h"
 #include "src/scenario/commonroad_yaml.h"
@@ -33,6 +32,7 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/road_network/open_drive.h"
+#include "trackbed/scenario/car_lengths.h"
 #include "trackbed/scenario/input_files.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/sim/scene.h"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/scenario/car_lengths.h"
 #include "src/scenario/yaml_value.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/scenario/car_lengths.h"
 
 // Implements a KeyVisitor that reads a YAML mapping. Each call of Field reads one key of the
 // mapping and checks type, range and allowed names. Each problem is reported with the key's

@@ -8,6 +8,7 @@
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/grid/hybrid_astar.h"
 
 // Tests the refusal of starts inside obstacles, and the hint how to leave obstacles to replanning
 // during the run.
@@ -69,6 +70,32 @@ TEST(PlanScenario, SaysHowToLeaveAnObstacleToReplanning) {
   const FeasiblePlan alone = PlanScenario(ScenarioWith(50.0, 0.2, ""), ReferenceCar());
   ASSERT_FALSE(alone.ok());
   EXPECT_EQ(alone->reason.find("known_from"), std::string::npos) << alone->reason;
+}
+
+/// Applies the remedies that the reason of a refused plan names, and plans again.
+FeasiblePlan PlanWithRemedies(const std::string& reason, Scenario scenario) {
+  if (reason.find("mission.start.speed: 0") != std::string::npos) {
+    scenario.mission.start.speed = 0.0;
+  }
+  if (reason.find("plan: {method: hybrid_astar}") != std::string::npos) {
+    scenario.plan->global = HybridAStarOptions{};
+  }
+  return PlanScenario(scenario, ReferenceCar());
+}
+
+// The obstacle is 1.4 m ahead of the front of a car that rolls at 3 m/s and that needs 3 m to stop
+// at the mission's 1.5 m/s^2. From rest, the car can reverse.
+TEST(PlanScenario, NamesRemediesThatWork) {
+  for (const char* method : {"dubins", "reeds_shepp", "astar", "rrt", "rrt_star"}) {
+    SCOPED_TRACE(method);
+    const Scenario scenario = ScenarioWith(6.0, 0.2, "", fmt::format("{{method: {}}}", method));
+    const FeasiblePlan refused = PlanScenario(scenario, ReferenceCar());
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused->reason.find("; there is a path with "), std::string::npos)
+        << refused->reason;
+    const FeasiblePlan mended = PlanWithRemedies(refused->reason, scenario);
+    EXPECT_TRUE(mended.ok()) << refused->reason << "; then: " << mended->reason;
+  }
 }
 
 TEST(PlanScenario, GivesNoHintWhereTheObstacleIsNotTheCause) {

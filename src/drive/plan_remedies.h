@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed {
+
+/// Returns the changes of a scenario that lead to a plan, for the reason of a refused plan. Each
+/// change is tried, and only changes with which the planner finds a path are returned.
+///
+/// If a planner that avoids obstacles lacks room, tries a start at rest, the planner
+/// `hybrid_astar`, and both. Tries `hybrid_astar` only if no layer plans during the run, because
+/// its paths may reverse. If there is such a layer, tries to leave the obstacles to this layer: the
+/// request with only the `walls` of the map.
+///
+/// `status` and `request` are those of the refused plan. Cost: up to one plan without obstacles,
+/// one plan with at most 100 000 random samples, and two searches of at most 20 000 poses.
+[[nodiscard]] std::vector<std::string> PlanRemedies(PlanStatus status, const PlanRequest& request,
+                                                    const PlanSpec& spec,
+                                                    const std::vector<OrientedBox>& walls);
+
+}  // namespace trackbed
