@@ -181,8 +181,9 @@ std::vector<Vec2> GoalsOutsideObstacles(const PlanRequest& request, const Collis
   return goals;
 }
 
-std::vector<Excess> FindStartExcesses(const Plan& plan, const PlanRequest& request) {
-  return start_excess::At(plan, request);
+std::string WrongStart(const Plan& plan, const PlanRequest& request) {
+  const std::vector<Excess> excesses = start_excess::At(plan, request);
+  return excesses.empty() ? "" : ToString(excesses.front());
 }
 
 Plan GoalBlocked(const PlanRequest& request, std::size_t index, double safe_distance) {

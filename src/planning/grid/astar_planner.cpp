@@ -198,8 +198,7 @@ Plan PlanOnGrid(const AStarOptions& options, const PlanRequest& request) {
   }
   const GridPlanner planner(options, request, area, inflation);
   Plan direct = planner.From({request.start.position()});
-  const std::vector<Excess> wrong_start =
-      direct.ok() ? route::FindStartExcesses(direct, request) : std::vector<Excess>{};
+  const std::string wrong_start = direct.ok() ? route::WrongStart(direct, request) : "";
   const bool begins_right = wrong_start.empty();
   if (options.corners == Corners::kRefuse ||
       (direct.ok() && begins_right && MakeFeasible(direct, request).ok())) {
@@ -224,7 +223,7 @@ Plan PlanOnGrid(const AStarOptions& options, const PlanRequest& request) {
       fmt::format(
           "the path is not feasible: {}; no path was found that starts at the car's heading of "
           "{:.3g} rad{}",
-          ToString(wrong_start.front()), request.start.yaw,
+          wrong_start, request.start.yaw,
           request.start_speed > 0.0
               ? fmt::format(" and leaves room to slow down from {:.3g} m/s", request.start_speed)
               : ""));

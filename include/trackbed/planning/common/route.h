@@ -7,7 +7,6 @@
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/corners.h"
-#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/lead_in.h"
 #include "trackbed/planning/common/plan.h"
 
@@ -51,9 +50,10 @@ std::vector<Vec2> GoalsOutsideObstacles(const PlanRequest& request, const Collis
 std::string NearestObstacle(const VehicleParams& vehicle, const Pose2& pose,
                             const std::vector<OrientedBox>& obstacles, double distance);
 
-/// Returns the excesses with which FindExcesses says that the plan does not begin in the car's
-/// start state: in position, heading or, for a rolling car, steering.
-std::vector<Excess> FindStartExcesses(const Plan& plan, const PlanRequest& request);
+/// Describes the first difference between the start of the plan and the car's start state for
+/// people: in position, heading or, for a rolling car, steering. Returns an empty text if
+/// MakeFeasible accepts the start.
+std::string WrongStart(const Plan& plan, const PlanRequest& request);
 
 /// Returns the rejected plan for the waypoint `index`, at which the car cannot be clear of
 /// obstacles at any heading. The plan's reason names the obstacle, and a safe distance that fits or
