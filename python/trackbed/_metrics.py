@@ -10,7 +10,7 @@ import numpy
 from . import _trackbed
 from ._arguments import flag, text, type_name
 from ._runs import Log, Path
-from ._signatures import METRIC_NAME, name_of, register_plugin, returned
+from ._signatures import METRIC_NAME, name_of, register_plugin, require_plain, returned
 
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
@@ -67,6 +67,7 @@ def metric(
         what = f"metric {own!r}"
         if not callable(function) or isinstance(function, type):
             raise TypeError(f"{what} must be a function, not {type_name(function)}")
+        require_plain(what, function)
         parameters = [
             p
             for p in inspect.signature(function).parameters.values()

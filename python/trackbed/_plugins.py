@@ -23,6 +23,7 @@ from ._signatures import (
     parameters_of,
     register_plugin,
     require_method,
+    require_plain,
     returned,
 )
 
@@ -30,6 +31,17 @@ PluginError = _trackbed.PluginError
 Vehicle = _trackbed.Vehicle
 PlantSetup = _trackbed.PlantSetup
 ControllerInput = _trackbed.ControllerInput
+
+
+def _copied(own: Any) -> Any:
+    """Returns a copy of the user's object for a saved state."""
+    try:
+        return copy.deepcopy(own)
+    except TypeError as error:
+        raise TypeError(
+            f"Loop.state copies {type_name(own)} with copy.deepcopy: {error}; give the class a method "
+            "__deepcopy__(self, memo)"
+        ) from error
 
 
 class NoPath(Exception):
@@ -170,6 +182,7 @@ def planner(
         what = f"planner {own!r}"
         if isinstance(function, type):
             raise TypeError(f"{what} must be a function, not the class {function.__name__}")
+        require_plain(what, function, yields=True)
         specs = keys_of(what, parameters_of(what, function, ["request"]), keys, "plan")
         register_plugin(
             "planner",
@@ -239,7 +252,7 @@ class _ControllerObject:
         return steering, acceleration, values
 
     def copy(self) -> _ControllerObject:
-        return _ControllerObject(copy.deepcopy(self._own))
+        return _ControllerObject(_copied(self._own))
 
 
 class _ControllerAdapter:
@@ -290,6 +303,7 @@ def controller(
             require_method(what, function, "step", ["seen"])
             parameters = parameters_of(what, function, [])
         else:
+            require_plain(what, function)
             parameters = parameters_of(what, function, ["seen"])
         specs = keys_of(what, parameters, keys, "control")
         register_plugin(
@@ -352,7 +366,7 @@ class _PlantObject:
             self._own.push(force)
 
     def copy(self) -> _PlantObject:
-        return _PlantObject(copy.deepcopy(self._own))
+        return _PlantObject(_copied(self._own))
 
 
 class _PlantAdapter:
@@ -388,7 +402,7 @@ def plant(name: str, *, replace: bool = False) -> Callable[[_Class], _Class]:
         what = f"plant {own!r}"
         if not isinstance(function, type):
             raise TypeError(f"{what} must be a class, not {type_name(function)}")
-        if parameters_of(what, function, ["setup"]):
+        if parameters_of(what, function, ["setup"], keys=False):
             raise TypeError(f"{what} must have no keyword parameters, because plants have no keys")
         parameters = inspect.signature(getattr(function, "step", lambda self: None)).parameters
         gear = ["gear"] if "gear" in parameters else []

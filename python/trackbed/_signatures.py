@@ -45,6 +45,25 @@ class Key:
         self.max = None if max is None else number("max", max)
         self.above = None if above is None else number("above", above)
         self.allowed = texts("allowed", allowed)
+        if self.max is not None:
+            if self.min is not None and self.min > self.max:
+                raise ValueError(f"min is {min}, which exceeds max, {max}: no value is allowed")
+            if self.above is not None and self.above >= self.max:
+                raise ValueError(f"above is {above}, but max is {max}: no value is allowed")
+
+    def refusal(self, value: Any) -> str:
+        """Returns why the key refuses a value, such as "must be at least 0"; "" if it allows it."""
+        values = list(value) if isinstance(value, (list, tuple)) else [value]
+        if self.allowed and any(isinstance(v, str) and v not in self.allowed for v in values):
+            return f"allowed are {', '.join(self.allowed)}"
+        plain = [float(v) for v in values if isinstance(v, numbers.Real)]
+        if self.min is not None and any(v < self.min for v in plain):
+            return f"must be at least {self.min:g}"
+        if self.max is not None and any(v > self.max for v in plain):
+            return f"must be at most {self.max:g}"
+        if self.above is not None and any(v <= self.above for v in plain):
+            return f"must be above {self.above:g}"
+        return ""
 
 
 def print_traceback(exception: BaseException) -> None:
@@ -78,8 +97,25 @@ def _own_type(default: Any, annotation: Any, where: str) -> str:
     )
 
 
-def parameters_of(what: str, function: Callable[..., Any], leading: Sequence[str]) -> list[Any]:
-    """Returns the keyword parameters, after checking that `leading` are the positional ones."""
+def require_plain(what: str, function: object, yields: bool = False) -> None:
+    """Refuses functions whose call returns before they have run: async ones, and generators.
+
+    yields: whether generators are allowed.
+    """
+    called = getattr(function, "func", function)  # The function of a functools.partial.
+    if inspect.iscoroutinefunction(called) or inspect.isasyncgenfunction(called):
+        raise TypeError(f"{what} must be a plain function, not an async one")
+    if inspect.isgeneratorfunction(called) and not yields:
+        raise TypeError(f"{what} must return its result, not yield it")
+
+
+def parameters_of(
+    what: str, function: Callable[..., Any], leading: Sequence[str], keys: bool = True
+) -> list[Any]:
+    """Returns the keyword parameters, after checking that `leading` are the positional ones.
+
+    keys: whether the message may ask for keyword parameters.
+    """
     try:
         parameters = list(inspect.signature(function).parameters.values())
     except (TypeError, ValueError):
@@ -92,10 +128,11 @@ def parameters_of(what: str, function: Callable[..., Any], leading: Sequence[str
     if [p for p in others if p.kind not in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]:
         raise TypeError(f"{what} must not have *args or **kwargs, because its keys must be known")
     if len(others) != len(leading):
-        wanted = ", ".join((*leading, "*", "keys"))
+        wanted = ", ".join((*leading, "*", "keys") if keys else leading)
         found = ", ".join(p.name for p in others) or "none"
+        hint = "; keys come after '*'" if keys and len(others) > len(leading) else ""
         raise TypeError(
-            f"{what} must have the parameters ({wanted}); its positional parameters are: {found}"
+            f"{what} must have the parameters ({wanted}); its positional parameters are: {found}{hint}"
         )
     return keywords
 
@@ -117,6 +154,9 @@ def keys_of(what: str, parameters: Iterable[Any], given: Mapping[str, Key], sect
             raise TypeError(f"keys[{parameter.name!r}] must be a trackbed.Key, not {type_name(key)}")
         default = parameter.default
         required = default is inspect.Parameter.empty
+        refusal = "" if required else key.refusal(default)
+        if refusal:
+            raise ValueError(f"{where} has the default {default!r}; {refusal}")
         result.append(
             {
                 "name": parameter.name,
@@ -197,6 +237,8 @@ def name_of(kind: str, name: object, pattern: re.Pattern[str] = NAME) -> str:
 
 
 def returned(what: str, value: object, meaning: str) -> float:
+    if value is None:
+        raise TypeError(f"{what} returned None; must return {meaning}")
     try:
         return number(f"{what} returned {meaning}, which", value)
     except ValueError:
@@ -210,6 +252,7 @@ def require_method(what: str, own: type, name: str, parameters: Sequence[str]) -
     wanted = f"{name}({', '.join(('self', *parameters))})"
     if not callable(method):
         raise TypeError(f"{what} must be a class with the method {wanted}")
+    require_plain(f"{name} of {what}", method)
     found = [
         p
         for p in inspect.signature(method).parameters.values()

@@ -218,6 +218,20 @@ def test_loop_state_copies_what_a_plugin_has_kept():
     assert loop.observation.x_m == there
 
 
+class KeepsLock(Bicycle):
+    def __init__(self, setup):
+        super().__init__(setup)
+        self.lock = threading.Lock()
+
+
+def test_an_object_without_a_copy_names_a_remedy():
+    trackbed.plant("test_locks", replace=True)(KeepsLock)
+    loop = trackbed.Loop("three_turns", "test_locks")
+    with pytest.raises(trackbed.PluginError, match="Loop.state copies KeepsLock .*__deepcopy__"):
+        loop.state
+    loop.step()
+
+
 class Keeps:
     def step(self, seen):
         self.seen, self.vehicle = seen, seen.vehicle
@@ -282,7 +296,7 @@ def raised(method, set):
         (lambda seen: float("nan"), r"step returned the steering angle \[rad\] nan; must be finite"),
         (lambda seen: (0.0, float("inf")), r"the acceleration \[m/s\^2\] inf; must be finite"),
         (lambda seen: "left", "the steering angle .* must be a number, not str"),
-        (lambda seen: None, "the steering angle .* must be a number, not NoneType"),
+        (lambda seen: None, r"step returned None; must return the steering angle \[rad\]"),
         (lambda seen: (1.0, 2.0, 3.0), "step returned 3 values"),
         (lambda seen: numpy.zeros(1), "step returned 1 values"),
         (lambda seen: 10**400, "the steering angle .* too large; must be finite"),
@@ -448,6 +462,29 @@ def test_interrupts_are_raised_unchanged():
         trackbed.run("three_turns", plants="kinematic", set={"control": {"method": "test_broken"}})
 
 
+async def plans_later(request):
+    return [(0.0, 0.0), (1.0, 0.0)]
+
+
+class steps_later:
+    async def step(self, seen):
+        return 0.0
+
+
+def yields(seen):
+    yield 0.0
+
+
+def test_a_generator_is_a_planner():
+    @trackbed.planner("test_yields", replace=True)
+    def planner(request):
+        for x in range(30):
+            yield request.start[0] + x, request.start[1]
+
+    run = trackbed.run("three_turns", plants="kinematic", set={"plan": {"method": "test_yields"}})
+    assert run.path["x_m"][-1] == pytest.approx(29.0, abs=0.05)  # At most max_deviation.
+
+
 @pytest.mark.parametrize(
     "register, error, text",
     [
@@ -475,6 +512,37 @@ def test_interrupts_are_raised_unchanged():
         (lambda: trackbed.metric("test_x")(lambda: 1), TypeError, r"\(log\) or \(log, path\)"),
         (lambda: trackbed.metric("cross_track")(calm), ValueError, "is a section of metrics.json"),
         (lambda: trackbed.Key(min="a"), TypeError, "min must be a number"),
+        (lambda: trackbed.Key(min=2, max=1), ValueError, "min is 2, which exceeds max, 1"),
+        (lambda: trackbed.Key(above=1, max=1), ValueError, "above is 1, but max is 1"),
+        (
+            lambda: trackbed.planner("test_x", keys={"a": trackbed.Key(max=1)})(lambda r, *, a=2: 1),
+            ValueError,
+            "a of .* has the default 2; must be at most 1",
+        ),
+        (
+            lambda: trackbed.planner("test_x", keys={"a": trackbed.Key(above=0)})(
+                lambda r, *, a=[1, 0]: 1
+            ),
+            ValueError,
+            r"a of .* has the default \[1, 0\]; must be above 0",
+        ),
+        (
+            lambda: trackbed.planner("test_x", keys={"a": trackbed.Key(allowed=["b"])})(
+                lambda r, *, a="c": 1
+            ),
+            ValueError,
+            "a of .* has the default 'c'; allowed are b",
+        ),
+        (lambda: trackbed.planner("test_x")(plans_later), TypeError, "not an async one"),
+        (lambda: trackbed.controller("test_x")(steps_later), TypeError, "step of .* an async one"),
+        (lambda: trackbed.controller("test_x")(yields), TypeError, "its result, not yield it"),
+        (lambda: trackbed.metric("test_x")(yields), TypeError, "its result, not yield it"),
+        (lambda: trackbed.controller("test_x")(lambda seen, gain: 1), TypeError, "come after '\\*'"),
+        (
+            lambda: trackbed.plant("test_x")(type("A", (), {})),
+            TypeError,
+            r"parameters \(setup\); its positional parameters are: none$",
+        ),
     ],
 )
 def test_wrong_registrations_are_named(register, error, text):
