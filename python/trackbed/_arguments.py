@@ -142,9 +142,11 @@ def instance(name: str, value: object, kind: type) -> None:
 def doubles(name: str, value: object) -> numpy.ndarray:
     """Returns the argument `name` as an array of float64, which has the memory of `value` if it can.
 
-    Refuses texts, complex numbers and times, which NumPy would convert.
+    Refuses texts, complex numbers and times, which NumPy would convert. Masked values are NaN.
     """
     try:
+        if isinstance(value, numpy.ma.MaskedArray) and value.mask.any():
+            return numpy.ma.filled(value.astype(numpy.float64), numpy.nan)
         result = numpy.asarray(value)
         if result.dtype.kind == "O" and not all(
             item is None or isinstance(item, numbers.Real) for item in result.flat

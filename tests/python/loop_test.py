@@ -245,6 +245,11 @@ def test_vector_leaves_ended_loops_and_resets():
         (lambda v: v.step([0.1]), ValueError, r"steering has the shape \(1,\); must be \(3,\)"),
         (lambda v: v.step([0.1, 0.1, math.nan]), ValueError, "steering has a value that is not"),
         (lambda v: v.step(["a", "b", "c"]), TypeError, "steering must be an array of numbers"),
+        (
+            lambda v: v.step(numpy.ma.masked_array([0.1] * 3, mask=[0, 1, 0])),
+            ValueError,
+            "steering has a value that is not finite",
+        ),
         (lambda v: v.step([0.0] * 3, [[1.0]]), ValueError, "acceleration has the shape"),
         (lambda v: v.step([0.0] * 3, [1, 1, math.inf]), ValueError, "acceleration has an infinite"),
         (lambda v: v.step(None, [1.0] * 3), ValueError, "acceleration is given without steering"),
