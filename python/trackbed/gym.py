@@ -333,8 +333,9 @@ class VectorPathTracking(
 
 def _column(argument: str, name: object) -> str:
     if text(f"a name in {argument}", name) not in VectorLoop.columns:
-        known = ", ".join(VectorLoop.columns)
-        raise ValueError(f"{argument} has the unknown column {name!r}; allowed: {known}")
+        known = VectorLoop.columns
+        hint = similar(name, known) or f"; allowed: {', '.join(known)}"
+        raise ValueError(f"{argument} has the unknown column {name!r}{hint}")
     return str(name)
 
 

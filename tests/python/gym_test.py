@@ -185,7 +185,7 @@ def test_renders_the_moment():
 @pytest.mark.parametrize(
     "arguments, error, text",
     [
-        (dict(observed=["speed"]), ValueError, "observed has the unknown column 'speed'; allowed: t_s"),
+        (dict(observed=["speed"]), ValueError, "observed has the unknown column 'speed'; did you mean '"),
         (dict(observed=[3]), TypeError, "a name in observed must be a str"),
         (dict(costs=3), TypeError, "costs must be a dict"),
         (dict(costs={"cross_track_m": "a"}), TypeError, "must be a number"),
