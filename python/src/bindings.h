@@ -5,7 +5,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -14,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "python/src/threads.h"
 #include "trackbed/analysis/run.h"
 
 /// Shared parts of the compiled module _trackbed, on which the Python files of the package build.
@@ -49,35 +49,13 @@ void CopyAsItself(Class& bound) {
   bound.def("__deepcopy__", [](const py::object& self, const py::dict&) { return self; });
 }
 
-/// Counts the functions of the package that run without the GIL. Python code can register plug-ins
-/// only while no such function runs, because the registries are not thread-safe.
-class RunningFunction {
- public:
-  RunningFunction() { ++Count(); }
-  RunningFunction(const RunningFunction&) = delete;
-  RunningFunction& operator=(const RunningFunction&) = delete;
-  ~RunningFunction() { --Count(); }
-
-  /// Number of functions that run without the GIL. The caller must have the GIL.
-  static std::atomic<int>& Count();
-};
-
-/// Releases the GIL. The function counts as running before the GIL is released, and until the GIL
-/// is acquired again.
-class WithoutGil {
- public:
-  WithoutGil() = default;
-
- private:
-  const RunningFunction running_;
-  const py::gil_scoped_release release_;
-};
-
 /// Asks Python about once in 20 ms, while a run is simulated or filmed without the GIL, whether a
-/// signal such as Ctrl-C has arrived. Only the main thread of Python handles signals.
+/// signal such as Ctrl-C has arrived. Only the main thread of Python handles signals. The end of
+/// the interpreter counts as a signal for the other threads.
 class Signals {
  public:
-  /// Returns whether a signal handler has raised an exception, such as KeyboardInterrupt.
+  /// Returns whether a signal handler has raised an exception, such as KeyboardInterrupt, or the
+  /// interpreter ends.
   bool Raised();
   /// Throws the exception of the signal handler if there was one. Requires the GIL.
   void Rethrow();

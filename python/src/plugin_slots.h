@@ -55,7 +55,9 @@ void RegisterInSlot(std::shared_ptr<const Plugin> plugin, const Add& add) {
   }
   if (plugins.size() == kSlots) {
     throw std::runtime_error(plugin->kind + " '" + plugin->name + "': at most " +
-                             std::to_string(kSlots) + " can be registered");
+                             std::to_string(kSlots) +
+                             " can be registered; give it the name of an earlier one, with "
+                             "replace=True, or a parameter that distinguishes the variants");
   }
   constexpr auto kMake = []<std::size_t... Slot>(std::index_sequence<Slot...>) {
     return std::array{&MakeEntry<Slot>::Make...};

@@ -9,4 +9,8 @@ namespace trackbed::python {
 /// plug-in then, because Python would end the thread in the middle of C++ code. Requires the GIL.
 std::size_t InterruptPlugins();
 
+/// Forgets the plug-ins that run on other threads, which do not exist in a forked process. Requires
+/// the GIL.
+void ForgetOtherPlugins();
+
 }  // namespace trackbed::python

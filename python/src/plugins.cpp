@@ -207,6 +207,13 @@ std::size_t InterruptPlugins() {
   return count;
 }
 
+void ForgetOtherPlugins() {
+  ThreadsInside().clear();
+  if (InsidePlugin()) {
+    ThreadsInside().insert(PyThread_get_thread_ident());
+  }
+}
+
 void RequireNothingRuns(const Plugin& plugin) {
   if (RunningFunction::Count() > 0) {
     throw std::runtime_error(fmt::format(

@@ -68,6 +68,9 @@ void BindPlugins(py::module_& module) {
   module.def("register_metric", &RegisterPythonMetric);
   module.def("keys_of_section", &KeysOfSection);
   module.def("interrupt_plugins", &InterruptPlugins);
+  module.def("begin_end", &BeginEnd);
+  module.def("running_functions", [] { return RunningFunction::Count().load(); });
+  module.def("forget_other_threads", &ForgetOtherThreads);
   BindPlannerRequest(module);
   BindControllerInput(module);
   BindPlantSetup(module);

@@ -40,6 +40,9 @@ bool Signals::Raised() {
   if (error_ || now < next_) {
     return error_ != nullptr;
   }
+  if (EndsThisThread()) {
+    return true;
+  }
   next_ = now + std::chrono::milliseconds(20);
   const py::gil_scoped_acquire gil;
   if (PyErr_CheckSignals() != 0) {
@@ -54,14 +57,10 @@ void Signals::Rethrow() {
   }
 }
 
-std::atomic<int>& RunningFunction::Count() {
-  static std::atomic<int> count{0};
-  return count;
-}
-
 CarCache& Cars() {
-  static CarCache cars;
-  return cars;
+  // Never destroyed, because threads may use cars until the process ends.
+  static auto* const cars = new CarCache;
+  return *cars;
 }
 
 namespace {

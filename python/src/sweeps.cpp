@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <condition_variable>
 #include <exception>
@@ -127,7 +128,7 @@ class SweepJob {
   /// Stops the study, and waits until its threads have ended. A plug-in that does not return is
   /// left behind after ten seconds.
   ~SweepJob() {
-    if (started_) {
+    if (started_by_ == getpid()) {  // A forked process does not have the threads.
       Stop();
       const WithoutGil release;
       std::unique_lock lock(state_->mutex);
@@ -140,7 +141,7 @@ class SweepJob {
     std::thread([state = state_, jobs, running = std::move(running)]() mutable {
       RunAll(*state, jobs, std::move(running));
     }).detach();
-    started_ = true;
+    started_by_ = getpid();
   }
 
   void Stop() { state_->stopped = true; }
@@ -192,7 +193,7 @@ class SweepJob {
 
  private:
   std::shared_ptr<SweepState> state_;
-  bool started_ = false;
+  pid_t started_by_ = 0;
 };
 
 std::shared_ptr<SweepJob> MakeJob(const fs::path& file, const std::vector<std::string>& overrides,

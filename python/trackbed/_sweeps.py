@@ -159,9 +159,19 @@ def _has_finished(job: _trackbed.SweepJob) -> bool:
         return job.wait(0.0)
 
 
+def _forget_threads() -> None:
+    """Forgets the threads that a forked process does not have."""
+    _running.clear()
+    _trackbed.forget_other_threads()
+
+
+os.register_at_fork(after_in_child=_forget_threads)
+
+
 @atexit.register
 def _end() -> None:
-    """Ends studies and plug-ins on other threads before the interpreter ends."""
+    """Ends studies, plug-ins and runs on other threads before the interpreter ends."""
+    _trackbed.begin_end()
     jobs = list(_running)
     for job in jobs:
         job.stop()
@@ -171,7 +181,7 @@ def _end() -> None:
         finished = all([_has_finished(job) for job in jobs])
         # A plug-in has one second to return before it is interrupted.
         inside = _trackbed.interrupt_plugins() if waited > 1.0 or finished else 0
-        if finished and not inside:
+        if finished and not inside and (not _trackbed.running_functions() or waited > 5.0):
             return
         if waited > 5.0:
             sys.stderr.write("trackbed: a plug-in on another thread does not return\n")

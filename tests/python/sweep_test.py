@@ -147,3 +147,51 @@ def test_a_plugin_that_does_not_return_does_not_crash_the_end(study, body, code,
     )
     assert done.returncode == code, done.stderr
     assert told in done.stderr
+
+
+DAEMONS = {
+    "run": "trackbed.run('three_turns', plants=['mujoco'])",
+    "plan": "trackbed.Loop('three_turns', 'kinematic')",
+    "step": "loop.step() if not loop.observation.ended else loop.reset()",
+    "vector": "cars.step(); cars.reset()",
+    "plugin": "trackbed.run('three_turns', 'kinematic', {'control': {'method': 'own'}})",
+}
+
+
+@pytest.mark.parametrize("body", DAEMONS.values(), ids=DAEMONS)
+def test_a_daemon_thread_does_not_crash_the_end(body):
+    program = (
+        "import sys, threading, time, trackbed\n"
+        "trackbed.controller('own')(lambda seen: 0.0)\n"
+        "loop = trackbed.Loop('three_turns', 'kinematic')\n"
+        "cars = trackbed.VectorLoop('three_turns', 'kinematic', 8)\n"
+        "began = threading.Event()\n"
+        "def work():\n"
+        "    while True:\n"
+        f"        {body}\n"
+        "        began.set()\n"
+        "for _ in range(3):\n"
+        "    threading.Thread(target=work, daemon=True).start()\n"
+        "began.wait()\n"
+        "sys.exit(7)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60
+    )
+    assert (done.returncode, done.stderr) == (7, "")
+
+
+def test_a_fork_during_a_study_works_alone(study):
+    sweep = trackbed.sweep(study, wait=False, jobs=1)
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            trackbed.metric("test_fork")(lambda log: 4.0)
+            run = trackbed.run("three_turns", plants="kinematic")
+            code = 0 if run.metrics["kinematic"]["test_fork"] == 4.0 else 2
+            del sweep
+        finally:
+            os._exit(code)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    sweep.stop()
