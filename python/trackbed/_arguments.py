@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Optional, Union
 
 import numpy
+import numpy.typing
 
 from . import _trackbed
 
@@ -23,8 +24,10 @@ version: str = _trackbed.version
 Scenario = Union[str, "os.PathLike[str]"]
 Plants = Union[str, Iterable[str], None]
 Overrides = Optional[Mapping[str, Any]]
-Floats = Union[Sequence[float], numpy.ndarray]
+Floats = Union[Sequence[float], "numpy.typing.NDArray[Any]"]
 """Numbers in one row."""
+
+Array = numpy.typing.NDArray[numpy.float64]
 
 
 def type_name(value: object) -> str:
@@ -139,14 +142,12 @@ def instance(name: str, value: object, kind: type) -> None:
         raise TypeError(f"{name} must be a trackbed.{kind.__name__}, not {type_name(value)}")
 
 
-def doubles(name: str, value: object) -> numpy.ndarray:
+def doubles(name: str, value: object) -> Array:
     """Returns the argument `name` as an array of float64, which has the memory of `value` if it can.
 
     Refuses texts, complex numbers and times, which NumPy would convert. Masked values are NaN.
     """
     try:
-        if isinstance(value, numpy.ma.MaskedArray) and value.mask.any():
-            return numpy.ma.filled(value.astype(numpy.float64), numpy.nan)
         result = numpy.asarray(value)
         if result.dtype.kind == "O" and not all(
             item is None or isinstance(item, numbers.Real) for item in result.flat
@@ -154,14 +155,17 @@ def doubles(name: str, value: object) -> numpy.ndarray:
             raise TypeError
         if result.dtype.kind not in "biufO":
             raise TypeError
-        return numpy.asarray(result, dtype=numpy.float64, order="C")
+        plain: Array = numpy.asarray(result, dtype=numpy.float64, order="C")
+        if isinstance(value, numpy.ma.MaskedArray):
+            plain = numpy.where(numpy.asarray(value.mask), numpy.nan, plain)
+        return plain
     except OverflowError:
         raise ValueError(f"{name} has a value that is too large; must be at most 1.8e308") from None
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be an array of numbers, not {type_name(value)}") from None
 
 
-def array(name: str, value: object, shape: tuple[int, ...], finite: bool = True) -> numpy.ndarray:
+def array(name: str, value: object, shape: tuple[int, ...], finite: bool = True) -> Array:
     """Returns the argument `name` as an array of float64 with the given shape."""
     result = doubles(name, value)
     if result.shape != shape:
@@ -171,7 +175,7 @@ def array(name: str, value: object, shape: tuple[int, ...], finite: bool = True)
     return result
 
 
-def row(name: str, value: object) -> numpy.ndarray:
+def row(name: str, value: object) -> Array:
     """Returns the argument `name` as an array of finite float64 with one dimension."""
     result = doubles(name, value)
     if result.ndim != 1:

@@ -8,10 +8,12 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn, Optional, Union
 
 import numpy
+import numpy.typing
 
 from . import _trackbed
 from ._arguments import (
     INT_MAX,
+    Array,
     Floats,
     Overrides,
     Scenario,
@@ -210,7 +212,7 @@ class Loop:
             raise ValueError("state is the state of a loop with another scenario or plant")
         self._core.restore(state._core)
 
-    def reference(self, stations: Floats) -> dict[str, numpy.ndarray]:
+    def reference(self, stations: Floats) -> dict[str, Array]:
         """Returns points of the present plan at `stations` [m], an array with the shape (n,).
 
         Stations count as Observation.station_m; a plan that stops on the way has one part for each
@@ -256,7 +258,7 @@ class VectorLoop:
         plant: Optional[str] = None,
         count: int = 1,
         *,
-        seeds: Union[Sequence[int], numpy.ndarray, None] = None,
+        seeds: Union[Sequence[int], numpy.typing.NDArray[Any], None] = None,
         set: Overrides = None,
         threads: Optional[int] = None,
         log: bool = False,
@@ -306,9 +308,9 @@ class VectorLoop:
 
     def reset(
         self,
-        seeds: Union[Sequence[int], numpy.ndarray, None] = None,
+        seeds: Union[Sequence[int], numpy.typing.NDArray[Any], None] = None,
         set: Overrides = None,
-    ) -> numpy.ndarray:
+    ) -> Array:
         """Returns all cars to their starts, and returns the first observations.
 
         Without arguments, nothing is read or planned again. With `seeds`, one for each car, or
@@ -335,7 +337,7 @@ class VectorLoop:
         self,
         steering: Optional[Floats] = None,
         acceleration: Optional[Floats] = None,
-    ) -> numpy.ndarray:
+    ) -> Array:
         """Simulates one control period of every car that has not ended.
 
         steering [rad] and acceleration [m/s^2]: arrays with the shape (count,), as in Loop.step. An
@@ -357,11 +359,11 @@ class VectorLoop:
         return self._core.step(angles, rates)
 
     @property
-    def observations(self) -> numpy.ndarray:
+    def observations(self) -> Array:
         """The present observations, an array of float64 with the shape (count, len(columns))."""
         return self._core.observe()
 
-    def curvature_ahead(self, distances: Floats) -> numpy.ndarray:
+    def curvature_ahead(self, distances: Floats) -> Array:
         """Returns the curvature [1/m] of each car's present plan ahead of the car.
 
         distances: distances from station_m [m], an array with the shape (n,). Returns an array of
@@ -375,6 +377,6 @@ class VectorLoop:
         return self._core.statuses
 
     @property
-    def ended(self) -> numpy.ndarray:
+    def ended(self) -> numpy.typing.NDArray[numpy.bool_]:
         """Whether each car's run has ended, an array of bool with the shape (count,)."""
         return self._core.ended

@@ -14,7 +14,19 @@ from typing import Any, Callable, Optional, TypeVar
 import numpy
 
 from . import _trackbed
-from ._arguments import INT_MAX, Floats, array, doubles, flag, number, text, texts, type_name, whole
+from ._arguments import (
+    INT_MAX,
+    Array,
+    Floats,
+    array,
+    doubles,
+    flag,
+    number,
+    text,
+    texts,
+    type_name,
+    whole,
+)
 from ._signatures import (
     NAME,
     Key,
@@ -106,19 +118,19 @@ class PlanRequest:
 
     def __init__(self, core: _trackbed.PlanRequest) -> None:
         self._core = core
-        self.waypoints: numpy.ndarray = core.waypoints
+        self.waypoints: Array = core.waypoints
         self.headings: list[float] = core.headings
         self.start: tuple[float, float, float] = core.start
         self.start_speed: float = core.start_speed
         self.start_steering: float = core.start_steering
         self.speed: float = core.speed
-        self.obstacles: numpy.ndarray = core.obstacles
+        self.obstacles: Array = core.obstacles
         self.vehicle: Vehicle = core.vehicle
         self.friction: float = core.friction
         self.seed: int = core.seed
         self.max_waypoint_miss: Optional[float] = core.max_waypoint_miss
 
-    def clearance(self, poses: Any) -> numpy.ndarray:
+    def clearance(self, poses: Any) -> Array:
         """Returns the distance [m] of the car's footprint from the nearest obstacle at each pose.
 
         poses: shape (n, 3), x, y and yaw of the rear-axle center. Negative where they overlap; at

@@ -12,10 +12,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NoReturn, Optional, TypeVar, Union
 
 import numpy
+import numpy.typing
 
 from . import _trackbed
 from ._arguments import (
     INT_MAX,
+    Array,
     Overrides,
     Plants,
     Scenario,
@@ -49,25 +51,25 @@ def no_array(owner: Any, instead: str) -> TypeError:
 class _Arrays:
     """The columns of an unpickled table, with the members of _trackbed.Columns."""
 
-    def __init__(self, columns: dict[str, numpy.ndarray]) -> None:
+    def __init__(self, columns: dict[str, Array]) -> None:
         self._columns = columns
         for column in columns.values():
             column.setflags(write=False)
         self.names = list(columns)
         self.rows = max((len(column) for column in columns.values()), default=0)
 
-    def column(self, name: str) -> numpy.ndarray:
+    def column(self, name: str) -> Array:
         return self._columns[name]
 
 
-def _unpickled(kind: type, columns: dict[str, numpy.ndarray], *arguments: Any) -> Any:
+def _unpickled(kind: type, columns: dict[str, Array], *arguments: Any) -> Any:
     return kind(_Arrays(columns), *arguments)
 
 
 _Table = TypeVar("_Table", bound="Columns")
 
 
-class Columns(Mapping[str, numpy.ndarray]):
+class Columns(Mapping[str, Array]):
     """Columns of a table: read-only arrays of float64 with the shape (rows,), by name.
 
     The arrays refer to the memory of the table, without a copy, and keep it alive. A copy shares
@@ -77,7 +79,7 @@ class Columns(Mapping[str, numpy.ndarray]):
     def __init__(self, core: Union[_trackbed.Columns, _Arrays]) -> None:
         self._core = core
 
-    def __getitem__(self, name: str) -> numpy.ndarray:
+    def __getitem__(self, name: str) -> Array:
         if not isinstance(name, str) or name not in self._core.names:
             names = self._core.names
             raise KeyError(
@@ -349,7 +351,7 @@ def frame(
     *,
     camera: str = "chase",
     quality: str = "draft",
-) -> numpy.ndarray:
+) -> numpy.typing.NDArray[numpy.uint8]:
     """Draws the run at the time `t` [s], off-screen.
 
     Returns an array of uint8 with the shape (height, width, 3): red, green and blue, from the top

@@ -11,13 +11,14 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NoReturn, Optional, Union
 
 import numpy
+import numpy.typing
 
 from . import _trackbed
 from ._arguments import INT_MAX, Overrides, Scenario, flag, number, overrides, path, similar, whole
 from ._runs import _pandas, no_array
 
 
-class Sweep(Mapping[str, numpy.ndarray]):
+class Sweep(Mapping[str, "numpy.typing.NDArray[Any]"]):
     """The table of a study: a column for each key that varies, then `status` and the outputs.
 
     sweep["status"] is an array of text, one for each finished row in the order of the study.
@@ -61,7 +62,7 @@ class Sweep(Mapping[str, numpy.ndarray]):
         """Exceptions of plug-ins, with their tracebacks, by the numbers of the rows."""
         return self._job.causes
 
-    def __getitem__(self, name: str) -> numpy.ndarray:
+    def __getitem__(self, name: str) -> numpy.typing.NDArray[Any]:
         if not isinstance(name, str) or name not in self.columns:
             names = self.columns
             raise KeyError(
@@ -114,7 +115,7 @@ class Sweep(Mapping[str, numpy.ndarray]):
         return f"<Sweep {self.name}: {self.rows} of {self.rows_expected} rows>"
 
 
-def _column(cells: list[str]) -> numpy.ndarray:
+def _column(cells: list[str]) -> numpy.typing.NDArray[Any]:
     try:
         return numpy.array([float(cell) if cell else numpy.nan for cell in cells])
     except ValueError:

@@ -14,10 +14,12 @@ from typing import Any, Optional, Union
 
 import gymnasium
 import numpy
+import numpy.typing
 from gymnasium.vector.utils import batch_space
 
 from . import _trackbed
 from ._arguments import (
+    Array,
     Floats,
     Overrides,
     Scenario,
@@ -35,6 +37,13 @@ from ._arguments import (
 )
 from ._loops import Loop, Observation, VectorLoop
 from ._runs import frame, pixels
+
+Observed = numpy.typing.NDArray[numpy.float32]
+"""Observations of the environments."""
+Actions = numpy.typing.NDArray[Any]
+"""Actions of the environments."""
+PerCar = numpy.typing.NDArray[Any]
+"""Numbers or flags, one for each car."""
 
 OBSERVED = (
     "speed_mps",
@@ -121,13 +130,13 @@ class _Tracking:
         values = loop.result().metric_values(loop.plant)
         return sum(w * _value(name, values.get(name)) for name, w in self._rewards.items())
 
-    def _draw(self, loop: Loop) -> numpy.ndarray:
+    def _draw(self, loop: Loop) -> numpy.typing.NDArray[numpy.uint8]:
         """Draws the car of a loop at the present moment."""
         run = loop.result()
         return frame(run, float(run[loop.plant]["t_s"][-1]), self._size, camera=self._camera)
 
 
-class PathTracking(_Tracking, gymnasium.Env[numpy.ndarray, numpy.ndarray]):
+class PathTracking(_Tracking, gymnasium.Env[Observed, Actions]):
     """A car that follows the path of a scenario; a step is one control period.
 
     Action: an array of float32 in [-1, 1] with the shape (1,), or (2,) if `max_acceleration` is
@@ -170,7 +179,7 @@ class PathTracking(_Tracking, gymnasium.Env[numpy.ndarray, numpy.ndarray]):
         """The loop that the environment steps."""
         return self._loop
 
-    def _observe(self, seen: Observation) -> numpy.ndarray:
+    def _observe(self, seen: Observation) -> Observed:
         own = [getattr(seen, name) for name in self._observed]
         points = self._loop.reference(seen.station_m + self._ahead)
         values = numpy.concatenate([own, points["curvature_radpm"]])
@@ -182,14 +191,14 @@ class PathTracking(_Tracking, gymnasium.Env[numpy.ndarray, numpy.ndarray]):
 
     def reset(
         self, *, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None
-    ) -> tuple[numpy.ndarray, dict[str, Any]]:
+    ) -> tuple[Observed, dict[str, Any]]:
         super().reset(seed=None if seed is None else whole("seed", seed, 0))
         seen = self._reset(self._loop, seed, changes(options))
         return self._observe(seen), self._info(seen)
 
     def step(
-        self, action: numpy.ndarray
-    ) -> tuple[numpy.ndarray, float, bool, bool, dict[str, Any]]:
+        self, action: Actions
+    ) -> tuple[Observed, float, bool, bool, dict[str, Any]]:
         command = numpy.clip(array("action", action, self.action_space.shape or ()), -1.0, 1.0)
         acceleration = None
         if self._max_acceleration is not None:
@@ -212,7 +221,7 @@ class PathTracking(_Tracking, gymnasium.Env[numpy.ndarray, numpy.ndarray]):
 
 
 class VectorPathTracking(
-    _Tracking, gymnasium.vector.VectorEnv[numpy.ndarray, numpy.ndarray, numpy.ndarray]
+    _Tracking, gymnasium.vector.VectorEnv[Observed, Actions, PerCar]
 ):
     """Many cars of PathTracking, which are stepped together on several threads without the GIL.
 
@@ -258,12 +267,12 @@ class VectorPathTracking(
         """The loops that the environment steps."""
         return self._cars.loops
 
-    def _observe(self, seen: numpy.ndarray) -> numpy.ndarray:
+    def _observe(self, seen: Array) -> Observed:
         ahead = self._cars.curvature_ahead(self._ahead)
         values = numpy.concatenate([seen[:, self._indices], ahead], axis=1)
         return _observed_values(values)
 
-    def _info(self, seen: numpy.ndarray, statuses: list[Optional[str]]) -> dict[str, Any]:
+    def _info(self, seen: Array, statuses: list[Optional[str]]) -> dict[str, Any]:
         every = numpy.ones(self.num_envs, dtype=bool)
         return {
             "status": numpy.array(statuses, dtype=object),
@@ -277,7 +286,7 @@ class VectorPathTracking(
         *,
         seed: Union[int, Sequence[Optional[int]], None] = None,
         options: Optional[dict[str, Any]] = None,
-    ) -> tuple[numpy.ndarray, dict[str, Any]]:
+    ) -> tuple[Observed, dict[str, Any]]:
         changed = changes(options)
         if seed is None:
             seeds: list[Optional[int]] = [None] * self.num_envs
@@ -297,8 +306,8 @@ class VectorPathTracking(
         return self._observe(seen), self._info(seen, self._cars.statuses)
 
     def step(
-        self, actions: numpy.ndarray
-    ) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray, numpy.ndarray, dict[str, Any]]:
+        self, actions: Actions
+    ) -> tuple[Observed, PerCar, PerCar, PerCar, dict[str, Any]]:
         cars = self._cars
         commands = numpy.clip(array("actions", actions, self.action_space.shape or ()), -1.0, 1.0)
         limits = numpy.array([loop.steering_limit for loop in cars.loops])
@@ -347,9 +356,9 @@ def _metric(name: object) -> str:
     return str(name)
 
 
-def _observed_values(values: numpy.ndarray) -> numpy.ndarray:
+def _observed_values(values: Array) -> Observed:
     """Returns observed values as float32, with NaN as 0."""
-    result: numpy.ndarray = numpy.nan_to_num(values, nan=0.0).astype(numpy.float32)
+    result: Observed = numpy.nan_to_num(values, nan=0.0).astype(numpy.float32)
     return result
 
 
