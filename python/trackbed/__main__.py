@@ -7,7 +7,7 @@ import os
 import sys
 import traceback
 
-from . import _trackbed
+from . import _signatures, _trackbed
 
 _BAD_INPUT = 2
 
@@ -72,7 +72,15 @@ def main() -> int:
     for name in modules:
         _import(name)
     sys.stdout.flush()
-    return _trackbed.main(["trackbed", *arguments])
+    code = _trackbed.main(["trackbed", *arguments])
+    parts = _signatures.names_of(("planner", "controller", "plant"))
+    if code == _BAD_INPUT and arguments[:1] == ["fmu"] and parts:
+        print(
+            "--import: an FMU contains no Python, so that its scenario cannot use the plug-ins "
+            f"{', '.join(parts)}",
+            file=sys.stderr,
+        )
+    return code
 
 
 if __name__ == "__main__":

@@ -223,6 +223,11 @@ def register_plugin(
     _registered[(kind, name)] = {"place": place, "properties": properties, "number": number}
 
 
+def names_of(kinds: Sequence[str]) -> list[str]:
+    """Returns the names of the registered plug-ins of these kinds."""
+    return [name for kind, name in _registered if kind in kinds]
+
+
 def latest_registration() -> int:
     """Returns the number of the latest registration, which no other state of the plug-ins has."""
     return max((known["number"] for known in _registered.values()), default=-1)

@@ -72,6 +72,11 @@ void TryResources(const Resources& resources, const std::string& token,
     library.Find<fmi3FreeInstanceTYPE>("fmi3FreeInstance")(instance);
   }
   if (!messages.empty() || instance == nullptr) {
+    // The files of the FMU have names of their own, without the temporary folder.
+    const std::string own = folder.path().string() + "/";
+    for (std::size_t at = messages.find(own); at != std::string::npos; at = messages.find(own)) {
+      messages.erase(at, own.size());
+    }
     throw InputError(Problem{.message = "the FMU would not start: " + messages});
   }
 }

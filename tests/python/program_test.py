@@ -67,6 +67,21 @@ def test_program_prints_the_traceback_of_a_plugin(folder):
     assert "internal error" not in told.stderr
 
 
+def test_an_fmu_contains_no_plugin(folder):
+    told = program(folder, "fmu", "--import", "my_module", "own.yaml", "-o", "car.fmu")
+    assert told.returncode == 2 and not (folder / "car.fmu").exists()
+    assert "the FMU would not start: scenario.yaml:" in told.stderr, told.stderr
+    assert "an FMU contains no Python, so that its scenario cannot use the plug-ins" in told.stderr
+    assert "from_module" in told.stderr.splitlines()[-1]
+
+
+def test_versions_of_fmi_have_their_usual_names(folder):
+    told = program(folder, "fmu", "three_turns", "--plant", "kinematic", "--fmi", "2.0", "-o", "car.fmu")
+    assert told.returncode == 0 and "(FMI 2.0)" in told.stdout, told.stderr
+    told = program(folder, "fmu", "three_turns", "--fmi", "1", "-o", "car.fmu")
+    assert told.returncode == 2 and "--fmi: unknown version '1'; allowed: 2, 3" in told.stderr
+
+
 def test_program_says_why_it_cannot_import(folder):
     for name, text in [
         ("other", "no module 'other' in the working folder"),
