@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "src/control/preview_distance.h"
 #include "src/control/tracking.h"
@@ -47,12 +49,50 @@ double FrontDirection(const VehicleParams& vehicle, const VehicleState& state) {
   return std::abs(state.speed) < kCrawl ? 0.0 : std::atan(across / state.speed);
 }
 
+/// Returns the lateral acceleration [m/s^2] at which the tyres slide; infinite if unknown.
+double SlidingAcceleration(const VehicleParams& vehicle) {
+  return vehicle.friction_lateral > 0.0 ? vehicle.friction_lateral * kGravity
+                                        : std::numeric_limits<double>::infinity();
+}
+
+/// Returns the lateral acceleration [m/s^2] to which a step of the steering angle from a turn with
+/// `held` may lead before the inner wheels lift; infinite if unknown.
+double RollOverInAStep(const VehicleParams& vehicle, double held) {
+  return kRollShare * RigidRollOver(vehicle) + (1.0 - kRollShare) * held;
+}
+
+/// Returns the slip angle [rad] at which the front tyres slide, if they do so before the rear tyres
+/// in the turn of a car that drives forward, and before the car rolls over. Otherwise none.
+std::optional<double> SlidingSlipOfFront(const VehicleParams& vehicle, double speed, double held) {
+  const double sliding = SlidingAcceleration(vehicle);
+  const std::vector<AxleGrip>& axles = vehicle.braking.axles;
+  if (!(speed > 0.0) || !HasTyres(vehicle) || axles.size() != 2 ||
+      sliding > RollOverInAStep(vehicle, held)) {
+    return std::nullopt;
+  }
+  // The brush model slides at q = 1 (brush_axle.h).
+  const double force = 3.0 * vehicle.mass * sliding;
+  const double front = force * axles[0].weight / vehicle.cornering_stiffness_front;
+  const double rear = force * axles[1].weight / vehicle.cornering_stiffness_rear;
+  return front > rear ? std::optional(front) : std::nullopt;
+}
+
+/// Returns the largest steering angle [rad] to the side of the turn. `rolling` is the direction in
+/// which the front axle moves [rad], positive to this side.
+double AllowedToOneSide(const VehicleParams& vehicle, double speed, double held, double rolling) {
+  const double step = SteeringInAStep(vehicle, speed, held);
+  double most = step;
+  if (const auto slip = SlidingSlipOfFront(vehicle, speed, held)) {
+    const double share = std::min(1.0, held / SlidingAcceleration(vehicle));
+    most = std::lerp(step, std::max(step, rolling + *slip), share);
+  }
+  return std::min(std::max(most, rolling), vehicle.steering_limit);
+}
+
 }  // namespace
 
 double LateralGrip(const VehicleParams& vehicle) {
-  const double sliding = vehicle.friction_lateral > 0.0 ? vehicle.friction_lateral * kGravity
-                                                        : std::numeric_limits<double>::infinity();
-  return std::min(sliding, RigidRollOver(vehicle));
+  return std::min(SlidingAcceleration(vehicle), RigidRollOver(vehicle));
 }
 
 double SteeringAtGrip(const VehicleParams& vehicle, double speed) {
@@ -60,8 +100,7 @@ double SteeringAtGrip(const VehicleParams& vehicle, double speed) {
 }
 
 double SteeringInAStep(const VehicleParams& vehicle, double speed, double held) {
-  const double rolling = kRollShare * RigidRollOver(vehicle) + (1.0 - kRollShare) * held;
-  const double allowed = std::min(LateralGrip(vehicle), rolling);
+  const double allowed = std::min(LateralGrip(vehicle), RollOverInAStep(vehicle, held));
   const double linear = SteeringAt(vehicle, speed, allowed);
   if (linear >= vehicle.steering_limit) {
     return linear;
@@ -82,10 +121,9 @@ SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& 
   const double planned = state.speed * state.speed * curvature;
   const double left = std::max(std::min(present, planned), 0.0);
   const double right = std::max(std::min(-present, -planned), 0.0);
-  const double rolling =
-      std::clamp(FrontDirection(vehicle, state), -vehicle.steering_limit, vehicle.steering_limit);
-  return {.lowest = std::min(-SteeringInAStep(vehicle, state.speed, right), rolling),
-          .highest = std::max(SteeringInAStep(vehicle, state.speed, left), rolling)};
+  const double rolling = FrontDirection(vehicle, state);
+  return {.lowest = -AllowedToOneSide(vehicle, state.speed, right, -rolling),
+          .highest = AllowedToOneSide(vehicle, state.speed, left, rolling)};
 }
 
 }  // namespace trackbed

@@ -46,7 +46,16 @@ struct SteeringRange {
 /// Returns the range of steering angles for the car's present motion: SteeringInAStep to both
 /// sides, extended up to the direction in which the front axle moves, but at most the steering
 /// limit. Wheels that roll in their direction of motion exert no lateral force, so a sliding car
-/// may always steer into its slide. `curvature` is that of the path at the car [1/m]. The lateral
+/// may always steer into its slide.
+///
+/// The front tyres of an understeering car slide first. In a turn that the car holds at its limit,
+/// they may need more steering than in the steady turn of the brush model: the true grip is less
+/// than that of the model, by the load transfer and by the drive force on the inner wheel. The
+/// range therefore extends to the direction of the front axle plus the slip angle 3 mu F_z/C_f at
+/// which the front tyres slide, in proportion to a_0/(mu_y g), if a step from a_0 cannot roll the
+/// car over.
+///
+/// `curvature` is that of the path at the car [1/m]. The lateral
 /// acceleration a_0 of SteeringInAStep is the lesser of those in which the car turns now and in
 /// which its path turns, and 0 if these have opposite signs. A step of the path, or of the car
 /// beside its path, is therefore not held.

@@ -130,6 +130,77 @@ TEST(AllowedSteering, AlwaysIncludesTheDirectionOfTheFrontWheels) {
   EXPECT_EQ(AllowedSteering(car, state).lowest, -car.steering_limit);
 }
 
+/// A low car with tyres whose front axle slides first. It holds a turn to the left with 7 m/s^2.
+struct SlidingCar {
+  VehicleParams car = ReferenceCarWithTyres();
+  VehicleState state{};
+  double curvature = 0.0;  // [1/m]
+
+  SlidingCar() {
+    car.friction_lateral = 0.8;
+    car.track_front = 1.6;
+    car.track_rear = 1.6;
+    car.cornering_stiffness_front = 0.5 * car.cornering_stiffness_rear;
+    const double rear_share = car.cg_to_front() / car.wheelbase;
+    const double transfer = 0.3 / car.wheelbase;
+    car.braking.axles = {{.weight = 1.0 - rear_share, .force = 0.5, .transfer = -transfer},
+                         {.weight = rear_share, .force = 0.5, .transfer = transfer}};
+    car.driving = car.braking;
+    state.speed = 20.0;
+    state.yaw_rate = 7.0 / state.speed;
+    state.lateral_speed = -0.9;
+    curvature = state.yaw_rate / state.speed;
+  }
+};
+
+TEST(AllowedSteering, ReachesTheSlidingFrontTyresInATurnThatTheCarHolds) {
+  // Front tyres with the stiffness C slide at the slip angle 3 mu F_z/C to the direction of the
+  // front axle. The car holds 7 m/s^2 of mu g = 7.85 m/s^2, so the range extends by this fraction
+  // of the way from the steering angle of a step to the angle at which the front tyres slide.
+  SlidingCar held;
+  const VehicleParams& car = held.car;
+  const double step = SteeringInAStep(car, 20.0, 7.0);
+  const double front_load = car.mass * kGravity * car.cg_to_rear / car.wheelbase;
+  const double direction = std::atan((-0.9 + car.cg_to_front() * held.state.yaw_rate) / 20.0);
+  const double slides = direction + 3.0 * 0.8 * front_load / car.cornering_stiffness_front;
+  ASSERT_GT(slides, 1.2 * step);
+  const double expected = step + 7.0 / (0.8 * kGravity) * (slides - step);
+  EXPECT_NEAR(AllowedSteering(car, held.state, held.curvature).highest, expected, Tolerance(1e-12));
+  EXPECT_EQ(AllowedSteering(car, held.state, held.curvature).lowest, -SteeringInAStep(car, 20.0));
+  // Beside its path, the car holds no turn.
+  EXPECT_EQ(AllowedSteering(car, held.state, 0.0).highest, SteeringInAStep(car, 20.0));
+  // Likewise to the right.
+  held.state.yaw_rate = -held.state.yaw_rate;
+  held.state.lateral_speed = -held.state.lateral_speed;
+  EXPECT_NEAR(AllowedSteering(car, held.state, -held.curvature).lowest, -expected,
+              Tolerance(1e-12));
+}
+
+TEST(AllowedSteering, DoesNotReachTheSlidingFrontTyresOfATallOrOversteeringCar) {
+  const auto expect_step = [](const VehicleParams& car, const SlidingCar& held) {
+    const double step = SteeringInAStep(car, held.state.speed, 7.0);
+    ASSERT_LT(step, car.steering_limit);
+    EXPECT_EQ(AllowedSteering(car, held.state, held.curvature).highest, step);
+  };
+  const SlidingCar held;
+  // The rear tyres slide first.
+  VehicleParams oversteering = held.car;
+  oversteering.cornering_stiffness_front = 2.0 * held.car.cornering_stiffness_rear;
+  expect_step(oversteering, held);
+  // A step from 7 m/s^2 may roll the car over before the tyres slide at 0.8 g: the inner wheels of
+  // the rigid car lift at g b/(2 h) = g 1.6/(2 0.98) = 8.0 m/s^2, so 0.65 8.0 + 0.35 7 = 7.7 m/s^2.
+  VehicleParams tall = held.car;
+  tall.braking.axles[0].transfer = -0.98 / tall.wheelbase;
+  tall.braking.axles[1].transfer = 0.98 / tall.wheelbase;
+  expect_step(tall, held);
+  // In reverse, the steered axle follows.
+  SlidingCar reverse;
+  reverse.state.speed = -20.0;
+  reverse.state.yaw_rate = -reverse.state.yaw_rate;
+  reverse.state.lateral_speed = -reverse.state.lateral_speed;
+  expect_step(reverse.car, reverse);
+}
+
 /// Surroundings without obstacles, on a road with the given friction.
 class Roads final : public Surroundings {
  public:
