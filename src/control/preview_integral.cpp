@@ -4,14 +4,16 @@
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <functional>
 #include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
 #include "src/control/control_keys.h"
+#include "src/control/preview_angle.h"
 #include "src/control/preview_distance.h"
+#include "src/control/timely_steering.h"
 #include "src/control/tracking.h"
 #include "src/control/turn_round.h"
-#include "trackbed/control/preview.h"
 
 namespace trackbed {
 namespace {
@@ -56,25 +58,36 @@ class PreviewIntegral final : public SteeringController {
   explicit PreviewIntegral(const PreviewIntegralOptions& options) : options_(options) {}
 
   double Steer(const ControlInput& input) override {
-    const Path& path = input.reference.path;
-    const int direction = path.BendAt(input.station).direction;
-    const double distance = Distance(input, direction);
-    const double angle = PreviewAngle(path, input.state.pose, input.station, distance);
+    const int direction = input.reference.path.BendAt(input.station).direction;
+    UpdatePath(input, TimelySteering::Horizon(input));
+    const Tracking tracking = path_.Track();
+    const double distance = Distance(input, direction, tracking.cross_track);
+    // A point of the path at the distance R has a station of less than 2 R ahead in a turn of up to
+    // 200 degrees.
+    UpdatePath(input, std::max(TimelySteering::Horizon(input), 2.0 * distance));
+    const Pose2& pose = input.state.pose;
+    const double angle = AngleTo(path_, direction, pose, input.station, distance);
     if (const std::optional<double> steering = turn_round_.Steer(input, angle)) {
       return Delayed(*steering, input);
     }
-    double moved = 0.0;
-    double square = 0.0;
-    for (const Node& node : Nodes(input, direction, distance)) {
-      const double across =
-          node.way * std::sin(PreviewAngle(path, input.state.pose, input.station, node.way));
-      moved += node.weight * (across - node.responses.free) * node.responses.step;
-      square += node.weight * node.responses.step * node.responses.step;
+    const std::array<Node, 10> nodes = Nodes(input, direction, distance);
+    std::array<Vec2, 10> points;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const double s = PreviewStation(path_, pose.position(), input.station, nodes[i].way);
+      points[i] = path_.At(s).pose.position();
     }
-    // In reverse gear, steering to the right turns the direction of motion to the left.
-    const double wanted = direction * std::atan(moved / square);
-    const double limit = input.vehicle.steering_limit;
-    return Delayed(std::clamp(wanted, -limit, limit), input);
+    const Vec2 to_left(-std::sin(tracking.foot.pose.yaw), std::cos(tracking.foot.pose.yaw));
+    const auto law = [&](const GainedErrors& gained) {
+      const Vec2 position = pose.position() + gained.cross_track * to_left;
+      return SteerToward(input, direction, nodes, points,
+                         {position.x(), position.y(), pose.yaw + gained.heading});
+    };
+    const double untimely = law({});
+    if (options_.distance) {
+      return Delayed(untimely, input);
+    }
+    const bool slip = HasTyres(input.vehicle);
+    return Delayed(timely_.Steer(input, path_, slip, untimely, std::cref(law)), input);
   }
 
  private:
@@ -109,10 +122,41 @@ class PreviewIntegral final : public SteeringController {
     return direction > 0 && input.state.speed >= kMinDynamicSpeed && HasTyres(input.vehicle);
   }
 
+  /// Finds the ramps within `ahead` [m], unless a preview distance is given.
+  void UpdatePath(const ControlInput& input, double ahead) {
+    if (options_.distance) {
+      path_.UpdateWithoutRamps(input);
+    } else {
+      path_.Update(input, ahead);
+    }
+  }
+
+  /// Returns the steering angle [rad] with which a car at `pose` fits the previewed `points` best.
+  static double SteerToward(const ControlInput& input, int direction,
+                            const std::array<Node, 10>& nodes, const std::array<Vec2, 10>& points,
+                            const Pose2& pose) {
+    double moved = 0.0;
+    double square = 0.0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto& [way, weight, responses] = nodes[i];
+      // In reverse, the direction of motion is opposite to the heading.
+      const Vec2 to_point = direction * ToLocal(pose, points[i]);
+      const double across = way * std::sin(std::atan2(to_point.y(), to_point.x()));
+      moved += weight * (across - responses.free) * responses.step;
+      square += weight * responses.step * responses.step;
+    }
+    const double limit = input.vehicle.steering_limit;
+    // In reverse gear, steering to the right turns the direction of motion to the left.
+    return std::clamp(direction * std::atan(moved / square), -limit, limit);
+  }
+
   /// Returns the preview distance R [m].
-  double Distance(const ControlInput& input, int direction) {
-    const double single = std::max(options_.distance ? 0.0 : planned_.Next(input, options_.delay),
-                                   ReturnDistance(input));
+  double Distance(const ControlInput& input, int direction, double cross_track) {
+    const double speed = input.state.speed;
+    const double single = std::max(
+        options_.distance ? 0.0
+                          : ShortestPreview(input.vehicle, speed, input.period, options_.delay),
+        ReturnDistance(input.vehicle, speed, cross_track));
     return std::max({options_.distance.value_or(0.0), options_.time * std::abs(input.state.speed),
                      DistanceOfEqualGain(input, direction, single)});
   }
@@ -172,7 +216,8 @@ class PreviewIntegral final : public SteeringController {
   }
 
   PreviewIntegralOptions options_;
-  HeldPreviewDistance planned_;
+  RampedPath path_;
+  TimelySteering timely_;
   TurnRound turn_round_;
   std::vector<double> past_commands_;  // past steering angles of the law, the newest first
 };
@@ -190,7 +235,7 @@ ControllerEntry PreviewIntegralController() {
 
 void Visit(KeyVisitor& keys, PreviewIntegralOptions& options) {
   keys.Field({"distance", "m",
-              "minimum preview distance ahead of the rear axle; default: from car, speed and path"},
+              "minimum preview distance ahead of the rear axle; default: from car and speed"},
              options.distance, kAhead);
   keys.Field(kAheadTime, options.time, Need::kOptional, kNonNegative);
   static const EnumNames<PreviewWeight> weights{{PreviewWeight::kUniform, "uniform"},

@@ -17,16 +17,18 @@ enum class PreviewWeight {
 ///
 /// Symbols: T = R/|v| preview time; R = max(distance, time |v|), lengthened for a car off its path
 /// as in PreviewOptions. The default of `distance` is sqrt(g) times the default distance of
-/// PreviewOptions, where `delay` is added to the response time. The factor g = 5/3 (5/2 with kNear)
-/// is the kinematic car's gain on an offset, divided by the gain of the controller with a single
-/// preview point. For a car with tyre coefficients, sqrt(g) is replaced by the larger factor at
-/// which the gain on an offset equals that of the controller with a single preview point. Tyres
-/// respond late, so the gain of this law is higher than that of the kinematic car. With the factor
-/// sqrt(g), a car with a limited steering rate would weave about its path for ever. The variable
-/// eta in [0, T] is the time ahead. The following functions of eta are offsets across the direction
-/// of motion [m]: f(eta) is the offset of the path, y_0(eta) is the offset of the car with straight
-/// wheels, and A(eta) is the displacement of the car per unit of tan(delta). W(eta) is the weight
-/// of the time eta. The commanded steering angle follows from
+/// PreviewOptions, where `delay` is added to the response time. Without a `distance`, the
+/// controller follows ramps instead of steps of the curvature, and turns the wheels no further than
+/// they can turn back in time, as PreviewOptions. The factor g = 5/3 (5/2 with kNear) is the
+/// kinematic car's gain on an offset, divided by the gain of the controller with a single preview
+/// point. For a car with tyre coefficients, sqrt(g) is replaced by the larger factor at which the
+/// gain on an offset equals that of the controller with a single preview point. Tyres respond late,
+/// so the gain of this law is higher than that of the kinematic car. With the factor sqrt(g), a car
+/// with a limited steering rate would weave about its path for ever. The variable eta in [0, T] is
+/// the time ahead. The following functions of eta are offsets across the direction of motion [m]:
+/// f(eta) is the offset of the path, y_0(eta) is the offset of the car with straight wheels, and
+/// A(eta) is the displacement of the car per unit of tan(delta). W(eta) is the weight of the time
+/// eta. The commanded steering angle follows from
 ///   tan(delta) = int (f - y_0) A W d(eta) / int A^2 W d(eta).
 /// A car without tyre coefficients is modeled as the kinematic car, with y_0 = 0 and A = (v
 /// eta)^2/(2 L). A car with tyre coefficients is modeled as the linear single-track car with its
@@ -44,8 +46,7 @@ enum class PreviewWeight {
 /// On paths that are driven in reverse, the controller looks backwards along the path and models
 /// the car as the kinematic car.
 struct PreviewIntegralOptions {
-  /// Shortest preview distance R [m], > 0; by default computed from the car, its speed and the
-  /// path.
+  /// Shortest preview distance R [m], > 0; by default computed from the car and its speed.
   std::optional<double> distance;
   /// Minimum preview time [s], >= 0: the preview distance R is at least `time` times |v|.
   double time = 0.0;
