@@ -107,6 +107,16 @@ void ToMeters(ShortestCurve& curve, double radius) {
   curve.length *= radius;
 }
 
+/// Returns the motions whose words a car may drive. A car whose curvature may step at cusps may also
+/// drive the words without such steps.
+boost::container::static_vector<CurveMotion, 2> MotionsOf(CurveMotion motion) {
+  boost::container::static_vector<CurveMotion, 2> motions{motion};
+  if (motion == CurveMotion::kHybrid) {
+    motions.push_back(CurveMotion::kContinuous);
+  }
+  return motions;
+}
+
 ShortestCurve Shortest(const TurnCircle& circle, CurveMotion motion, const CurveTask& problem,
                        double radius) {
   ShortestCurve curve;
@@ -114,10 +124,12 @@ ShortestCurve Shortest(const TurnCircle& circle, CurveMotion motion, const Curve
     const bool both_ways = motion != CurveMotion::kForwards;
     const Ends starts = EndsOf(circle, problem.start, 1, both_ways);
     const Ends goals = EndsOf(circle, problem.goal, -1, both_ways);
-    const ChainFinder finder(circle, motion);
     TurnChain best;
-    finder.Find(
-        starts, goals, [&] { return best.length; }, [&](const TurnChain& chain) { best = chain; });
+    for (const CurveMotion own : MotionsOf(motion)) {
+      ChainFinder(circle, own).Find(
+          starts, goals, [&] { return best.length; },
+          [&](const TurnChain& chain) { best = chain; });
+    }
     curve = SharpCurve(circle, motion, problem, best.length);
     if (best.length <= curve.length) {
       curve = ChainCurve(circle, best, both_ways);

@@ -60,7 +60,9 @@ class ChainFinder {
     };
     for (const TurnEnd& first : firsts) {
       for (const TurnEnd& last : lasts) {
-        WithStraight(Centers(first, last), limit, consider);
+        const Centers centers(first, last);
+        OfOneTurn(centers, consider);
+        WithStraight(centers, limit, consider);
       }
     }
     for (const TurnEnd& first : firsts) {
@@ -85,6 +87,8 @@ class ChainFinder {
 
   [[nodiscard]] bool both_ways() const { return motion_ != CurveMotion::kForwards; }
 
+  template <typename Consider>
+  void OfOneTurn(const Centers& centers, const Consider& consider) const;
   template <typename Limit, typename Consider>
   void WithStraight(const Centers& centers, const Limit& limit, const Consider& consider) const;
   template <typename Consider>
@@ -126,6 +130,20 @@ inline TurnJunction ChainFinder::Touch(double angle, bool cusp, int side, int di
           .zero_after = zero};
 }
 
+/// Finds the turn with a full arc between two states on one circle.
+template <typename Consider>
+void ChainFinder::OfOneTurn(const Centers& centers, const Consider& consider) const {
+  const TurnEnd& a = centers.first;
+  const TurnEnd& b = centers.last;
+  if (a.side != b.side || a.direction != -b.direction ||
+      centers.square > kTurnRounding * kTurnRounding * (1.0 + a.center.squaredNorm())) {
+    return;
+  }
+  TurnChain chain = Chain(centers, 2);
+  chain.junctions[0] = {a.yaw + a.rotation() * circle_.least, false, false};
+  consider(chain);
+}
+
 /// Finds the words with a straight. A word may have a cusp and a quarter turn at one end of the
 /// straight or at both ends. It may drive the straight in the direction opposite to a neighboring
 /// turn.
@@ -150,7 +168,12 @@ void ChainFinder::WithStraight(const Centers& centers, const Limit& limit,
     if (square < -kTurnRounding * (1.0 + centers.square)) {
       return;
     }
-    const double along = along_sign * std::sqrt(std::max(square, 0.0));
+    double along = along_sign * std::sqrt(std::max(square, 0.0));
+    // Turns that touch need no straight. The root would amplify the rounding of the squares.
+    if (along * turns > 0.0 &&
+        std::abs(square - turns * turns) <= kTurnRounding * (1.0 + centers.square)) {
+      along = turns;
+    }
     const double straight = direction * (along - turns) - (cusp_before + cusp_after) * cusp_link_;
     // Without a straight between two cusps, the curvature would step where the car does not stop.
     const double least =

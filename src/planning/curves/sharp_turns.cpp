@@ -102,9 +102,12 @@ class SharpEnd {
   [[nodiscard]] const Side& SideFor(double alpha) const {
     return sides_[order_ * (alpha - neutral_) < 0.0 ? 0 : 1];
   }
-  /// Returns the deflection from the curvature 0.
+  /// Returns the deflection from the curvature 0. Where a turn changes its side, a deflection that
+  /// is only rounding is 0, since the length of the smallest turn is the root of its deflection.
   [[nodiscard]] double Deflection(const Side& side, double alpha) const {
-    return std::max(order_ * side.side * (alpha - side.yaw), 0.0);
+    const double deflection = order_ * side.side * (alpha - side.yaw);
+    const double least = side.done > 0.0 ? 0.0 : kTurnRounding;
+    return deflection > least ? deflection : 0.0;
   }
   /// Returns the turn between curvature 0 and the heading alpha; `half` is the direction of
   /// alpha/2.

@@ -34,8 +34,9 @@ std::array<Part, 3> PartsOf(const CurvePiece& piece) {
           Ramp(ramps.peak, ramps.last, ramps)};
 }
 
+/// Returns whether a part is more than rounding. A short part may change the curvature by more.
 bool IsThere(const Part& part) {
-  return part.length > kMinPieceLength;
+  return part.length * std::max(1.0, std::abs(part.sharpness)) > kMinPieceLength;
 }
 
 }  // namespace

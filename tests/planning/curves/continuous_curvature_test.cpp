@@ -97,7 +97,11 @@ TEST(ContinuousCurvature, JoinsStatesByEveryWord) {
     for (const Kind& kind : kKinds) {
       const auto words = (curves.*kind.words)(from, to);
       ASSERT_FALSE(words.empty());
-      EXPECT_NEAR(words.front().length, (curves.*kind.shortest)(from, to).length, Tolerance(1e-11));
+      double shortest = words.front().length;
+      if (kind.steps_at_cusps) {
+        shortest = std::min(shortest, curves.ReedsShepp(from, to).length);
+      }
+      EXPECT_NEAR(shortest, (curves.*kind.shortest)(from, to).length, Tolerance(1e-11));
       for (const ShortestCurve& word : words) {
         ExpectJoins(kCar, kind, from, to, word);
       }
@@ -250,6 +254,60 @@ TEST(ContinuousCurvature, FindsWhatIsPlain) {
     const Path turn({}, {{half, 0.0, 1, sharpness}, {half, half * sharpness, 1, -sharpness}});
     const ShortestCurve found = shortest({turn.At(turn.length()).pose});
     EXPECT_NEAR(found.length, turn.length(), Tolerance(1e-9)) << kind.name;
+  }
+}
+
+TEST(ContinuousCurvature, IsNeverLongerWithMoreFreedom) {
+  Random random(8);
+  for (int i = 0; i < 300; ++i) {
+    const double radius = random.Uniform(0.5, 12.0);
+    const ContinuousCurves curves(
+        {radius, std::exp(random.Uniform(-2.0, 8.0)) / (radius * radius)});
+    const CurveState from = RandomState(random, 20.0, 1.0 / radius);
+    CurveState to = RandomState(random, 20.0, 1.0 / radius);
+    if (i % 3 == 0) {
+      to.pose = from.pose;
+    }
+    const double continuous = curves.ReedsShepp(from, to).length;
+    const double rounding = Tolerance(1e-11 * (radius + continuous));
+    EXPECT_LE(continuous, curves.Dubins(from, to).length + rounding);
+    EXPECT_LE(curves.HybridReedsShepp(from, to).length, continuous + rounding);
+  }
+}
+
+TEST(ContinuousCurvature, FollowsItsOwnClothoidsAndTurns) {
+  // A goal on a clothoid of the largest sharpness, or behind two turns that touch, is at the edge
+  // of the poses that such a path reaches. Rounding must not turn the path into loops.
+  Random random(9);
+  for (int i = 0; i < 400; ++i) {
+    const double radius = random.Uniform(0.5, 12.0);
+    const double sharpness = std::exp(random.Uniform(-2.0, 8.0)) / (radius * radius);
+    const double most = 1.0 / radius;
+    const double ramp = most / sharpness;
+    std::vector<Segment> driven{{ramp * random.Uniform(0.1, 1.0), 0.0, 1, sharpness}};
+    if (i % 2 == 1) {
+      driven = {{ramp, 0.0, 1, sharpness},
+                {radius * random.Uniform(0.1, 3.0), most},
+                {ramp, most, 1, -sharpness},
+                {ramp, 0.0, 1, -sharpness},
+                {radius * random.Uniform(0.1, 3.0), -most},
+                {ramp, -most, 1, sharpness}};
+    }
+    const CurveState from{RandomPose(random, 20.0)};
+    const Path path(from.pose, driven);
+    const double last = driven.back().CurvatureAt(driven.back().length);
+    const CurveState to{path.At(path.length()).pose,
+                        i % 2 == 1 ? 0.0 : std::min(last, 1.0 / radius)};
+    const ContinuousCurves curves({radius, sharpness});
+    const auto back = [](const CurveState& state) {
+      return CurveState{TurnedRound(state.pose), -state.curvature};
+    };
+    for (const auto& [start, goal] : {std::pair(from, to), std::pair(back(to), back(from))}) {
+      const ShortestCurve curve = curves.Dubins(start, goal);
+      // The goal is rounded to 1e-15 of coordinates of 100 m.
+      EXPECT_LE(curve.length, path.length() + Tolerance(1e-9)) << i << " " << CurveWord(curve);
+      ExpectJoins(curves.limits(), kKinds[0], start, goal, curve);
+    }
   }
 }
 

@@ -74,8 +74,10 @@ class ContinuousCurves {
 
   /// Returns the shortest word for a car that drives forwards and backwards, and whose curvature
   /// may step at a cusp, where the car stands (HC-Reeds-Shepp). If the car leaves or reaches a
-  /// state of full curvature by a cusp at once, the curvature steps at this state.
+  /// state of full curvature by a cusp at once, the curvature steps at this state. The curve is
+  /// never longer than that of ReedsShepp, and is that curve if no word with steps is shorter.
   [[nodiscard]] ShortestCurve HybridReedsShepp(const CurveState& from, const CurveState& to) const;
+  /// Returns the words with steps at all cusps; those without steps are in ReedsSheppWords.
   [[nodiscard]] std::vector<ShortestCurve> HybridReedsSheppWords(const CurveState& from,
                                                                  const CurveState& to) const;
 
