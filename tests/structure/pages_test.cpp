@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +19,9 @@ const fs::path kFolder = TRACKBED_SOURCE_DIR;
 const std::vector<std::string> kElsewhere{"render/heading_line.h", "render/heading_line.cpp",
                                           "include/mujoco/mujoco.h"};
 
+/// Folders from which pages name files.
+constexpr std::array<const char*, 3> kRoots{".", "include", "include/trackbed"};
+
 std::vector<fs::path> Pages() {
   std::vector<fs::path> pages{kFolder / "README.md", kFolder / "CONTRIBUTING.md"};
   for (const auto& entry : fs::recursive_directory_iterator(kFolder / "docs")) {
@@ -28,11 +32,12 @@ std::vector<fs::path> Pages() {
   return pages;
 }
 
-/// Returns the paths in backquotes outside of code blocks. A word in capitals, such as NAME, is a
-/// placeholder.
+/// Returns the paths in backquotes outside of code blocks: from the root of the tree, and headers
+/// or sources from one of its folders. A word in capitals, such as NAME, is a placeholder.
 std::vector<std::string> PathsIn(const fs::path& page) {
   static const std::regex path(
-      "`((?:src|include|tests|render|scripts|cmake|models|scenarios|python|bench)/[a-z0-9_./-]+)`");
+      "`((?:src|include|tests|render|scripts|cmake|models|scenarios|python|bench)/[a-z0-9_./-]+|"
+      "[a-z0-9_]+/[a-z0-9_/]+\\.(?:h|cpp))`");
   std::vector<std::string> paths;
   bool is_code = false;
   std::ifstream in(page);
@@ -46,6 +51,12 @@ std::vector<std::string> PathsIn(const fs::path& page) {
   return paths;
 }
 
+/// Returns whether the path leads to a file from the root of the tree, or as sources include it.
+bool Exists(const std::string& path) {
+  return std::any_of(kRoots.begin(), kRoots.end(),
+                     [&](const char* root) { return fs::exists(kFolder / root / path); });
+}
+
 TEST(Pages, NameFilesThatExist) {
   std::size_t seen = 0;
   for (const fs::path& page : Pages()) {
@@ -53,7 +64,7 @@ TEST(Pages, NameFilesThatExist) {
       ++seen;
       const bool is_elsewhere =
           std::find(kElsewhere.begin(), kElsewhere.end(), path) != kElsewhere.end();
-      EXPECT_TRUE(is_elsewhere || fs::exists(kFolder / path))
+      EXPECT_TRUE(is_elsewhere || Exists(path))
           << fs::relative(page, kFolder) << " names " << path << ", which does not exist";
     }
   }
