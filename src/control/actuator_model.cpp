@@ -150,7 +150,7 @@ class ActuatorModel {
   double half_;     // Half of the backlash.
   double highest_;  // Limits of the angle before lag and backlash.
   double lowest_;
-  double moved_ = 1.0;          // Fraction of a step that the lag passes within a control period.
+  double moved_ = 1.0;          // Fraction of a step response reached after a control period.
   double crossing_lead_ = 1.0;  // Amplification of a step through the play.
   bool crosses_ = false;        // Whether the actuator is within the play after a reversal.
   double lead_ = 1.0;           // Amplification of a step before the lag.

@@ -79,7 +79,7 @@ GainedErrors TimelySteering::GainedFrom(double steering) const {
     if (begin <= 0.0) {
       break;
     }
-    // Fraction of the step after which the wheels have met the path's steering.
+    // Fraction of the step after which the wheels reach the steering angle of the path.
     const double share = end > 0.0 ? 1.0 : begin / (begin - end);
     const double way = moment.speed * share * step_;
     const double before = gained.heading;

@@ -57,7 +57,8 @@ SmoothingSpline::SmoothingSpline(const ChordPoints& fitted, double period,
   for (Eigen::Index i = 0; i < all_knots_.size(); ++i) {
     const Eigen::Index own = i - kDegree;
     if (period > 0.0) {
-      // Number of whole periods of the closed spline by which the knot lies after the first period.
+      // Number of whole periods of the closed spline between the knot and its copy in the first
+      // period.
       const Eigen::Index turns = (own + kDegree * count) / count - kDegree;
       all_knots_[i] = knots_[static_cast<std::size_t>(own - turns * count)] +
                       static_cast<double>(turns) * period;

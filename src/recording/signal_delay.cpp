@@ -88,7 +88,8 @@ class Scan {
     return sum;
   }
 
-  /// Returns the reference `part` of a sample before the sample `index`, from -1 to 1.
+  /// Returns the reference at the time that is `part` sample periods before the sample `index`,
+  /// with `part` from -1 to 1.
   [[nodiscard]] double Before(std::size_t index, double part) const {
     return part > 0.0 ? std::lerp(reference_[index], reference_[index - 1], part)
                       : std::lerp(reference_[index], reference_[index + 1], -part);

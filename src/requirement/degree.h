@@ -18,8 +18,8 @@ struct Degree {
 
 using Degrees = std::vector<Degree>;
 
-/// Degree of a condition that always holds. The minimum of the degrees of no samples is kTrue, and
-/// the maximum of the degrees of no samples is kFalse.
+/// Degrees of a condition that always holds and of one that never holds. A time window without
+/// samples has the minimum kTrue and the maximum kFalse.
 inline constexpr Degree kTrue{.value = std::numeric_limits<double>::infinity(), .satisfied = true};
 inline constexpr Degree kFalse{.value = -std::numeric_limits<double>::infinity()};
 

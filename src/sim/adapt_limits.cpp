@@ -93,7 +93,8 @@ Range SteeringRange(const mjModel& m, const FoundVehicle& vehicle) {
       leader = std::move(own);
     }
   }
-  // A joint between the front wheels is itself a wheel's, and its range is an Ackermann angle.
+  // The joint that leads a wheel may be the joint of the other wheel. The range is then an
+  // Ackermann angle of a wheel, not an angle of a joint between the wheels.
   Range wheel{std::min(SmallerSide(m, left), SmallerSide(m, right)),
               fmt::format("the ranges of the joints {} and {}", NameOf(m, mjOBJ_JOINT, left),
                           NameOf(m, mjOBJ_JOINT, right))};

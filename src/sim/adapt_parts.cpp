@@ -10,8 +10,8 @@
 #include <set>
 
 // Divides the model of another program into the parts of a car (adapt.h).
-// 1. The bodies between the chassis and a wheel become the wheel and its knuckle. A wheel without
-//    such a body gives a share of its mass to the knuckle.
+// 1. The bodies between the chassis and a wheel become the wheel and its knuckle. If there is no
+//    body between them, the knuckle gets a share of the wheel's mass.
 // 2. The rack is a small scaled copy of the chassis, so that the inertias of both stay physical.
 // 3. Masses and inertias of the parts add up to those of the model; a wheel that is too light for
 //    tyre forces gets a share of the chassis.

@@ -68,8 +68,8 @@ class CarReader final : private PartsReader {
     params_.steering_ratio = Number("steering_ratio");
   }
 
-  /// Adds to the names that are missing how the base moves instead of by a free joint. For a model
-  /// with none of the names of wheels, also adds how to get a car file.
+  /// Adds hints to the list of missing names: which joints move the base if it has no free joint,
+  /// and how to get a car file if the model has none of the names of wheels.
   void ExplainForeignModel() {
     const int body = chassis_.chassis;
     if (free_ < 0 && body >= 0 && m_.body_jntnum[body] > 0) {

@@ -160,7 +160,7 @@ TEST(Playback, OfItsOwnLogIsTheSameDrive) {
     const double before = i > 0 ? log.rows[i - 1].state.speed : 0.0;
     if (a.speed == 0.0 && before > 0.0) {
       // The log does not record at which time within the period the car came to rest. The replay
-      // assumes the end of the period.
+      // brings the car to rest at the end of the period.
       untold += 0.5 * before * 0.02;
       EXPECT_LT(untold, 1e-3);
     }

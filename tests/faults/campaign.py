@@ -668,7 +668,7 @@ class Campaign:
         for number, case in enumerate(all_cases):
             if number % of != part - 1:
                 continue
-            # The faults of a case do not depend on the part.
+            # A case gets the same faults whether it runs in one part or in another.
             self.random.seed(f"{options.seed} {case.name}")
             self.prepare(case)
             begin = time.monotonic()

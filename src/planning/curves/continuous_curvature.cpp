@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// The ways to leave a state, at most six for each direction.
+/// Turns by which the car can leave a state, at most six for each direction.
 using Ends = boost::container::static_vector<TurnEnd, 12>;
 
 Ends EndsOf(const TurnCircle& circle, const CurveState& state, int direction, bool both_ways) {

@@ -1,4 +1,4 @@
-// Plans routes again whose paths have loops.
+// Replans routes whose paths have loops.
 //
 // 1. The headings of the shortest route: dynamic programming over sixteen directions, and the
 //    default one, at each waypoint. Start and goal keep their headings.

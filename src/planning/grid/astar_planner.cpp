@@ -132,8 +132,8 @@ bool IsFree(const std::vector<Vec2>& points, const BoxIndex& boxes, const Inflat
   return true;
 }
 
-/// Plans on a grid around the obstacles. The grid frees the cells of waypoints that are nearer to
-/// an obstacle than the inflation, and the cell at which the search begins.
+/// Plans on a grid around inflated obstacles. The cells of the waypoints and the cell at which the
+/// search begins are free even if the inflation covers them.
 class GridPlanner {
  public:
   GridPlanner(const AStarOptions& options, const PlanRequest& request, const GridArea& area,

@@ -18,7 +18,7 @@ class RoadStrip {
     double s = 0.0;       ///< Station of the place within the strip [m].
     double z = 0.0;       ///< Height of the road surface at the place [m].
     double beside = 0.0;  ///< Distance of the place from the nearest lane; 0 on the lanes [m].
-    /// Distance of the place beyond the end of the strip; 0 within the strip [m].
+    /// Distance from the end of the strip to a place beyond this end; 0 within the strip [m].
     double beyond = 0.0;
     double straight_on = 0.0;  ///< Part of `beyond` that lies on the straight extension of the road
                                ///< [m].

@@ -57,8 +57,9 @@ class GentleProblem {
     return measured;
   }
 
-  /// Returns the program about a line, in which offsets change by at most `trust` [m]. The last
-  /// variable is the largest curvature, divided by the largest permitted curvature.
+  /// Returns the quadratic program linearized about a line, which changes offsets by at most
+  /// `trust` [m]. The last variable is the largest curvature, divided by the largest permitted
+  /// curvature.
   [[nodiscard]] SparseQuadraticProgram About(const GentleLine& at, double trust) const {
     const auto unknowns = static_cast<Eigen::Index>(basis_.count());
     const auto stations = static_cast<Eigen::Index>(centers_.size());
