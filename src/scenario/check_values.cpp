@@ -1,8 +1,10 @@
 #include "src/scenario/check_values.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
@@ -36,9 +38,20 @@ class ValueChecker final : public NumberVisitor {
       Check(Element(key, i), value[i], WithinReason(key, range));
     }
   }
-  void Field(const Key& key, std::string& value, Need, const Names& allowed) override {
+  // An enumerator without a name is visited as an empty text.
+  void Field(const Key& key, std::string& value, Need need, const Names& allowed) override {
     if (!value.empty()) {
       CheckName(Dotted(key), value, allowed);
+    } else if (!allowed.empty()) {
+      found_.emplace_back(Dotted(key),
+                          fmt::format("unknown value; allowed: {}", fmt::join(allowed, ", ")));
+    } else if (need == Need::kRequired) {
+      found_.emplace_back(Dotted(key), "missing");
+    }
+  }
+  void Field(const Key& key, std::optional<std::string>& value) override {
+    if (value && value->empty()) {
+      found_.emplace_back(Dotted(key), "expected a name, found an empty text");
     }
   }
   void Field(const Key& key, std::vector<std::string>& value, Need, const Names& allowed) override {
@@ -51,7 +64,7 @@ class ValueChecker final : public NumberVisitor {
     }
   }
   void Identifier(const Key& key, std::string& value) override {
-    const std::string problem = value.empty() ? "" : FolderNameProblem(value);
+    const std::string problem = value.empty() ? "missing" : FolderNameProblem(value);
     if (!problem.empty()) {
       found_.emplace_back(Dotted(key), problem);
     }
@@ -90,7 +103,59 @@ class ValueChecker final : public NumberVisitor {
   std::vector<std::pair<std::string, std::string>> found_;
 };
 
+using Found = std::vector<std::pair<std::string, std::string>>;
+
+/// Checks that the content of a file that the scenario names was read. A program may set the
+/// content without a name; the function then names the file, because the key is required.
+void CheckContent(const std::string& key, bool is_read, std::string& file, Found& found) {
+  if (is_read && file.empty()) {
+    file = "content set by the program";
+  } else if (!is_read && !file.empty()) {
+    found.emplace_back(
+        key, fmt::format("{} has not been read; ReadScenario and ParseScenario read it", file));
+  }
+}
+
+/// Checks that the content of each file was read, and names the files without a name.
+Found CheckContents(Scenario& scenario) {
+  Found found;
+  if (auto& record = scenario.record) {
+    CheckContent("record.file", record->data != nullptr, record->file, found);
+    if (record->ground) {
+      CheckContent("record.ground", record->ground_data != nullptr, *record->ground, found);
+    }
+  }
+  if (auto& track = scenario.mission.track) {
+    CheckContent("mission.track.file", track->data != nullptr, track->file, found);
+  }
+  if (auto& map = scenario.world.map) {
+    CheckContent("world.map.file", map->data != nullptr, map->file, found);
+  }
+  if (auto& roads = scenario.world.road_network) {
+    CheckContent("world.road_network", roads->data != nullptr, roads->file, found);
+  }
+  return found;
+}
+
+/// Checks that the lists of a scenario name each plant once.
+void CheckPlantsOfExpectations(const Scenario& scenario, Found& found) {
+  const auto& plants = scenario.expect.plants;
+  for (auto own = plants.begin(); own != plants.end(); ++own) {
+    if (std::any_of(plants.begin(), own,
+                    [&](const auto& other) { return other.first == own->first; })) {
+      found.emplace_back("expect." + own->first, fmt::format("'{}' is listed twice", own->first));
+    }
+  }
+}
+
 }  // namespace
+
+std::string OriginProblem(const std::vector<double>& origin) {
+  const bool is_whole = origin.size() == 2 &&
+                        std::all_of(origin.begin(), origin.end(),
+                                    [](double number) { return std::fmod(number, 1.0) == 0.0; });
+  return is_whole ? "" : "must be two whole numbers [x, y], such as [500000, 5200000]";
+}
 
 std::string CameraProblem(const std::string& camera) {
   std::vector<std::string> names;
@@ -104,9 +169,18 @@ std::string CameraProblem(const std::string& camera) {
 
 std::vector<std::pair<std::string, std::string>> ValueProblems(const Scenario& scenario) {
   Scenario visited = scenario;
+  const Found contents = CheckContents(visited);
   ValueChecker checker;
   Visit(checker, visited);
-  std::vector<std::pair<std::string, std::string>> found = checker.TakeFound();
+  Found found = checker.TakeFound();
+  found.insert(found.end(), contents.begin(), contents.end());
+  CheckPlantsOfExpectations(scenario, found);
+  if (scenario.origin && scenario.origin->allFinite()) {
+    const std::string problem = OriginProblem({scenario.origin->x(), scenario.origin->y()});
+    if (!problem.empty()) {
+      found.emplace_back("origin", problem);
+    }
+  }
   if (const std::string problem = CameraProblem(scenario.render.camera); !problem.empty()) {
     found.emplace_back("render.camera", problem);
   }

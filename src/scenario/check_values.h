@@ -11,9 +11,13 @@ namespace trackbed {
 /// Returns the problem of a camera's name; "" for the name of a camera.
 std::string CameraProblem(const std::string& camera);
 
+/// Returns why a list of numbers is no local origin; "" for an origin.
+std::string OriginProblem(const std::vector<double>& origin);
+
 /// Returns the problems of single values of a scenario, each paired with its dotted key: numbers
-/// that are not finite or out of range, unknown names, and names that are listed twice. The ranges
-/// and names are those of scenario files, so a scenario that ReadScenario has read has no problems.
+/// that are not finite or out of range, unknown or missing names, names that are listed twice, and
+/// files that have not been read. The ranges and names are those of scenario files, so a scenario
+/// that ReadScenario has read has no problems.
 std::vector<std::pair<std::string, std::string>> ValueProblems(const Scenario& scenario);
 
 }  // namespace trackbed

@@ -27,7 +27,6 @@
 #include "trackbed/control/preview.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/file.h"
-#include "trackbed/core/spelling.h"
 #include "trackbed/path_files/commonroad_scenario.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
@@ -35,6 +34,7 @@
 #include "trackbed/scenario/car_lengths.h"
 #include "trackbed/scenario/input_files.h"
 #include "trackbed/scenario/map_file.h"
+#include "trackbed/scenario/metric_names.h"
 #include "trackbed/sim/scene.h"
 
 // Reads a scenario. ReadScenario parses the YAML, applies the overrides, visits all keys (visit.h)
@@ -60,45 +60,17 @@ void DropUnusedExpectations(Scenario& scenario) {
   });
 }
 
-/// Finds expectations on metrics that no run of the scenario can have, and returns for each such
-/// expectation the key and an error message.
-std::vector<std::pair<std::string, std::string>> UnknownMetrics(
-    const Expectations& expect, const std::vector<std::string>& possible) {
-  // Metrics that an error message may suggest; for metrics in lists, only the metrics of the first
-  // list element.
-  std::vector<std::string> shown;
-  std::copy_if(possible.begin(), possible.end(), std::back_inserter(shown),
-               [](const std::string& path) {
-                 const std::size_t bracket = path.find('[');
-                 return bracket == std::string::npos || path[bracket + 1] == '0';
-               });
-  std::vector<std::pair<std::string, std::string>> found;
-  const auto look = [&](const std::string& key, const PlantExpectation& own) {
-    for (std::size_t i = 0; i < own.metrics.size(); ++i) {
-      const std::string& metric = own.metrics[i].metric;
-      if (std::find(possible.begin(), possible.end(), metric) == possible.end()) {
-        found.emplace_back(fmt::format("{}.metrics[{}].metric", key, i),
-                           "unknown metric " + UnknownName(metric, shown));
-      }
-    }
-  };
-  look("expect", expect.all);
-  for (const auto& [plant, own] : expect.plants) {
-    look("expect." + plant, own);
-  }
-  return found;
-}
-
-/// Returns why a list is no local origin; empty for an origin and for no list.
+/// Returns why the key `origin` is no local origin; "" for an origin and for another kind of node,
+/// which the reader reports.
 std::string OriginError(const YAML::Node& node) {
   if (!node || !node.IsSequence()) {
     return "";
   }
-  bool is_whole = node.size() == 2;
+  std::vector<double> numbers;
   for (const YAML::Node& number : node) {
-    is_whole = is_whole && std::fmod(number.as<double>(0.5), 1.0) == 0.0;
+    numbers.push_back(number.as<double>(0.5));
   }
-  return is_whole ? "" : "must be two whole numbers [x, y], such as [500000, 5200000]";
+  return OriginProblem(numbers);
 }
 
 /// Throws InputError if a file is a study: each of its keys would be an unknown key.

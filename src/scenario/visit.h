@@ -70,7 +70,7 @@ inline void Visit(KeyVisitor& a, LanePlace& place) {
 }
 
 inline void Visit(KeyVisitor& a, MissionSpec& mission) {
-  std::optional<double> speed = mission.speed > 0.0 ? std::optional(mission.speed) : std::nullopt;
+  std::optional<double> speed = mission.speed == 0.0 ? std::nullopt : std::optional(mission.speed);
   a.Field({"speed", "m/s",
            "target speed between start and goal; required with a plan, and where nothing else sets "
            "the initial speed"},

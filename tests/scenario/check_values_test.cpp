@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,7 +75,45 @@ INSTANTIATE_TEST_SUITE_P(
                    "drive.plants[1]: 'mujoco' is listed twice"},
         WrongValue{"name_of_the_folder", [](Scenario& s) { s.name = "../corner"; },
                    "name: '../corner' is not a valid folder name; must be up to 100 letters, "
-                   "digits, '_', '-' and '.', not starting with '.'"}),
+                   "digits, '_', '-' and '.', not starting with '.'"},
+        WrongValue{"no_name", [](Scenario& s) { s.name = ""; }, "name: missing"},
+        WrongValue{"no_enumerator",
+                   [](Scenario& s) { s.drive.steering = static_cast<SteeringInput>(77); },
+                   "drive.steering: unknown value; allowed: actuator, prescribed"},
+        WrongValue{"negative_speed", [](Scenario& s) { s.mission.speed = -3.0; },
+                   "mission.speed: -3 is out of range; must be at least 0.1 and at most 100"},
+        WrongValue{"speed_not_a_number", [](Scenario& s) { s.mission.speed = kNan; },
+                   "mission.speed: expected a finite number, found nan"},
+        WrongValue{"empty_optional_text", [](Scenario& s) { s.vehicle.tyre_file = ""; },
+                   "vehicle.tyre_file: expected a name, found an empty text"},
+        WrongValue{"fraction_in_origin", [](Scenario& s) { s.origin = Vec2(0.5, 0.0); },
+                   "origin: must be two whole numbers [x, y], such as [500000, 5200000]"},
+        WrongValue{"plant_of_expectations_twice",
+                   [](Scenario& s) {
+                     s.expect.plants = {{"mujoco", {}}, {"mujoco", {}}};
+                   },
+                   "expect.mujoco: 'mujoco' is listed twice"},
+        WrongValue{"map_without_file", [](Scenario& s) { s.world.map = MapSpec{}; },
+                   "world.map.file: missing"},
+        WrongValue{"map_that_was_not_read",
+                   [](Scenario& s) { s.world.map = MapSpec{.file = "map.yaml"}; },
+                   "world.map.file: map.yaml has not been read; ReadScenario and ParseScenario "
+                   "read it"},
+        WrongValue{
+            "record_that_was_not_read",
+            [](Scenario& s) { s.record = RecordSpec{.file = "log.csv", .ground = "road.csv"}; },
+            "record.file: log.csv has not been read; ReadScenario and ParseScenario read it\n"
+            "record.ground: road.csv has not been read; ReadScenario and ParseScenario read "
+            "it"},
+        WrongValue{"track_that_was_not_read",
+                   [](Scenario& s) { s.mission.track = TrackSpec{.file = "oval.csv"}; },
+                   "mission.track.file: oval.csv has not been read; ReadScenario and ParseScenario "
+                   "read it"},
+        WrongValue{
+            "roads_that_were_not_read",
+            [](Scenario& s) { s.world.road_network = RoadNetworkSpec{"town.xodr"}; },
+            "world.road_network: town.xodr has not been read; ReadScenario and ParseScenario "
+            "read it"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(ScenarioInCodeValues, AreListedTogether) {
@@ -87,6 +126,15 @@ TEST(ScenarioInCodeValues, AreListedTogether) {
     keys.push_back(key);
   }
   EXPECT_THAT(keys, ::testing::ElementsAre("drive.plants[0]", "drive.timestep", "render.fps"));
+}
+
+// A program may give the content of a file without the file's name.
+TEST(ScenarioInCodeValues, MayHaveTheContentOfAFileOnly) {
+  Scenario scenario = InCode();
+  const GridMap free{.X_WM = {}, .columns = 1, .rows = 1, .cells = {MapCell::kFree}};
+  scenario.world.map =
+      MapSpec{.file = "", .data = std::make_shared<const MapObstacles>(free, UnknownCells::kFree)};
+  EXPECT_THAT(ValueProblems(scenario), ::testing::IsEmpty());
 }
 
 // ValueProblems checks by the same declarations as the reader, so it accepts what the reader does.

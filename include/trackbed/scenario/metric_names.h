@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed {
+
+/// Finds expectations on metrics that are not among the `possible` metrics of a run. Returns the
+/// dotted key and an error message for each of these expectations; the message suggests the most
+/// similar metric.
+std::vector<std::pair<std::string, std::string>> UnknownMetrics(
+    const Expectations& expect, const std::vector<std::string>& possible);
+
+}  // namespace trackbed
