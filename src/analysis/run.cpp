@@ -8,6 +8,7 @@
 #include "trackbed/analysis/evaluate_run.h"
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/mcap.h"
+#include "trackbed/analysis/metrics.h"
 #include "trackbed/analysis/path_properties.h"
 #include "trackbed/analysis/plan_table.h"
 #include "trackbed/analysis/run_folder.h"
@@ -19,6 +20,7 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/input_files.h"
+#include "trackbed/scenario/metric_names.h"
 #include "trackbed/sim/scene.h"
 
 // Plans and runs a scenario, then writes its run folder. PlanRun computes the plan. SimulateRun
@@ -94,6 +96,18 @@ void AddUnlessEmpty(const Table& table, const std::string& name, ResultWriter& w
   }
 }
 
+/// Checks a scenario as strictly as LoadScenario checks a file. Throws InputError.
+void CheckFilledInCode(const Scenario& scenario) {
+  CheckScenario(scenario);
+  std::vector<Problem> problems;
+  for (const auto& [key, message] : UnknownMetrics(scenario.expect, PossibleMetrics(scenario))) {
+    problems.push_back({.key = key, .message = message});
+  }
+  if (!problems.empty()) {
+    throw InputError(problems);
+  }
+}
+
 }  // namespace
 
 ordered_json Versions() {
@@ -102,12 +116,12 @@ ordered_json Versions() {
 }
 
 RunResult RunScenario(const Scenario& scenario, const RunHooks& hooks) {
-  CheckScenario(scenario);
+  CheckFilledInCode(scenario);
   return RunScenario(scenario, LoadCar(scenario), hooks);
 }
 
 RunResult RunScenario(const Scenario& scenario, CarCache& cars, const RunHooks& hooks) {
-  CheckScenario(scenario);
+  CheckFilledInCode(scenario);
   return RunScenario(scenario, *cars.Load(scenario), hooks);
 }
 

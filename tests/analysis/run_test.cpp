@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
@@ -171,6 +172,14 @@ std::map<std::string, std::string> FilesIn(const fs::path& folder) {
     files[entry.path().filename().string()] = ReadFile(entry.path());
   }
   return files;
+}
+
+TEST(Run, RefusesUnknownMetricsOfAScenarioFilledInCode) {
+  Scenario scenario = Load("three_turns");
+  scenario.expect.all.metrics = {{.metric = "cross_trak.max", .min = {}, .max = 1.0, .equals = {}}};
+  EXPECT_EQ(ErrorText([&] { RunScenario(scenario); }),
+            "expect.metrics[0].metric: unknown metric 'cross_trak.max'; did you mean "
+            "'cross_track.max'?");
 }
 
 TEST(WriteRunFolder, GivesTheSameBytesEveryTime) {
