@@ -276,8 +276,10 @@ void TyreFileReader::CheckResult() {
   need("VERTICAL_DAMPING", result_.vertical_damping.value_or(0.0), 1e6);
   for (const auto& [key, value] : {std::pair("PEX1", tyre.p_ex1), std::pair("PEY1", tyre.p_ey1)}) {
     if (value > 1.0) {
-      Fail(Find(key), key,
-           fmt::format("is {:.4g} with its scale factor; must be at most 1", value));
+      Note(
+          fmt::format("{} is {:.4g} with its scale factor; the equations hold the curvature "
+                      "factor at 1 at most",
+                      key, value));
     }
   }
   if (!problems_.empty()) {
