@@ -1,10 +1,29 @@
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "python/src/bindings.h"
 #include "trackbed/analysis/run_checks.h"
 #include "trackbed/analysis/verdict.h"
+#include "trackbed/core/error.h"
+#include "trackbed/requirement/formula.h"
 
 namespace trackbed::python {
+namespace {
+
+/// Throws an InputError that names the argument `formula` if it is no formula over the columns of a
+/// log. The matcher of GoogleTest counts such a formula as a failed check.
+void RequireFormula(const RunResult& run, const std::string& formula) {
+  try {
+    for (const RunLog& log : run.logs) {
+      Formula::Parse(formula, ToTable(log).columns());
+    }
+  } catch (const InputError& error) {
+    throw InputError(Problem{.message = fmt::format("formula is '{}': {}", formula, error.what())});
+  }
+}
+
+}  // namespace
 
 void BindChecks(py::module_& module) {
   using run_checks::RunCheck;
@@ -18,6 +37,7 @@ void BindChecks(py::module_& module) {
   module.def("keeps_clearance", &run_checks::KeepsClearance);
   module.def("reaches_goal", &run_checks::ReachesGoal);
   module.def("steers_calmly", &run_checks::SteersCalmly);
+  module.def("require_formula", &RequireFormula);
   module.def("satisfies", &run_checks::Satisfies);
   module.def("meets_its_expectations", &run_checks::MeetsItsExpectations);
   module.def("describe", [](const RunResult& run) { return run_checks::Describe(run); });

@@ -52,8 +52,13 @@ def steers_calmly(run: Run) -> None:
 
 
 def satisfies(run: Run, formula: str) -> None:
-    """Asserts that every plant's log satisfies a formula of temporal logic over its columns."""
+    """Asserts that every plant's log satisfies a formula of temporal logic over its columns.
+
+    Raises InputError (a ValueError) if `formula` is no formula, or names an unknown column.
+    """
     __tracebackhide__ = True
+    instance("run", run, Run)
+    _trackbed.require_formula(run._core, text("formula", formula))
     _check(run, _trackbed.satisfies(text("formula", formula)))
 
 

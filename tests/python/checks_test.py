@@ -68,6 +68,13 @@ def test_compare_two_runs(run):
         (lambda run: trackbed.tracks_within(3, 0.1), TypeError, "run must be a trackbed.Run"),
         (lambda run: trackbed.tracks_within(run, "a"), TypeError, "limit must be a number"),
         (lambda run: trackbed.satisfies(run, 3), TypeError, "formula must be a str"),
+        (
+            lambda run: trackbed.satisfies(run, "alway speed_mps < 1"),
+            trackbed.InputError,
+            "formula is 'alway .*unknown signal 'alway'",
+        ),
+        (lambda run: trackbed.satisfies(run, "speed_mps <"), trackbed.InputError, "formula is 'sp"),
+        (lambda run: trackbed.satisfies(run, ""), trackbed.InputError, "formula is ''"),
         (lambda run: trackbed.stays_within(run, 1, "a", 1), TypeError, "first must be a str"),
         (lambda run: trackbed.compare(run, "kinematic", 3), TypeError, "plant must be a str"),
         (lambda run: trackbed.differs_by_at_most(run, position=1), TypeError, "comparison must be"),
