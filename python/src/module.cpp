@@ -17,7 +17,6 @@ PYBIND11_MODULE(_trackbed, module) {
   using namespace trackbed::python;
   module.doc() = "Compiled part of the package trackbed; use the package instead.";
   module.attr("version") = trackbed::Version();
-  module.attr("pybind11_version") = py::make_tuple(PYBIND11_VERSION_MAJOR, PYBIND11_VERSION_MINOR);
   BindErrors(module);
   BindRuns(module);
   BindChecks(module);

@@ -21,23 +21,6 @@ PreconditionError = _trackbed.PreconditionError
 RunError = _trackbed.RunError
 version: str = _trackbed.version
 
-
-def require_known_arrays(pybind11: tuple[int, int], numpy_version: str) -> None:
-    """Refuses the arrays of NumPy 2 if they are unknown to the pybind11 of this build.
-
-    Before 2.12, pybind11 reads the size of a number from where NumPy 1 stored it. All values of a
-    column would be its first value.
-    """
-    if pybind11 < (2, 12) and int(numpy_version.split(".")[0]) >= 2:
-        raise ImportError(
-            f"this build of trackbed is for NumPy 1, because it was compiled with pybind11 "
-            f"{pybind11[0]}.{pybind11[1]}, but NumPy is {numpy_version}: install numpy<2, or build "
-            "the package for NumPy 2 by `pip install .`"
-        )
-
-
-require_known_arrays(_trackbed.pybind11_version, numpy.__version__)
-
 Scenario = Union[str, "os.PathLike[str]"]
 Plants = Union[str, Iterable[str], None]
 Overrides = Optional[Mapping[str, Any]]

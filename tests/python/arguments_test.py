@@ -9,7 +9,6 @@ import numpy
 import pytest
 
 import trackbed
-from trackbed import _arguments
 
 STUDY = """\
 schema: 1
@@ -188,24 +187,6 @@ def test_wrong_overrides_are_named(value):
 def test_a_check_without_a_bound_is_refused(things):
     with pytest.raises(ValueError, match="give at least one of position, heading"):
         trackbed.differs_by_at_most(things[COMPARISON])
-
-
-@pytest.mark.parametrize(
-    "pybind11, numpy_version, fits",
-    [
-        ((2, 10), "1.24.2", True),
-        ((2, 10), "2.0.0", False),
-        ((2, 11), "2.4.6", False),
-        ((2, 12), "2.0.0rc1", True),
-        ((3, 0), "2.4.6", True),
-    ],
-)
-def test_arrays_of_an_unknown_layout_are_refused(pybind11, numpy_version, fits):
-    if fits:
-        _arguments.require_known_arrays(pybind11, numpy_version)
-    else:
-        with pytest.raises(ImportError, match=f"NumPy is {numpy_version}: install numpy<2, or"):
-            _arguments.require_known_arrays(pybind11, numpy_version)
 
 
 def test_a_report_leaves_no_warning(things):
