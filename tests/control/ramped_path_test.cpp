@@ -146,7 +146,8 @@ TEST(RampedPath, PassesThroughEndsAndCusps) {
 class FollowerOfSteps : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Laws, FollowerOfSteps,
-                         testing::Values("lqr", "stanley", "rear_axle_feedback", "preview"),
+                         testing::Values("lqr", "stanley", "rear_axle_feedback", "preview",
+                                         "preview_integral"),
                          [](const auto& law) { return std::string(law.param); });
 
 TEST_P(FollowerOfSteps, StaysOnATurnLeftAndATurnRight) {
