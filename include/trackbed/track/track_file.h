@@ -48,11 +48,11 @@ struct TrackFile {
 ///
 /// Throws InputError, which lists up to twenty problems with file and line, including the problems
 /// that ReadCsvTable finds. A point is a problem if its position is beyond 1e7 m, or if a width is
-/// not above 0 or exceeds 1000 m. It is also one if the point coincides with the previous point. A
-/// point at which the center line turns by more than 150 degrees is also a problem. The track as a
-/// whole has a problem if a lap is longer than 200 km, or if there are fewer than Track::kMinPoints
-/// or more than Track::kMaxPoints points. It also has one if the file is larger than 16 MB, or if
-/// an edge would have to be narrowed to less than half. Throws RunError if the file cannot be read.
+/// not above 0 or exceeds 1000 m. A point that coincides with the previous point is also a problem,
+/// and so is a point at which the center line turns by more than 150 degrees. The track as a whole
+/// has a problem if a lap is longer than 200 km, or if there are fewer than Track::kMinPoints or
+/// more than Track::kMaxPoints points. A file of more than 16 MB is a problem, and so is an edge
+/// that would have to be narrowed to less than half. Throws RunError if the file cannot be read.
 TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& reading = {});
 
 /// The points of a track file, each with its line in the file.

@@ -41,14 +41,6 @@ bool IsThere(const Part& part) {
 
 }  // namespace
 
-double PieceLength(const CurvePiece& piece) {
-  double length = 0.0;
-  for (const Part& part : PartsOf(piece)) {
-    length += part.length;
-  }
-  return length;
-}
-
 std::string CurveWord(const ShortestCurve& curve) {
   std::string word;
   for (int i = 0; i < curve.count; ++i) {

@@ -108,7 +108,8 @@ class PoseTree : public PoseSearch {
     return problem_.rolls && from_start_ && node.parent < 0;
   }
 
-  /// Returns whether a curve between a node and the target lets a rolling car begin forwards.
+  /// Returns whether a rolling car drives the curve between a node and the target forwards at
+  /// first.
   [[nodiscard]] bool BeginsWell(const Node& node, const std::vector<Segment>& curve) const;
 
   const VehicleParams& vehicle_;

@@ -40,8 +40,8 @@ bool HasRoomForRamps(const VehicleParams& vehicle, double length, const CurveDri
 /// Returns the pieces of `word`, which leads between the poses. If a short arc begins or ends a
 /// word of the form arc-straight-arc, gentler arcs replace the short ones, with straights on both
 /// sides for the ramps. The gentler arcs are made for the highest speed, up to `drive.speed`, at
-/// which the pieces fit between the poses. The word is not changed if the pieces do not fit, or if
-/// that speed is below the one at which the car passes the short arcs. The pieces end within 1e-9 m
+/// which the pieces fit between the poses. The short arcs stay if the gentler arcs do not fit, or
+/// if the car would pass them more slowly than the short arcs. The pieces end within 1e-9 m
 /// and rad of `to` for distances up to 1 km. Computing time: a microsecond if the curve fits at
 /// `drive.speed`.
 std::vector<Segment> DrivablePieces(const VehicleParams& vehicle, const Pose2& from,
@@ -61,8 +61,8 @@ void AppendPieces(std::vector<Segment>& path, const std::vector<Segment>& pieces
 PathBend LastBend(const std::vector<Segment>& path);
 
 /// Returns whether the car can follow the pieces from `request.start_speed` with wheels that are
-/// set for `curvature` [1/m]. This holds if the pieces begin with this curvature and the car can
-/// slow down before each ramp.
+/// set for `curvature` [1/m]: whether the pieces begin with this curvature and the car can slow
+/// down before each ramp.
 bool CanStartRolling(const PlanRequest& request, double curvature,
                      const std::vector<Segment>& pieces, double min_speed);
 

@@ -44,9 +44,6 @@ struct ShortestCurve {
   double length = 0.0;
 };
 
-/// Returns the length of a piece with its ramps, in units of r.
-double PieceLength(const CurvePiece& piece);
-
 /// Returns the word that describes a curve. Each piece with a length other than 0 adds L, S or R to
 /// the word, followed by + for forwards or - for backwards. A turn whose arc is driven against the
 /// direction of its ramps adds one letter for each ramp and one for the arc.
