@@ -27,8 +27,8 @@ void Refuse(const fs::path& file, const std::string& key, std::string message, i
 
 namespace {
 
-/// Returns the first point that is reached before its predecessor, or at the same time as all
-/// points; the number of points if there is none.
+/// Returns the first point whose time is below the time of its predecessor, or the second point if
+/// all times are equal. Returns the number of points if the times are valid.
 std::size_t FirstTimeOutOfOrder(const std::vector<double>& times) {
   if (times.size() > 1 && times.front() == times.back() &&
       std::is_sorted(times.begin(), times.end())) {
