@@ -213,9 +213,13 @@ std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongReques
     offset = std::abs(offset - request.start.d);
   }
   const double nearest = *std::min_element(aside.begin(), aside.end());
-  const double length =
+  // A motion that ends before the next new plan would make the car brake, because the car brakes
+  // after the end of a motion.
+  constexpr double kShortest = 1.0;  // [s]
+  const double length = std::max(
       ShiftLength(request.vehicle, std::visit([](const auto& own) { return own.limits; }, options),
-                  std::max(start, speed), nearest);
+                  std::max(start, speed), nearest),
+      kShortest * std::max(start, speed));
   std::vector<AlongOptions> variants;
   if (auto* frenet = std::get_if<FrenetOptions>(&options)) {
     if (frenet->lateral == LateralMotion::kAuto) {
