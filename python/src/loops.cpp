@@ -282,7 +282,7 @@ void BindLoops(py::module_& module) {
                                return all;
                              })
       .def_property_readonly("ended", [](const VectorLoop& self) {
-        py::array_t<bool> ended(static_cast<py::ssize_t>(self.size()));
+        py::array_t<bool> ended(std::vector{static_cast<py::ssize_t>(self.size())});
         bool* const cells = ended.mutable_data();
         const WithoutGil release;
         self.ForEach(

@@ -173,7 +173,7 @@ py::array_t<double> ObstaclesOf(const PlanRequest& request) {
 
 /// Returns the clearance at each pose, a row (x, y, yaw).
 py::array_t<double> ClearanceAt(const PlanRequest& request, const Numbers& poses) {
-  py::array_t<double> result(poses.shape(0));
+  py::array_t<double> result(std::vector<py::ssize_t>{poses.shape(0)});
   const double* const pose = poses.data();
   double* const clearance = result.mutable_data();
   const auto count = static_cast<std::size_t>(poses.shape(0));

@@ -112,7 +112,10 @@ void BindColumns(py::module_& module) {
           throw py::key_error(name);
         }
         // The array refers to the memory of `self`, and keeps it alive.
-        py::array_t<double> array(static_cast<py::ssize_t>(columns.rows()), *column, self);
+        // Without the stride, pybind11 before 2.12 takes 0 with NumPy 2, as if all rows were equal.
+        const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(columns.rows())};
+        const std::vector<py::ssize_t> strides{sizeof(double)};
+        py::array_t<double> array(shape, strides, *column, self);
         array.attr("setflags")(py::arg("write") = false);
         return array;
       });
