@@ -170,8 +170,8 @@ void ChainFinder::WithStraight(const Centers& centers, const Limit& limit,
     }
     double along = along_sign * std::sqrt(std::max(square, 0.0));
     // Turns that touch need no straight. The root would amplify the rounding of the squares.
-    if (along * turns > 0.0 &&
-        std::abs(square - turns * turns) <= kTurnRounding * (1.0 + centers.square)) {
+    if (direction * (along - turns) < 0.0 && along * turns > 0.0 &&
+        std::abs(square - turns * turns) <= kTurnRounding * std::sqrt(centers.square)) {
       along = turns;
     }
     const double straight = direction * (along - turns) - (cusp_before + cusp_after) * cusp_link_;
