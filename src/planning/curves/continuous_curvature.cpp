@@ -107,8 +107,8 @@ void ToMeters(ShortestCurve& curve, double radius) {
   curve.length *= radius;
 }
 
-/// Returns the motions whose words a car may drive. A car whose curvature may step at cusps may also
-/// drive the words without such steps.
+/// Returns the motions whose words a car may drive. A car whose curvature may step at cusps may
+/// also drive the words without such steps.
 boost::container::static_vector<CurveMotion, 2> MotionsOf(CurveMotion motion) {
   boost::container::static_vector<CurveMotion, 2> motions{motion};
   if (motion == CurveMotion::kHybrid) {
@@ -126,9 +126,10 @@ ShortestCurve Shortest(const TurnCircle& circle, CurveMotion motion, const Curve
     const Ends goals = EndsOf(circle, problem.goal, -1, both_ways);
     TurnChain best;
     for (const CurveMotion own : MotionsOf(motion)) {
-      ChainFinder(circle, own).Find(
-          starts, goals, [&] { return best.length; },
-          [&](const TurnChain& chain) { best = chain; });
+      ChainFinder(circle, own)
+          .Find(
+              starts, goals, [&] { return best.length; },
+              [&](const TurnChain& chain) { best = chain; });
     }
     curve = SharpCurve(circle, motion, problem, best.length);
     if (best.length <= curve.length) {
