@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "src/analysis/oscillation.h"
@@ -12,7 +13,8 @@
 
 // Measures how calmly a controller steers: reversals, activity, and sustained oscillations.
 // 1. MakeSignals collects the steering command and the signals that explain it: curvature of the
-//    path, lateral acceleration and measurement noise. Jumps at changes of plan are removed.
+//    path, also with ramps for its steps, lateral acceleration and measurement noise. Jumps at
+//    changes of plan are removed.
 // 2. UnexplainedCommand (oscillation.h) removes what these signals explain, and WaveSearch looks
 //    for waves in the rest, in each stretch in which the car moves.
 // 3. The largest wave above ToleratedAmplitude counts. The tolerated steering uses a fifth of the
@@ -68,6 +70,33 @@ void RemoveJumps(const RunLog& log, std::vector<double>& values) {
     values[i] += shift;
     before = given;
   }
+}
+
+/// Replaces each jump of a steering angle that is faster than the wheels by a ramp with their rate
+/// [rad/s], half of it before and half behind the jump. Controllers that know the rate follow steps
+/// of the curvature so, which no linear filter of the steps explains.
+std::vector<double> Ramped(const std::vector<double>& values, const RunLog& log, double rate) {
+  const std::vector<LogRow>& rows = log.rows;
+  std::vector<double> ramped = values;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double jump = values[i] - values[i - 1];
+    const double before = rows[i - 1].state.time;
+    const double duration = std::abs(jump) / rate;
+    if (!(duration > rows[i].state.time - before)) {
+      continue;
+    }
+    const double middle = std::midpoint(before, rows[i].state.time);
+    const auto share = [&](std::size_t j) {
+      return (rows[j].state.time - middle) / duration + 0.5;
+    };
+    for (std::size_t j = i; j > 0 && share(j - 1) > 0.0; --j) {
+      ramped[j - 1] += jump * share(j - 1);
+    }
+    for (std::size_t j = i; j < values.size() && share(j) < 1.0; ++j) {
+      ramped[j] -= jump * (1.0 - share(j));
+    }
+  }
+  return ramped;
 }
 
 /// Returns the means of each `count` consecutive values. Values that are left at the end are
@@ -130,7 +159,8 @@ SteeringSignals MakeSignals(const RunLog& log, const Plan& plan, const VehiclePa
   signals.rows_per_sample = count;
   signals.loop.period = period * static_cast<double>(count);
   signals.loop.command = Means(command, count);
-  signals.loop.foreseen = {Means(path, count), Means(lateral, count), Means(cubic, count)};
+  signals.loop.foreseen = {Means(path, count), Means(lateral, count), Means(cubic, count),
+                           Means(Ramped(path, log, vehicle.steering_rate), count)};
   signals.loop.unforeseen = {Means(aside, count), Means(turned, count)};
   signals.speed = Means(speed, count);
   return signals;

@@ -9,9 +9,11 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <string>
 
 #include "src/analysis/steering_metrics.h"
 #include "tests/tolerance.h"
+#include "trackbed/analysis/run.h"
 #include "trackbed/analysis/verdict.h"
 #include "trackbed/core/angle.h"
 
@@ -264,6 +266,26 @@ TEST(SteeringReversals, CountsTurnsBackByMoreThanTheGap) {
   EXPECT_NEAR(SteeringReversals(Straight(5.0, Sine(0.1, 1.0)), Car()), 2.0, Tolerance(0.01));
   EXPECT_EQ(SteeringReversals(Straight(5.0, Sine(0.0012, 1.0)), Car()), 0.0);
   EXPECT_EQ(SteeringReversals(Straight(5.0, [](double t) { return 0.01 * t; }), Car()), 0.0);
+}
+
+class CalmFollower : public testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Laws, CalmFollower,
+                         testing::Values("rear_axle_feedback", "stanley", "lqr", "preview"),
+                         [](const auto& law) { return law.param; });
+
+// On two fillets that meet, the wheels turn at their full rate three times, with pauses that are as
+// long. Each pause has the same small corrections, which a fit of the steps alone repeats as waves.
+TEST_P(CalmFollower, DoesNotOscillateOnFilletsThatMeet) {
+  const Scenario scenario = ParseScenario(
+      "schema: 1\nname: fillets\n"
+      "mission: {speed: 2, waypoints: [[0, 0], [60, 0], [60, 30], [120, 30]]}\n"
+      "plan: {method: fillet}\ndrive: {plants: [kinematic]}\ncontrol: {method: " +
+      GetParam() + "}\n");
+  const RunResult result = RunScenario(scenario);
+  ASSERT_EQ(result.metrics.size(), 1U);
+  ASSERT_TRUE(result.metrics[0].oscillation);
+  EXPECT_EQ(result.metrics[0].oscillation->amplitude, 0.0);
 }
 
 /// Returns the verdict on a car whose steering oscillates by 0.25 rad at 2 Hz.
