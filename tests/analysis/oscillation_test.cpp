@@ -281,7 +281,8 @@ TEST_P(CalmFollower, DoesNotOscillateOnFilletsThatMeet) {
       "schema: 1\nname: fillets\n"
       "mission: {speed: 2, waypoints: [[0, 0], [60, 0], [60, 30], [120, 30]]}\n"
       "plan: {method: fillet}\ndrive: {plants: [kinematic]}\ncontrol: {method: " +
-      GetParam() + "}\n");
+          GetParam() + "}\n",
+      "fillets.yaml", "");
   const RunResult result = RunScenario(scenario);
   ASSERT_EQ(result.metrics.size(), 1U);
   ASSERT_TRUE(result.metrics[0].oscillation);
