@@ -281,12 +281,11 @@ std::vector<LaneletLane> LanesOf(const PlanningProblem& problem, const Lanelets&
   }
   auto lanes = FindLaneletRoute(lanelets, starts, goals);
   if (!lanes) {
-    Refuse(
-        reading.file, "goalState",
-        fmt::format("no successors and lane changes lead from lanelet {} to lanelet {}; a route "
-                    "follows the elements successor, adjacentLeft and adjacentRight of lanelets",
-                    fmt::join(starts, " or "), fmt::join(goals, " or ")),
-        line);
+    Refuse(reading.file, "goalState",
+           fmt::format("no successors and lane changes lead from lanelet {} to lanelet {}; a route "
+                       "follows the elements successor, adjacentLeft and adjacentRight of lanelets",
+                       fmt::join(starts, " or "), fmt::join(goals, " or ")),
+           line);
   }
   return *lanes;
 }

@@ -223,9 +223,9 @@ TEST(ShortLegs, AreRefusedWithARemedyThatWorks) {
   FilletOptions options;
   const FilletPlan tight = PlanFillets(ReferenceCar(), route, 1.0, options);
   ASSERT_EQ(tight.status, PlanStatus::kTurnTooTight);
-  EXPECT_THAT(tight.reason, ::testing::HasSubstr("make its legs at least 10.2 m long"));
+  EXPECT_THAT(tight.reason, ::testing::HasSubstr("make its legs at least 10.21 m long"));
   options.constraint = RadiusConstraint::kHalfLeg;
-  EXPECT_EQ(PlanFillets(ReferenceCar(), {{0, 0}, {40, 0}, {40, 10.2}}, 1.0, options).status,
+  EXPECT_EQ(PlanFillets(ReferenceCar(), {{0, 0}, {40, 0}, {40, 10.21}}, 1.0, options).status,
             PlanStatus::kOk);
   // With a given radius, a smaller one is the remedy.
   options.radius = 9.0;
