@@ -21,6 +21,8 @@ plan = {"method": "commonroad_route", "lanelets": file}
 run = trackbed.run(file, plants=["kinematic", "mujoco"], set={"plan": plan})
 assert run.passed, run.verdict
 assert run.plan["method"] == "commonroad_route"
+# Columns have steps, also with NumPy 2 of the planner's packages.
+assert run["kinematic"]["s_m"][-1] > run["kinematic"]["s_m"][0], run["kinematic"]["s_m"].strides
 try:
     trackbed.run(file, plants=["kinematic"], set={"plan": {**plan, "lanelets": "none.xml"}})
 except trackbed.PluginError as error:
