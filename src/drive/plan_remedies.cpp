@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/route.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/car_lengths.h"
@@ -38,6 +39,7 @@ HybridAStarOptions HybridFor(const VehicleParams& vehicle) {
                          &options.switch_cost, &options.steering_cost}) {
     *length *= scale;
   }
+  options.cell = std::max(options.cell, route::kCellSize.min);
   options.budget = std::min(options.budget, kRemedyPoses);
   return options;
 }

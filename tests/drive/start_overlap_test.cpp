@@ -98,6 +98,31 @@ TEST(PlanScenario, NamesRemediesThatWork) {
   }
 }
 
+// The remedy of a small car scales the cells of its search, but not below the smallest cell that
+// the search allows: 0.5 m times 0.27 m / 4 m is 0.034 m for `dart`. The car stands in a closed
+// box, so no planner has a plan.
+TEST(PlanScenario, LooksForRemediesOfSmallCars) {
+  for (const char* model : {"dart", "f1tenth"}) {
+    for (const char* method : {"astar", "hybrid_astar", "rrt", "rrt_star", "dubins"}) {
+      SCOPED_TRACE(fmt::format("{} {}", model, method));
+      const auto wall = [](double x, double y, double length, double width) {
+        return fmt::format("{{box: {{x: {}, y: {}, length: {}, width: {}, height: 1}}}}", x, y,
+                           length, width);
+      };
+      const Scenario scenario = ParseScenario(
+          fmt::format("schema: 1\nname: box\nvehicle: {{model: {}}}\nmission: {{speed: 1, start: "
+                      "{{speed: 0.5}}, waypoints: [[0, 0], [8, 0]]}}\n"
+                      "world: {{obstacles: [{}, {}, {}, {}]}}\nplan: {{method: {}}}\n",
+                      model, wall(1.5, 0.0, 0.1, 3.0), wall(-1.5, 0.0, 0.1, 3.0),
+                      wall(0.0, 1.5, 3.1, 0.1), wall(0.0, -1.5, 3.1, 0.1), method),
+          "box.yaml", "");
+      const FeasiblePlan refused = PlanScenario(scenario, LoadCar(scenario));
+      ASSERT_FALSE(refused.ok());
+      EXPECT_EQ(refused->reason.find("there is a path"), std::string::npos) << refused->reason;
+    }
+  }
+}
+
 TEST(PlanScenario, GivesNoHintWhereTheObstacleIsNotTheCause) {
   // A radius of 2 m is below the minimum of the car, with or without the obstacle.
   const FeasiblePlan refused = PlanScenario(
