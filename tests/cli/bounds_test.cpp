@@ -163,6 +163,31 @@ TEST(LongRoute, IsRefusedWithItsLeg) {
                 "the leg to this waypoint is 180000 m"));
 }
 
+TEST(LongCourse, IsRefusedWithItsLongestSegment) {
+  const TempFolder folder;
+  folder.Write("s.yaml",
+               ScenarioText("mission: {speed: 3}\nplan: {method: course, segments: [{length: 9e5, "
+                            "curvature: 0}, {length: 1e6, curvature: 0.1}]}\n"));
+  const Outcome refused = Bounded(folder, "check s.yaml");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.output,
+              HasSubstr("plan.segments[1].length: the course is 1900000 m long; must be at most "
+                        "200000 m: this segment, the longest one, is 1000000 m"));
+}
+
+// A ramp of 15 km that turns by 750 rad has 7000 times the turn of a usual one, and must not take
+// that many times the time.
+TEST(LongCourse, OfARampWithManyTurnsIsPlanned) {
+  const TempFolder folder;
+  folder.Write("s.yaml",
+               ScenarioText("mission: {speed: 3}\nplan: {method: course, segments: [{length: "
+                            "15000, curvature_to: 0.1}]}\n"));
+  const double begun = ProcessorTime();
+  const Outcome planned = Bounded(folder, "plan s.yaml -q -o out");
+  EXPECT_EQ(planned.code, 0) << planned.output;
+  EXPECT_LE(ProcessorTime() - begun, 5.0);
+}
+
 TEST(LongRun, IsRefusedWithItsRows) {
   const TempFolder folder;
   const Outcome refused = Trackbed(folder, "check three_turns --set drive.time_limit=50000");

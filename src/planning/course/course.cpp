@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/path/fit_path.h"
 #include "trackbed/planning/common/course_schedule.h"
 
 namespace trackbed {
@@ -31,6 +33,24 @@ std::vector<Segment> CourseSegments(const CourseOptions& options) {
 
 namespace {
 
+/// Splits ramps that turn by more than a full circle into pieces that turn by at most 1 rad each.
+/// The cost of a point on a ramp is proportional to the turn of the ramp, so without the split the
+/// cost of a course would grow with the square of its turns.
+std::vector<Segment> SplitLongRamps(const std::vector<Segment>& segments) {
+  std::vector<Segment> pieces;
+  for (const Segment& segment : segments) {
+    const double turn = segment.length * std::abs(SharpestCurvature(segment));
+    const double count = segment.sharpness == 0.0 || turn <= 2.0 * kPi ? 1.0 : std::ceil(turn);
+    for (double i = 0.0; i < count; i += 1.0) {
+      Segment piece = segment;
+      piece.length = segment.length / count;
+      piece.curvature = segment.CurvatureAt(segment.length * i / count);
+      pieces.push_back(piece);
+    }
+  }
+  return pieces;
+}
+
 Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
   const std::vector<Segment> segments = CourseSegments(options);
   Plan plan;
@@ -47,7 +67,7 @@ Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
       return plan;
     }
   }
-  plan.reference.path = Path(request.start, segments);
+  plan.reference.path = Path(request.start, SplitLongRamps(segments));
   const Path& path = plan.reference.path;
   plan.reference.speed = StopAtEnd(path.length(), request.start_speed, request.speed);
   plan.schedule = CourseSchedule(request.vehicle, segments, request.speed.speed);
@@ -69,8 +89,26 @@ Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
   return plan;
 }
 
-/// Reports a problem unless the course has at least one segment, and each segment has either a
-/// constant curvature or a curvature ramp.
+/// Reports a problem if the course is longer than kMaxPathLength, which would take too much
+/// computing time and memory.
+void CheckCourseLength(const CourseOptions& options, std::vector<OptionProblem>& problems) {
+  double length = 0.0;
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < options.segments.size(); ++i) {
+    length += options.segments[i].length;
+    longest = options.segments[i].length > options.segments[longest].length ? i : longest;
+  }
+  if (length > kMaxPathLength) {
+    problems.push_back(
+        {fmt::format("segments[{}].length", longest),
+         fmt::format("the course is {:.7g} m long; must be at most {:.7g} m: this segment, the "
+                     "longest one, is {:.7g} m; correct it, or divide the course",
+                     length, kMaxPathLength, options.segments[longest].length)});
+  }
+}
+
+/// Reports a problem unless the course has at least one segment, is at most kMaxPathLength long,
+/// and each segment has either a constant curvature or a curvature ramp.
 std::vector<OptionProblem> CheckSegments(const CourseOptions& options,
                                          const CouldReadKey& could_read) {
   std::vector<OptionProblem> problems;
@@ -90,6 +128,7 @@ std::vector<OptionProblem> CheckSegments(const CourseOptions& options,
       problems.push_back({key, "give curvature (0 for a straight), or curvature_to for a ramp"});
     }
   }
+  CheckCourseLength(options, problems);
   return problems;
 }
 

@@ -30,7 +30,8 @@ struct CoursePiece {
 void Visit(KeyVisitor& keys, CoursePiece& piece);
 
 struct CourseOptions {
-  /// Pieces of the course, in order from the car's start; at least one.
+  /// Pieces of the course, in order from the car's start; at least one. Together at most
+  /// kMaxPathLength long.
   std::vector<CoursePiece> segments;
 };
 void Visit(KeyVisitor& keys, CourseOptions& options);
