@@ -34,8 +34,9 @@ function(allow source text)
 endfunction()
 
 file(READ ${DYGRAPHS_STYLE} library_style)
+file(READ ${PAGE}/page.colors.css colors)
 file(READ ${PAGE}/page.css style)
-set(style "\n${library_style}\n${style}")
+set(style "\n${library_style}\n${colors}${style}")
 allow(style_source "${style}")
 put(style "<style>${style}</style>")
 

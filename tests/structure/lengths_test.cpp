@@ -55,7 +55,7 @@ std::vector<fs::path> SourceFiles() {
   for (const char* folder : {"include/trackbed", "src", "render"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kTree / folder)) {
       const fs::path ending = entry.path().extension();
-      if (ending == ".h" || ending == ".cpp" || ending == ".js") {
+      if (ending == ".h" || ending == ".cpp" || ending == ".js" || ending == ".css") {
         files.push_back(entry.path());
       }
     }
