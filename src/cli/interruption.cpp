@@ -1,13 +1,18 @@
 #include "src/cli/interruption.h"
 
+#include <semaphore.h>
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <string_view>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "src/cli/verbs.h"
+#include "trackbed/core/temporaries.h"
 
 namespace trackbed::cli {
 
@@ -21,21 +26,18 @@ std::atomic<int> finishing{0};
 
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
-void StartGrace() {
+void StartTimer(int milliseconds) {
   constexpr int kMicroseconds = 1000;  // number of microseconds in a millisecond
-  const itimerval grace{.it_interval = {}, .it_value = {0, kGrace * kMicroseconds}};
-  setitimer(ITIMER_REAL, &grace, nullptr);
+  const itimerval timer{.it_interval = {}, .it_value = {0, milliseconds * kMicroseconds}};
+  setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
 void OnSignal(int /*signal*/) {
   interrupted = true;
-  StartGrace();
+  StartTimer(kGrace);
 }
 
-void OnGraceOver(int /*signal*/) {
-  if (finishing > 0) {
-    return;  // wait for the result: the destructor of FinishingResult restarts the timer
-  }
+void End() {
   constexpr std::string_view kText = "interrupted: ended in the middle of its work\n";
   if (::write(STDERR_FILENO, kText.data(), kText.size()) < 0) {
     // Ignore the failure, because without stderr no error message can be shown.
@@ -43,9 +45,51 @@ void OnGraceOver(int /*signal*/) {
   ::_exit(kInterrupted);
 }
 
+// Posted when the grace period is over.
+sem_t grace_over;
+
+void OnGraceOver(int /*signal*/) {
+  if (finishing > 0) {
+    return;  // wait for the result: the destructor of FinishingResult restarts the timer
+  }
+  static std::atomic<bool> again{false};
+  if (again.exchange(true)) {
+    End();  // no thread waits for the semaphore, or the file system blocks the thread
+  }
+  sem_post(&grace_over);
+  constexpr int kRemoval = 200;  // time to remove temporary files [ms]
+  StartTimer(kRemoval);
+}
+
+void EndAfterGrace() {
+  while (sem_wait(&grace_over) != 0 && errno == EINTR) {
+  }
+  RemoveTemporariesForEver();
+  End();
+}
+
+/// Starts the thread that ends the process when the grace period is over. A signal handler must not
+/// take the lock that the removal of temporary files needs.
+void StartThread() {
+  sem_init(&grace_over, 0, 0);
+  // The thread blocks all signals, so that they interrupt the system calls of the main thread.
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  try {
+    std::thread(EndAfterGrace).detach();
+  } catch (const std::system_error&) {
+    // Do without the thread, for example under a limit on processes. Temporary files then remain
+    // as after SIGKILL.
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
 }  // namespace
 
 void EndOnSignals() {
+  StartThread();
   struct sigaction action {};
   action.sa_handler = OnGraceOver;
   sigaction(SIGALRM, &action, nullptr);
@@ -71,7 +115,7 @@ FinishingResult::FinishingResult(FinishingResult&& other) noexcept
 
 FinishingResult::~FinishingResult() {
   if (counts_ && --finishing == 0 && interrupted) {
-    StartGrace();
+    StartTimer(kGrace);
   }
 }
 

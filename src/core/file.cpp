@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "trackbed/core/error.h"
+#include "trackbed/core/temporaries.h"
 
 // Reads and writes files such that a killed process or a full disk leaves no partial file.
 // 1. ReadFile accepts regular files only, because a pipe could block the program, and limits the
@@ -218,8 +219,12 @@ TemporaryFile::TemporaryFile(fs::path file) : file_(std::move(file)) {
   // also avoids the name of a file that a killed process with the same process id has left behind.
   for (int number = 0;; ++number) {
     path_ = TemporaryName(file_, number);
-    descriptor_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    if (descriptor_.get() < 0) {
+    const bool created = AddTemporary(path_, [this] {
+      descriptor_ =
+          Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+      return descriptor_.get() >= 0;
+    });
+    if (!created) {
       if (errno == EEXIST) {
         continue;
       }
@@ -233,7 +238,10 @@ TemporaryFile::TemporaryFile(fs::path file) : file_(std::move(file)) {
 
 TemporaryFile::~TemporaryFile() {
   if (!path_.empty()) {
-    ::unlink(path_.c_str());
+    DropTemporary(path_, [this] {
+      ::unlink(path_.c_str());
+      return true;
+    });
   }
 }
 
@@ -258,7 +266,7 @@ void TemporaryFile::Publish() {
   if (fs::exists(real, error_code) && !fs::is_regular_file(real, error_code)) {
     throw RunError(fmt::format("cannot write {}: it is not a regular file", file_.string()));
   }
-  if (::rename(path_.c_str(), real.c_str()) != 0) {
+  if (!DropTemporary(path_, [&] { return ::rename(path_.c_str(), real.c_str()) == 0; })) {
     Fail("write", file_, errno);
   }
   path_.clear();
@@ -267,7 +275,7 @@ void TemporaryFile::Publish() {
 TemporaryFolder::TemporaryFolder(const fs::path& file) {
   for (int number = 0;; ++number) {
     path_ = TemporaryName(file, number);
-    if (::mkdir(path_.c_str(), 0777) != 0) {
+    if (!AddTemporary(path_, [this] { return ::mkdir(path_.c_str(), 0777) == 0; })) {
       if (errno == EEXIST) {
         continue;
       }
@@ -276,7 +284,7 @@ TemporaryFolder::TemporaryFolder(const fs::path& file) {
     descriptor_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (descriptor_.get() < 0 && errno != ENOENT) {
       const int error = errno;
-      ::rmdir(path_.c_str());
+      DropTemporary(path_, [this] { return ::rmdir(path_.c_str()) == 0; });
       Fail("write", file, error);
     }
     if (IsOurs(descriptor_.get())) {
@@ -286,8 +294,11 @@ TemporaryFolder::TemporaryFolder(const fs::path& file) {
 }
 
 TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  DropTemporary(path_, [this] {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+    return true;
+  });
 }
 
 void RemoveAbandonedTemporaries(const fs::path& folder) {

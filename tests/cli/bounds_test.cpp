@@ -313,5 +313,21 @@ TEST(Signal, InTheMiddleOfPlanningLeavesTheEarlierResult) {
   EXPECT_EQ(Trackbed(folder, "report r -o page.html").code, 0);
 }
 
+/// A film whose first frame takes longer than the program has to end after a signal.
+class SignalToFilm : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, SignalToFilm, ::testing::Values("mp4", "png", "webp"),
+                         [](const auto& of) { return of.param; });
+
+TEST_P(SignalToFilm, LeavesNoTemporaryFile) {
+  const TempFolder folder;
+  ASSERT_EQ(Trackbed(folder, "run three_turns -o r --plant kinematic -q").code, 0);
+  const auto [outcome, seconds] =
+      Ended(folder, "render r -o film." + GetParam() + " --size 7680x4320", "TERM",
+            "until ls -A | grep -q '^[.]film'; do kill -0 $! && sleep 0.05 || break; done");
+  EXPECT_EQ(outcome.code, 130) << ReadFile(folder.path() / "said");
+  EXPECT_LE(seconds, 1.5);
+  EXPECT_EQ(Shell(folder, "ls -A").output, "r\nsaid\n");
+}
+
 }  // namespace
 }  // namespace trackbed

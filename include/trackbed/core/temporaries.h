@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+/// The list of the temporary files and folders of this process (TemporaryFile and TemporaryFolder in
+/// file.h). When a signal ends the process, the destructors of their owners do not run, so
+/// RemoveTemporariesForEver removes what is in the list.
+namespace trackbed {
+
+/// Adds `path` to the list and calls `create`. If `create` returns false, takes `path` off the list
+/// again. Returns the result of `create`, and leaves `errno` as `create` set it.
+bool AddTemporary(const std::filesystem::path& path, const std::function<bool()>& create);
+
+/// Calls `remove`, which removes or renames `path`. If `remove` returns true, takes `path` off the
+/// list. Returns the result of `remove`.
+bool DropTemporary(const std::filesystem::path& path, const std::function<bool()>& remove);
+
+/// Removes all files and folders of the list. Call this function right before _exit(): afterwards,
+/// threads that create, publish or remove a temporary file wait for ever. The function takes a
+/// lock, so a signal handler must not call it. Never throws.
+void RemoveTemporariesForEver() noexcept;
+
+}  // namespace trackbed
