@@ -64,9 +64,12 @@ bool Counts(const std::string& path) {
   return !folder.empty() && path.compare(0, folder.size() + 1, folder + "/") == 0;
 }
 
+void DoNothing() {}
+
 /// Counts a call. Returns whether the call must fail, with errno set. Does not return if the
-/// program must be killed.
-bool Fails(const char* what, const std::string& path) {
+/// program must be killed. Calls `first` before the call fails or the program is killed.
+template <typename First = void (*)()>
+bool Fails(const char* what, const std::string& path, const First& first = DoNothing) {
   if (!Counts(path)) {
     return false;
   }
@@ -83,6 +86,9 @@ bool Fails(const char* what, const std::string& path) {
   }
   if (number != at) {
     return false;
+  }
+  if (error >= 0) {
+    first();
   }
   if (error == 0) {
     kill(getpid(), SIGKILL);
@@ -124,12 +130,12 @@ OPEN_LIKE(open64)
 ssize_t write(int descriptor, const void* bytes, size_t count) {
   const auto real = Real<ssize_t (*)(int, const void*, size_t)>("write");
   static const bool half = !Setting("FAULT_HALF").empty();
-  static const int at = atoi(Setting("FAULT_AT").c_str());
-  const std::string path = PathOf(descriptor);
-  if (half && count > 1 && calls + 1 == at && Counts(path)) {
-    real(descriptor, bytes, count / 2);
-  }
-  return Fails("write", path) ? -1 : real(descriptor, bytes, count);
+  const auto write_half = [&] {
+    if (half && count > 1) {
+      real(descriptor, bytes, count / 2);
+    }
+  };
+  return Fails("write", PathOf(descriptor), write_half) ? -1 : real(descriptor, bytes, count);
 }
 
 ssize_t pwrite64(int descriptor, const void* bytes, size_t count, off64_t offset) {
