@@ -89,8 +89,11 @@ class FrameOutput : public FilmOutput {
     return fs::is_regular_file(fs::symlink_status(file, ignored));
   }
   [[nodiscard]] bool IsThere(int frame) const { return IsFile(FrameName(output_, frame)); }
+  /// Throws RunError if something that Trackbed did not write, such as a link, has the frame's
+  /// name.
   static void RequireOwn(const fs::path& frame) {
-    if (IsFile(frame) && !HasMark(frame)) {
+    std::error_code ignored;
+    if (fs::exists(fs::symlink_status(frame, ignored)) && !(IsFile(frame) && HasMark(frame))) {
       throw RunError(fmt::format(
           "{} has the name of a frame of the film, but is not a frame that Trackbed wrote; choose "
           "another name (-o)",

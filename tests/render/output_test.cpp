@@ -310,6 +310,19 @@ TEST_F(Frames, DoNotReplacePicturesOfOthers) {
   EXPECT_EQ(ReadFile(FrameName(output_, 1)), other);
 }
 
+TEST_F(Frames, DoNotReplaceLinks) {
+  const fs::path target = folder_.Write("mine", "mine");
+  fs::create_directories(output_.parent_path());
+  for (const fs::path& link_target : {target, folder_.path() / "absent"}) {
+    fs::create_symlink(link_target, FrameName(output_, 1));
+    EXPECT_THROW(RenderFilm(run_, output_, options_), RunError);
+    EXPECT_TRUE(fs::is_symlink(FrameName(output_, 1)));
+    EXPECT_EQ(ReadFile(target), "mine");
+    fs::remove(FrameName(output_, 1));
+  }
+  EXPECT_FALSE(fs::exists(folder_.path() / "absent"));
+}
+
 TEST_F(Frames, AreNotMadeForAnUnknownExtensionOrQuality) {
   output_ = folder_.path() / "frames" / "f.jpg";
   EXPECT_EQ(InputMessage([this] { RenderFilm(run_, output_, options_); }),
