@@ -55,6 +55,18 @@ bool IsDevice(const fs::path& file) {
          !S_ISDIR(existing.st_mode);
 }
 
+/// Throws RunError if the file is a link whose target is absent. Renaming a new file to the link's
+/// name would replace the link, and a link may lead anywhere.
+void RequireTarget(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_symlink(file, error) && !fs::exists(file, error)) {
+    throw RunError(fmt::format(
+        "cannot write {}: it is a link to a file that does not exist; remove it, or name another "
+        "file",
+        file.string()));
+  }
+}
+
 }  // namespace
 
 namespace {
@@ -258,6 +270,7 @@ void TemporaryFile::Publish() {
   }
   // If the file is a link, replace the target of the link and keep the link. Throw an error if the
   // file is a device or a pipe, which cannot be replaced.
+  RequireTarget(file_);
   std::error_code error_code;
   const fs::path real = fs::is_symlink(file_) ? fs::weakly_canonical(file_, error_code) : file_;
   if (fs::is_directory(real, error_code)) {
@@ -330,6 +343,7 @@ void CheckCanWrite(const fs::path& file) {
   if (fs::is_directory(file, ignored)) {
     Fail("write", file, EISDIR);
   }
+  RequireTarget(file);
   if (!IsDevice(file)) {
     const TemporaryFile temporary(file);
   }

@@ -119,6 +119,19 @@ TEST(WriteFileAtomically, WritesToADevice) {
   EXPECT_THAT(folder.Names(), ElementsAre("device"));
 }
 
+TEST(WriteFileAtomically, KeepsALinkWhoseTargetIsAbsent) {
+  const TempFolder folder;
+  const fs::path file = folder.path() / "link";
+  fs::create_symlink(folder.path() / "absent", file);
+  const std::string message = "cannot write " + file.string() +
+                              ": it is a link to a file that does not exist; remove it, or name "
+                              "another file";
+  EXPECT_EQ(RunErrorMessage([&] { WriteFileAtomically(file, "x"); }), message);
+  EXPECT_EQ(RunErrorMessage([&] { PrepareToWrite(file); }), message);
+  EXPECT_THAT(folder.Names(), ElementsAre("link"));
+  EXPECT_TRUE(fs::is_symlink(file));
+}
+
 TEST(ReadFile, ReadsNothingOfWhatIsTooLarge) {
   const TempFolder folder;
   const std::filesystem::path file = folder.Write("sparse.csv", "t_s");
