@@ -126,8 +126,7 @@ void PrintCheck(const Scenario& scenario, const FittedPath& fitted, const PathCh
 }
 
 int Drive(const CheckPathOptions& options, const Scenario& scenario) {
-  const fs::path out =
-      options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
+  const fs::path out = OutputFolderOf(options.out, scenario.name);
   const auto [folder, result, finishing] = DriveScenario({scenario, out}, options.scenario.quiet);
   WriteRunFolder(result, folder);
   if (options.scenario.quiet) {

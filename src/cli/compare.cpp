@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "src/cli/output_file.h"
 #include "src/cli/scenario_runs.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
@@ -87,7 +88,7 @@ int CompareFinished(const CompareOptions& options) {
   const std::vector<fs::path> folders(options.files.begin(), options.files.end());
   const RunComparison result =
       CompareFolders(folders, options.scenario.plants, Tolerances(options));
-  const OutputFolder out(options.out.empty() ? "out/compare" : options.out);
+  const OutputFolder out(OutputFolderOf(options.out, "compare"));
   WriteComparison(result, out);
   return Finish(fmt::format("{}", fmt::join(options.files, " and ")), result, out.path(),
                 options.scenario.quiet);

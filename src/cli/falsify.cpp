@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "src/cli/film_of_run.h"
+#include "src/cli/output_file.h"
 #include "src/cli/progress_bar.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/sweep_folders.h"
@@ -177,7 +178,7 @@ void PrintResult(const FalsifyResult& result, const CheckedSearch& search, const
 int Falsify(const FalsifyVerbOptions& options) {
   const CheckedSearch search = CheckSearch(options.scenario.ReadStudyFile(options.file));
   const std::string& name = search.study.name;
-  const fs::path out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
+  const fs::path out = OutputFolderOf(options.out, name);
   // Lock the output folder before the search, so that an error appears early.
   const OutputFolder folder(out, FileNamesOfVerb("falsify"));
   const fs::path counterexample = FolderBelow(out, run_folder::kCounterexample);

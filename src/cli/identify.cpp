@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/cli/output_file.h"
 #include "src/cli/progress_bar.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/terminal.h"
@@ -96,7 +97,7 @@ void PrintRecords(const IdentificationResult& result) {
 
 int RunIdentification(const IdentifyOptions& options) {
   const Identification study = ReadIdentification(options.study, Paths(options.asset_folders));
-  const fs::path out = options.out.empty() ? fs::path("out") / study.name : fs::path(options.out);
+  const fs::path out = OutputFolderOf(options.out, study.name);
   // Lock the output folder before the search, so that an error appears early.
   const OutputFolder folder(out, IdentificationFiles(study));
   for (const auto* list : {&study.fit_scenarios, &study.held_out_scenarios}) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "src/cli/output_file.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/scenario_runs.h"
 #include "src/cli/terminal.h"
@@ -103,8 +104,7 @@ int Import(const ImportOptions& options) {
   Scenario scenario = RecordScenario(std::move(drive), options.vehicle);
   scenario.asset_folders = Paths(options.asset_folders);
   CheckScenario(scenario);
-  const fs::path out =
-      options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
+  const fs::path out = OutputFolderOf(options.out, scenario.name);
   const auto [folder, result, finishing] = DriveScenario({scenario, out}, options.quiet);
   WriteRunFolder(result, folder, {.mcap = options.mcap});
   if (options.report && !result.interrupted) {

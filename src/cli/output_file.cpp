@@ -33,6 +33,10 @@ std::string BytesAt(const fs::path& file, std::streamoff offset, std::string_vie
 
 }  // namespace
 
+fs::path OutputFolderOf(const std::string& option, const fs::path& below, const fs::path& parent) {
+  return option.empty() ? FolderBelow(parent, below) : fs::path(option);
+}
+
 WroteFile BeginsWith(std::string text) {
   return [text = std::move(text)](const fs::path& file) { return BytesAt(file, 0, text) == text; };
 }

@@ -8,6 +8,12 @@
 
 namespace trackbed::cli {
 
+/// Returns the output folder of a command: the value of its option `--out`, or `below` in `parent`
+/// if the option is empty. `below` comes from a name in an input, so throws RunError if a part of
+/// `below` is a link or a file (FolderBelow). The option and `parent` may be links.
+std::filesystem::path OutputFolderOf(const std::string& option, const std::filesystem::path& below,
+                                     const std::filesystem::path& parent = "out");
+
 /// Returns whether an existing file was written by the option that would replace it.
 using WroteFile = std::function<bool(const std::filesystem::path&)>;
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/cli/diagnostics_text.h"
+#include "src/cli/output_file.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/scenario_runs.h"
 #include "src/cli/terminal.h"
@@ -33,8 +34,7 @@ int RunPlanVerb(const PlanOptions& options) {
   if (!scenario.plan) {
     throw InputError(Problem{options.file, 0, 0, "plan", "missing; 'trackbed plan' needs one"});
   }
-  const fs::path out =
-      options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
+  const fs::path out = OutputFolderOf(options.out, scenario.name);
   const CarModel car = LoadCar(scenario);
   RefuseOverlapAtStart(options.file, scenario, car.params());
   const OutputFolder folder(out, FileNamesOfVerb("plan"));

@@ -6,9 +6,11 @@
 #include <memory>
 #include <utility>
 
+#include "src/cli/output_file.h"
 #include "src/cli/progress_bar.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/foreign_files.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
@@ -30,9 +32,9 @@ std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
     if (files.size() > 1) {
       car.reset();  // do not keep the cars of many scenarios in memory
     }
-    const fs::path folder = out.empty()        ? parent / scenario.name
-                            : files.size() > 1 ? fs::path(out) / scenario.name
-                                               : fs::path(out);
+    const fs::path folder = files.size() > 1 && !out.empty()
+                                ? FolderBelow(out, scenario.name)
+                                : OutputFolderOf(out, scenario.name, parent);
     for (const ScenarioRun& other : runs) {
       if (other.folder == folder) {
         throw InputError(

@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "src/cli/output_file.h"
 #include "src/cli/progress_bar.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/scenario_runs.h"
@@ -169,7 +170,7 @@ int Sweep(const SweepVerbOptions& options) {
     Refuse("--until", "needs all rows; leave out --shard and --only");
   }
   const std::string& name = study.name;
-  const fs::path all = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
+  const fs::path all = OutputFolderOf(options.out, name);
   const fs::path out = FolderOfShard(all, shard);
   const fs::path file = out / run_folder::kSweepRecords;
   CheckOnly(options, study, file);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/cli/output_file.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/scenario_runs.h"
 #include "src/cli/shell_quote.h"
@@ -155,8 +156,7 @@ void WriteScripts(const Scripts& scripts, const fs::path& out) {
 int SubmitStudy(const SubmitOptions& options) {
   const Study study = options.scenario.ReadStudyFile(options.file);
   const CheckedStudy checked = CheckStudy(study, /*all=*/false);
-  const fs::path out =
-      fs::absolute(options.out.empty() ? fs::path("out") / study.name : fs::path(options.out));
+  const fs::path out = fs::absolute(OutputFolderOf(options.out, study.name));
   const Scripts scripts = MakeScripts(study, options.tasks, out);
   std::string sbatch;
   for (const std::string& option : options.sbatch) {

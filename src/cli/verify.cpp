@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "src/cli/output_file.h"
 #include "src/cli/progress_bar.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/sweep_folders.h"
@@ -35,8 +36,7 @@ int Verify(const VerifyVerbOptions& options) {
       CheckStudy(options.scenario.ReadStudyFile(options.file), /*all=*/false);
   CheckVerifiable(checked.points);
   const std::string& name = checked.points.study().name;
-  const fs::path out =
-      options.out.empty() ? fs::path("out") / (name + "_verify") : fs::path(options.out);
+  const fs::path out = OutputFolderOf(options.out, name + "_verify");
   // Lock the output folder before the runs, so that an error appears early.
   const OutputFolder folder(out, FileNamesOfVerb("verify"));
   const fs::path file = out / run_folder::kSweepRecords;

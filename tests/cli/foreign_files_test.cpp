@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 #include <ostream>
 #include <string>
 #include <tuple>
@@ -186,6 +187,41 @@ TEST_P(ForeignFiles, AreNeitherReplacedNorRemoved) {
       EXPECT_THAT(outcome.output, HasSubstr(fs::path(name).filename().string())) << what;
     }
   }
+}
+
+// A folder that is named by the input is no link, whereas the folder of --out may be one.
+TEST(OutputFolderOf, DoesNotFollowLinksNamedByTheInput) {
+  const std::string scenario =
+      "schema: 1\nname: mine\nmission: {speed: 1, waypoints: [[0, 0], "
+      "[9, 0]]}\nplan: {method: dubins}\n";
+  const std::string study =
+      "schema: 1\nname: mine\nscenario: a.yaml\nset: {drive.plants: "
+      "[kinematic]}\nvary: {mission.speed: {distribution: uniform, from: 1, "
+      "to: 2}}\n";
+  const TempFolder folder;
+  folder.Write("a.yaml", scenario);
+  folder.Write("b.yaml", "schema: 1\nname: other\n" + scenario.substr(scenario.find("mission")));
+  folder.Write("mine.csv", "x_m,y_m\n0,0\n10,0\n20,0\n");
+  folder.Write("sample.yaml", study + "sample: {count: 3, method: random}\n");
+  folder.Write("search.yaml", study + "search: {runs: 2, shrink_runs: 0}\n");
+  folder.Write("users/notes.txt", "mine");
+  fs::create_directories(folder.path() / "out/compare");
+  fs::create_directory(folder.path() / "several");
+  for (const char* link : {"out/mine", "out/mine_verify", "out/compare/mine", "several/mine"}) {
+    fs::create_directory_symlink(folder.path() / "users", folder.path() / link);
+  }
+  for (const char* arguments : {"run a.yaml", "run a.yaml b.yaml -o several", "plan a.yaml",
+                                "watch a.yaml", "compare a.yaml --plants kinematic,single_track",
+                                "compare a.yaml b.yaml --plants kinematic,single_track -o several",
+                                "check-path mine.csv --speed 2 --drive", "sweep sample.yaml",
+                                "falsify search.yaml", "verify sample.yaml --probability 0.5"}) {
+    const Outcome refused = Trackbed(folder, arguments);
+    EXPECT_EQ(refused.code, 2) << arguments;
+    EXPECT_THAT(refused.output, HasSubstr("it is a link, not a folder")) << arguments;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path() / "users"), {}), 1) << arguments;
+  }
+  const Outcome given = Trackbed(folder, "plan a.yaml -q -o out/mine");
+  EXPECT_EQ(given.code, 0) << given.output;
 }
 
 // The user may have notes beside the results.
