@@ -200,12 +200,18 @@ void RefuseTwice(const std::vector<std::string>& plants) {
 }
 
 /// Converts the planned path in plan.csv to a trace, so that two plans can be compared like two
-/// runs.
-Trace PathIn(const Table& plan) {
-  Trace trace{.station = plan.Column("s_m")};
-  const auto x = plan.Column("x_m");
-  const auto y = plan.Column("y_m");
-  const auto yaw = plan.Column("yaw_rad");
+/// runs. Throws InputError, naming the file, if a column is missing.
+Trace PathIn(const Table& plan, const fs::path& file) {
+  const auto column = [&](const char* name) {
+    if (plan.Find(name) < 0) {
+      throw InputError(Problem{file.string(), 1, 0, name, "no such column"});
+    }
+    return plan.Column(name);
+  };
+  Trace trace{.station = column("s_m")};
+  const auto x = column("x_m");
+  const auto y = column("y_m");
+  const auto yaw = column("yaw_rad");
   for (std::size_t i = 0; i < plan.rows(); ++i) {
     trace.pose.push_back({x[i], y[i], yaw[i]});
   }
@@ -255,8 +261,8 @@ void NoteOtherPlan(const FinishedRun& first, const FinishedRun& second, Verdict&
   const auto length = [](const Trace& path) {
     return path.station.empty() ? 0.0 : path.station.back();
   };
-  const Trace path_1 = PathIn(plan_1);
-  const Trace path_2 = PathIn(plan_2);
+  const Trace path_1 = PathIn(plan_1, plan_of_first);
+  const Trace path_2 = PathIn(plan_2, plan_of_second);
   const Difference apart = CompareTraces(path_1, path_2).position;
   const bool one_path =
       apart.max <= kRounding && std::abs(length(path_1) - length(path_2)) <= kRounding;

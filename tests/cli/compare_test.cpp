@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
@@ -105,6 +106,25 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
   EXPECT_THAT(told(file + " " + file), HasSubstr("both would write to out/compare/winding\n"));
   EXPECT_THAT(told("none.yaml"), StartsWith("cannot read none.yaml"));
   EXPECT_TRUE(folder.Names().empty());
+}
+
+TEST(Compare, NamesThePlanThatLacksAColumn) {
+  const TempFolder folder;
+  for (const char* out : {"a", "b"}) {
+    ASSERT_EQ(Trackbed(folder, "run -q --plant kinematic --set expect={} drive.time_limit=0.2 -o " +
+                                   std::string(out) + " -- " + ScenarioFile("winding"))
+                  .code,
+              3);
+  }
+  std::filesystem::remove(folder.path() / "b/manifest.json");
+  std::string plan = ReadFile(folder.path() / "b/plan.csv");
+  plan.replace(plan.find("yaw_rad"), 7, "heading");
+  folder.Write("b/plan.csv", plan);
+  for (const char* runs : {"a b", "b a"}) {
+    const Outcome refused = Trackbed(folder, std::string("compare ") + runs);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_EQ(refused.output, "b/plan.csv:1: yaw_rad: no such column\n");
+  }
 }
 
 TEST(Test, RunsManyAtOnceInTheOrderOfTheFiles) {
