@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/cli/manual_pages.h"
+#include "src/cli/output_file.h"
 #include "src/cli/shell_pages.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
@@ -47,9 +48,13 @@ void AddManual(const Command& command) {
       .Required()
       .TypeName("DIR");
   command.OnRun([folder, command] {
-    std::filesystem::create_directories(*folder);
-    for (const ManualPage& page : ManualPages(command.VisibleVerbs())) {
-      WriteFileAtomically(std::filesystem::path(*folder) / page.file, page.text);
+    const std::vector<ManualPage> pages = ManualPages(command.VisibleVerbs());
+    const std::filesystem::path path = *folder;
+    for (const ManualPage& page : pages) {
+      PrepareOutputFile("folder", path / page.file, {}, BeginsWith(".TH trackbed"));
+    }
+    for (const ManualPage& page : pages) {
+      WriteFileAtomically(path / page.file, page.text);
     }
     return kOk;
   });

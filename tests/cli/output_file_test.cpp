@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <iterator>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -159,6 +160,22 @@ TEST_P(OutputFilm, IsReplacedByTheNextOneUnlessItIsOfAnotherProgram) {
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.output, HasSubstr("is not a file that this option has written"));
   EXPECT_EQ(ReadFile(folder.path() / ("film." + GetParam())), other);
+}
+
+TEST(OutputFileTest, IsNoManualPageOfAnotherProgram) {
+  const TempFolder folder;
+  folder.Write("own/trackbed-run.1", ".TH mine 1\n");
+  const Outcome refused = Trackbed(folder, "man own");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.output, HasSubstr("own/trackbed-run.1 is not a file that this option has "
+                                        "written"));
+  EXPECT_EQ(ReadFile(folder.path() / "own/trackbed-run.1"), ".TH mine 1\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path() / "own"), {}), 1);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(Trackbed(folder, "man pages").code, 0);
+  }
+  EXPECT_THAT(Trackbed(folder, "man own/trackbed-run.1").output,
+              HasSubstr("cannot create the folder"));
 }
 
 // The manifest of another program is in nobody's way.
