@@ -239,6 +239,17 @@ TEST(Verdict, PassesACoarseTimestepOnContacts) {
   EXPECT_LE(run.metrics[0].steering_rate_max, 1.03 * run.metrics[0].steering_rate_limit);
 }
 
+// On a side slope, the wheels of a differential drive slip a little. Near standstill, the bicycle
+// angle that their speeds give then jumps by more than 1 rad/s, the limit of the commands.
+TEST(Verdict, JudgesNoSteeringRateWithoutSteeredWheels) {
+  const RunResult run = Drive(
+      "vehicle: {model: diff_drive}\nmission: {speed: 1, start: {speed: 0}}\nplan: {method: "
+      "straight, length: 0.6}\n"
+      "world: {ground: {grade: {x: 0.03, y: -0.1}}}\ndrive: {plants: [mujoco]}\n");
+  EXPECT_GT(run.metrics[0].steering_rate_max, 1.0);
+  EXPECT_TRUE(run.verdict.passed) << (run.verdict.failures.empty() ? "" : run.verdict.failures[0]);
+}
+
 TEST(Verdict, NotesThatContactsSlide) {
   const std::string braking =
       "mission: {speed: 20, duration: 2}\ncontrol: {method: constant_steering, steering: 0, speed: "
