@@ -6,6 +6,7 @@
 #include <ostream>
 #include <string>
 
+#include "tests/support/case_names.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/analysis/run.h"
@@ -115,7 +116,8 @@ INSTANTIATE_TEST_SUITE_P(Speeds, HeadingDeficit,
                          ::testing::Values(Ramp{1.5, 8.0, 1.0}, Ramp{3.0, 8.0, 1.0},
                                            Ramp{3.0, 15.0, 1.0}, Ramp{5.0, 15.0, 1.0},
                                            Ramp{5.0, 30.0, 1.0}, Ramp{3.0, 15.0, 0.5},
-                                           Ramp{3.0, 10.0, 2.0}, Ramp{8.0, 40.0, 3.0}));
+                                           Ramp{3.0, 10.0, 2.0}, Ramp{8.0, 40.0, 3.0}),
+                         kNamedByParameter);
 
 }  // namespace turns_test
 }  // namespace trackbed

@@ -21,6 +21,7 @@
 #include "tests/audit/checker.h"
 #include "tests/audit/random_scenarios.h"
 #include "tests/audit/record_run.h"
+#include "tests/support/case_names.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
@@ -123,7 +124,8 @@ class EveryVerdict : public testing::TestWithParam<std::size_t> {
 
 Tally EveryVerdict::total_;
 
-INSTANTIATE_TEST_SUITE_P(Shards, EveryVerdict, testing::Range<std::size_t>(0, kShards));
+INSTANTIATE_TEST_SUITE_P(Shards, EveryVerdict, testing::Range<std::size_t>(0, kShards),
+                         trackbed::kNamedByParameter);
 
 TEST_P(EveryVerdict, IsTrue) {
   const auto only = NumberFrom("TRACKBED_AUDIT_INDEX");

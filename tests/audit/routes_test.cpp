@@ -22,6 +22,7 @@
 #include "tests/audit/check_route.h"
 #include "tests/audit/ordinary_routes.h"
 #include "tests/audit/record_run.h"
+#include "tests/support/case_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/planning/registry/planners.h"
@@ -184,7 +185,8 @@ class OrdinaryRoutes : public testing::TestWithParam<std::size_t> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Shards, OrdinaryRoutes, testing::Range<std::size_t>(0, kShards));
+INSTANTIATE_TEST_SUITE_P(Shards, OrdinaryRoutes, testing::Range<std::size_t>(0, kShards),
+                         trackbed::kNamedByParameter);
 
 TEST_P(OrdinaryRoutes, ArePlannedOrRefusedForATrueReason) {
   Campaign campaign(false);

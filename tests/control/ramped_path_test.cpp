@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/control/loop.h"
+#include "tests/support/case_names.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 
@@ -55,7 +56,7 @@ struct RampedPathCase {
 
 class RampedPathIn : public testing::TestWithParam<int> {};
 
-INSTANTIATE_TEST_SUITE_P(Directions, RampedPathIn, testing::Values(1, -1));
+INSTANTIATE_TEST_SUITE_P(Directions, RampedPathIn, testing::Values(1, -1), kNamedByParameter);
 
 TEST_P(RampedPathIn, IsACurveWithItsOwnHeadingAndCurvature) {
   // Central differences of points 2 h = 2 cm apart have an error of h^2/6 times the third

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/control/loop.h"
+#include "tests/support/case_names.h"
 #include "tests/tolerance.h"
 #include "trackbed/control/controllers.h"
 
@@ -30,7 +31,7 @@ double LyapunovFunction(const LoopRow& row, double d) {
 
 class RearAxleFeedback : public testing::TestWithParam<int> {};
 
-INSTANTIATE_TEST_SUITE_P(Directions, RearAxleFeedback, testing::Values(1, -1));
+INSTANTIATE_TEST_SUITE_P(Directions, RearAxleFeedback, testing::Values(1, -1), kNamedByParameter);
 
 TEST_P(RearAxleFeedback, SmallErrorsDecayCriticallyDamped) {
   // The cross-track error e obeys e'' = -2 e'/d - e/d^2, with derivatives by the distance s.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "tests/support/case_names.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
@@ -49,7 +50,8 @@ TEST_P(PathFileWaits, AreDriven) {
   EXPECT_NEAR(log.rows.back().state.time, plan->Duration(), 4.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Plants, PathFileWaits, ::testing::Values("kinematic", "mujoco"));
+INSTANTIATE_TEST_SUITE_P(Plants, PathFileWaits, ::testing::Values("kinematic", "mujoco"),
+                         kNamedByParameter);
 
 }  // namespace
 }  // namespace trackbed

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tests/road_network/documents.h"
+#include "tests/support/case_names.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
@@ -86,7 +87,8 @@ double Sum(const std::array<double, 4>& loads) {
 
 class RoadHeights : public testing::TestWithParam<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(Tyres, RoadHeights, testing::Values("contact", "magic_formula"));
+INSTANTIATE_TEST_SUITE_P(Tyres, RoadHeights, testing::Values("contact", "magic_formula"),
+                         kNamedByParameter);
 
 TEST_P(RoadHeights, OfConstantSlopesAreThePlaneThatTheWorldCanHave) {
   // The reference is the key `ground` of the world, which describes the same plane in another way.

@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "tests/support/case_names.h"
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
@@ -58,7 +59,8 @@ INSTANTIATE_TEST_SUITE_P(Drives, Slopes,
                          testing::Combine(testing::Values("prius", "bmw320i"),
                                           testing::Values("mujoco:contact", "mujoco:magic_formula"),
                                           testing::Values(-0.2, -0.06, 0.06, 0.13, 0.2),
-                                          testing::Values(1, -1)));
+                                          testing::Values(1, -1)),
+                         kNamedByParameter);
 
 TEST_P(Slopes, AreStartedDrivenAndStoppedOn) {
   const auto& [car, plant, grade, direction] = GetParam();

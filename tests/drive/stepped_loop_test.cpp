@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/drive/unicycle.h"
+#include "tests/support/case_names.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
@@ -61,7 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair("disturbed", "mujoco"), std::pair("obstacle_appears", "kinematic"),
                     std::pair("parking_lot", "kinematic"), std::pair("driven_turns", "mujoco"),
                     std::pair("courses/s_course", "single_track"), std::pair("overtake", "mujoco"),
-                    std::pair("maneuvers/gust", "mujoco")));
+                    std::pair("maneuvers/gust", "mujoco")),
+    kNamedByParameter);
 
 TEST_P(EveryLoop, SteppedByItsControllerIsTheRun) {
   const Planned planned(GetParam().first);

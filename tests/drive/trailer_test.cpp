@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "tests/support/case_names.h"
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/drive/start_overlap.h"
@@ -34,7 +35,8 @@ RunLog RunOf(const Scenario& scenario, const std::string& plant) {
 class TrailerRun : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Plants, TrailerRun,
-                         testing::Values("kinematic", "mujoco:contact", "mujoco:magic_formula"));
+                         testing::Values("kinematic", "mujoco:contact", "mujoco:magic_formula"),
+                         kNamedByParameter);
 
 TEST_P(TrailerRun, LogsTheHitch) {
   const Table table = ToTable(RunOf(Towing("fillet", "{}"), GetParam()));

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/case_names.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/analysis/metrics.h"
 #include "trackbed/analysis/robustness.h"
@@ -102,7 +103,8 @@ TEST_P(ReproducibleSearch, IsTheSameForAnyNumberOfJobsAndAfterAnInterruption) {
 INSTANTIATE_TEST_SUITE_P(
     Falsify, ReproducibleSearch,
     testing::Values("{method: crs2, runs: 24, restarts: 3, finish: cobyla, stop: false}",
-                    "{method: surrogate, runs: 24, stop: false}"));
+                    "{method: surrogate, runs: 24, stop: false}"),
+    kNamedByParameter);
 
 TEST(Falsify, SaysWhenNothingFailed) {
   const TempFolder folder;

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tests/properties/problems.h"
 #include "tests/properties/property.h"
+#include "tests/support/case_names.h"
 #include "trackbed/planning/registry/planners.h"
 
 namespace properties {
@@ -20,14 +22,28 @@ namespace {
 
 using namespace trackbed;
 
-class Entries : public testing::TestWithParam<std::vector<Entry> (*)()> {};
+/// Calls of the public functions of a part of the library.
+struct Part {
+  const char* name;
+  std::vector<Entry> (*entries)();
+};
+
+void PrintTo(const Part& part, std::ostream* out) {
+  *out << part.name;
+}
+
+class Entries : public testing::TestWithParam<Part> {};
 
 INSTANTIATE_TEST_SUITE_P(Public, Entries,
-                         testing::Values(&OfGeometry, &OfPaths, &OfSpeeds, &OfCurves, &OfVehicles,
-                                         &OfWorlds, &OfPlanning, &OfOptimizers));
+                         testing::Values(Part{"geometry", &OfGeometry}, Part{"paths", &OfPaths},
+                                         Part{"speeds", &OfSpeeds}, Part{"curves", &OfCurves},
+                                         Part{"vehicles", &OfVehicles}, Part{"worlds", &OfWorlds},
+                                         Part{"planning", &OfPlanning},
+                                         Part{"optimizers", &OfOptimizers}),
+                         kNamedByParameter);
 
 TEST_P(Entries, TakeNoNaNForANumber) {
-  for (const Entry& entry : GetParam()()) {
+  for (const Entry& entry : GetParam().entries()) {
     double result = kNone;
     bool refused = false;
     EXPECT_NO_THROW(refused = Refuses([&] { result = entry.call(std::nan("")); })) << entry.name;
@@ -38,7 +54,7 @@ TEST_P(Entries, TakeNoNaNForANumber) {
 TEST_P(Entries, SurviveEveryNumber) {
   const double smallest = std::numeric_limits<double>::denorm_min();
   const double largest = std::numeric_limits<double>::max();
-  for (const Entry& entry : GetParam()()) {
+  for (const Entry& entry : GetParam().entries()) {
     for (const double number : {HUGE_VAL, -HUGE_VAL, largest, -largest, smallest, -smallest, 0.0,
                                 -0.0, 1e-9, -1e-9, 1e9, -1e9}) {
       SCOPED_TRACE(entry.name);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/sim/cars.h"
+#include "tests/support/case_names.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
@@ -70,6 +71,10 @@ struct Axles {
   double rear;
 };
 
+void PrintTo(const Axles& axles, std::ostream* out) {
+  *out << "front " << axles.front << " rear " << axles.rear;
+}
+
 class Understeer : public testing::TestWithParam<Axles> {
  protected:
   /// Understeer gradient (delta - L/R)/a_y at 20 m/s and about 0.8 m/s^2 [rad/(m/s^2)].
@@ -92,7 +97,8 @@ class Understeer : public testing::TestWithParam<Axles> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Pairs, Understeer,
-                         testing::Values(Axles{12.0, 20.0}, Axles{10.0, 14.0}, Axles{15.0, 25.0}));
+                         testing::Values(Axles{12.0, 20.0}, Axles{10.0, 14.0}, Axles{15.0, 25.0}),
+                         kNamedByParameter);
 
 TEST_P(Understeer, GradientIsThatOfTheAxles) {
   // The understeer gradient is K = (W_f/C_f - W_r/C_r)/g, with the loads W and the cornering

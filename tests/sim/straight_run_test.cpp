@@ -1,12 +1,15 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <tuple>
 
+#include "tests/support/case_names.h"
 #include "tests/tolerance.h"
 #include "trackbed/sim/plant.h"
 
@@ -24,6 +27,11 @@ struct Run {
   double timestep;  // [s]
 };
 
+void PrintTo(const Run& run, std::ostream* out) {
+  *out << fmt::format("{} m/s with heading {} rad, timestep {} s", run.speed, run.yaw,
+                      run.timestep);
+}
+
 class Straight : public testing::TestWithParam<std::tuple<const char*, const char*, Run>> {};
 
 INSTANTIATE_TEST_SUITE_P(
@@ -32,7 +40,8 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values("mujoco:magic_formula", "mujoco:contact"),
                      testing::Values(Run{3.0, 0.7, 0.002}, Run{20.0, 0.0, 0.002},
                                      Run{20.0, 0.7, 0.001}, Run{20.0, 0.7, 0.004},
-                                     Run{30.0, 0.7, 0.002})));
+                                     Run{30.0, 0.7, 0.002})),
+    kNamedByParameter);
 
 TEST_P(Straight, RunsDoNotLeaveTheirLine) {
   const auto& [name, plant_name, run] = GetParam();
@@ -60,7 +69,8 @@ class Linkage : public testing::TestWithParam<std::tuple<const char*, const char
 INSTANTIATE_TEST_SUITE_P(Cars, Linkage,
                          testing::Combine(testing::Values("prius", "bmw320i"),
                                           testing::Values("mujoco:magic_formula",
-                                                          "mujoco:contact")));
+                                                          "mujoco:contact")),
+                         kNamedByParameter);
 
 TEST_P(Linkage, PointsBothWheelsAtOneCenter) {
   const auto& [name, plant_name] = GetParam();
@@ -130,7 +140,8 @@ class Coasting : public testing::TestWithParam<std::tuple<const char*, const cha
 INSTANTIATE_TEST_SUITE_P(Cars, Coasting,
                          testing::Combine(testing::Values("prius", "bmw320i"),
                                           testing::Values("mujoco:magic_formula",
-                                                          "mujoco:contact")));
+                                                          "mujoco:contact")),
+                         kNamedByParameter);
 
 TEST_P(Coasting, LosesSpeedToDragAndRollingResistance) {
   const auto& [name, plant_name] = GetParam();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/sim/cars.h"
+#include "tests/support/case_names.h"
 #include "trackbed/sim/compile_scene.h"
 #include "trackbed/sim/world_scene.h"
 
@@ -99,7 +100,7 @@ TEST(ReadVehicleShape, LeavesOutObstacles) {
   EXPECT_EQ(among.geoms.size(), alone.geoms.size());
 }
 
-INSTANTIATE_TEST_SUITE_P(Cars, ShapeOf, testing::Values("prius", "bmw320i"));
+INSTANTIATE_TEST_SUITE_P(Cars, ShapeOf, testing::Values("prius", "bmw320i"), kNamedByParameter);
 
 }  // namespace
 }  // namespace trackbed

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tests/support/case_names.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/testing/scenario_testing.h"
@@ -138,13 +139,14 @@ TEST_P(OptimallySteeredAfter, ComesBackToItsPathAndStaysThere) {
   ASSERT_TRUE(metrics.recovery.has_value());
   // Recovered means within 5 cm, the default. Returning over e = 0.5 m at the full steering rate
   // takes 1.5 cbrt(e L v/omega) = 4.5 m, which is 1.5 s at 3 m/s. The test allows more than three
-  // times as long.
+  // times this duration.
   ASSERT_TRUE(metrics.recovery->time.has_value());
   EXPECT_LE(*metrics.recovery->time, 5.0);
 }
 
 class PaperSpeeds : public testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(Paper, PaperSpeeds, testing::Values(2.5, 2.0, 1.5, 1.0));
+INSTANTIATE_TEST_SUITE_P(Paper, PaperSpeeds, testing::Values(2.5, 2.0, 1.5, 1.0),
+                         kNamedByParameter);
 
 /// Mean steering angle over the second quarter of the run [rad].
 double MeanSteering(const RunLog& log) {

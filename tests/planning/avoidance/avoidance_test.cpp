@@ -10,6 +10,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/planning/obstacle_turns.h"
+#include "tests/support/case_names.h"
 #include "tests/support/obstacle_cases.h"
 #include "tests/tolerance.h"
 #include "trackbed/planning/common/plan.h"
@@ -250,7 +251,7 @@ TEST(PlanAround, SlowsDownWhereTheWheelsWouldTurnTooSlowly) {
 /// that is not safe must not be reported as ok.
 class RandomObstacles : public testing::TestWithParam<int> {};
 
-INSTANTIATE_TEST_SUITE_P(Batches, RandomObstacles, testing::Range(0, 10));
+INSTANTIATE_TEST_SUITE_P(Batches, RandomObstacles, testing::Range(0, 10), kNamedByParameter);
 
 TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
   Random random(static_cast<std::uint64_t>(100 + GetParam()));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/support/case_names.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
@@ -50,7 +51,7 @@ double PathLength(const std::vector<Vec2>& path) {
 }
 
 class RrtSeeds : public testing::TestWithParam<std::uint64_t> {};
-INSTANTIATE_TEST_SUITE_P(Seeds, RrtSeeds, testing::Range<std::uint64_t>(1, 21));
+INSTANTIATE_TEST_SUITE_P(Seeds, RrtSeeds, testing::Range<std::uint64_t>(1, 21), kNamedByParameter);
 
 TEST_P(RrtSeeds, LeadsFromStartToGoalOnFreeShortEdges) {
   const RrtProblem problem = Walled();
