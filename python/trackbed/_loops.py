@@ -161,7 +161,7 @@ class Loop:
         steering: commanded steering angle of the bicycle model [rad], positive to the left. Without
             it, the scenario's controller steers and sets the speed, and `acceleration` must be None.
         acceleration: commanded acceleration [m/s^2], positive if the car speeds up in the direction
-            of its gear. Without it, the car follows the speeds of the plan.
+            of its gear. Without an acceleration, the car follows the speeds of the plan.
 
         Raises RunError if the run has ended.
         """

@@ -156,8 +156,8 @@ class PathTracking(_Tracking, gymnasium.Env[Observed, Actions]):
     Info: "status", how the run ended, such as "arrived"; None while it continues; and "t_s" [s].
 
     reset(seed=n) sets the scenario's seed, which selects the noise and the random planners;
-    reset(options={"set": {...}}) reads the scenario with other values. Both plan again. Without them,
-    the car returns to its start.
+    reset(options={"set": {...}}) reads the scenario with other values. Both plan again. Without
+    options, the car returns to its start.
 
     With render_mode="rgb_array", render() draws the car off-screen: an array of uint8 with the shape
     (height, width, 3). `size` is (width, height) [px], `camera` one of `trackbed render`. A picture
@@ -225,9 +225,9 @@ class VectorPathTracking(
 ):
     """Many cars of PathTracking, which are stepped together on several threads without the GIL.
 
-    gymnasium.make_vec makes this class. Every car has the observations, rewards and ends that
-    PathTracking gives it. A car whose episode has ended returns to its start in the next step,
-    whose reward is 0 (AutoresetMode.NEXT_STEP).
+    gymnasium.make_vec makes this class. Every car has the observations and rewards of PathTracking,
+    and its episodes end as those of PathTracking. A car whose episode has ended returns to its
+    start in the next step, whose reward is 0 (AutoresetMode.NEXT_STEP).
 
     num_envs: number of cars. threads: number of threads; by default, the number of processors. The
     other arguments are those of PathTracking. reset(seed=n) gives car i the seed n + i; a list has

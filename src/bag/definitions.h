@@ -5,8 +5,8 @@
 
 namespace trackbed {
 
-/// Returns the definition of a type of ROS 2 in the format ros2msg, without those of its fields'
-/// types, such as of "geometry_msgs/Pose"; null if it is not built in.
+/// Returns the definition of a type of ROS 2, such as "geometry_msgs/Pose", in the format ros2msg;
+/// null if the type is not built in. Does not contain the definitions of the types of its fields.
 const char* BuiltInDefinition(const std::string& type);
 std::vector<std::string> BuiltInTypes();
 

@@ -79,7 +79,7 @@ void PrepareOutputFile(const char* option, const fs::path& file,
   if (const std::string result = ResultThatLists(file); !result.empty()) {
     Refuse(option, file, fmt::format("is a file of the {} in its folder", result));
   }
-  // An empty file has nothing to lose; a device, such as /dev/null, is not replaced.
+  // Overwriting an empty file loses nothing, and a device such as /dev/null is not replaced.
   std::error_code absent;
   if (fs::is_regular_file(file, absent) && fs::file_size(file, absent) > 0 && !wrote(file)) {
     Refuse(option, file, "is not a file that this option has written, or was edited since");

@@ -41,7 +41,7 @@ PathFile RouteOfScenario(const CommonRoadScenario& scenario) {
 
 using tinyxml2::XMLElement;
 
-/// Largest magnitude of a time step's number; others are ignored.
+/// Largest magnitude of the number of a time step. Time steps with larger numbers are ignored.
 constexpr double kMaxTimeStep = 1e9;
 
 /// Returns the first XML element that contains a trajectory, such as the element ksTrajectory.

@@ -29,7 +29,8 @@ class XmlProblems {
   void Add(int line, std::string key, std::string message) {
     problems_.Add({file_, line, 0, std::move(key), std::move(message)});
   }
-  /// Adds a flaw of the file that harms no other part: it is only noted.
+  /// Adds a flaw that does not affect other parts of the file. Flaws are reported as notes, not as
+  /// errors.
   void AddFlaw(int line, const std::string& key, const std::string& message) {
     AddFlaw(fmt::format("line {}: {}: {}", line, key, message));
   }

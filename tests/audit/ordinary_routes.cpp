@@ -96,7 +96,8 @@ class Drawing {
     }
   }
 
-  /// Headings of any eighth of a turn, near and far.
+  /// Adds routes whose legs have headings at multiples of 45 degrees, with short and with long
+  /// legs.
   void Eighths() {
     Legs(
         Count(), [&] { return Length(); },

@@ -68,7 +68,7 @@ def copy_of_a_result(source, target):
 
 
 class Reports(PageTest):
-    # replay_test.py tests the 3D replay. Without it, pages open three times as fast.
+    # replay_test.py tests the 3D replay. Without the 3D replay, pages open three times as fast.
     webgl = False
 
     @classmethod

@@ -363,7 +363,7 @@ TEST(Snaking, GrowsAboveTheCriticalSpeedOfTheLinearModel) {
 }
 
 // Car and trailer with high centers of gravity roll on their springs while they snake, which takes
-// damping away. The linear model does not know this.
+// damping away. The linear model neglects roll.
 TEST(Snaking, IsDampedLessIfTheBodiesRoll) {
   const CarModel car = Towing({.mass = 900.0, .cg_ahead = 0.0}, "prius", kStripped);
   EXPECT_GT(Measured(car, 24.0).real(), 0.6 * Snaking(car, 24.0).real());

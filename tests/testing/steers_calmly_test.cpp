@@ -10,7 +10,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Runs a kinematic car at 5 m/s on a straight road from which it is kicked 0.3 m to the side. The
-/// LQR does not know of the steering's `delay` [s].
+/// LQR neglects the steering's `delay` [s].
 RunResult RunWithDelay(const std::string& delay) {
   return RunScenario(
       ParseScenario("schema: 1\nname: delayed\nmission: {speed: 5, waypoints: [[0, 0], [300, 0]]}\n"

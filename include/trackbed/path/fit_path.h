@@ -76,7 +76,8 @@ struct FittedPath {
   /// such a change, no path is fitted.
   std::vector<HeadingJump> reversals;
   /// If `reversals` is not empty: a value of max_deviation with which a spline can be fitted, of
-  /// about the smallest size [m]. It is nullopt if it exceeds a tenth of the length of the points.
+  /// about the smallest size [m]. Nullopt if this value would exceed a tenth of the length of the
+  /// points.
   std::optional<double> noise_deviation{};
   /// Smoothing length l of the fitted spline [m]; 0 for a polyline, and for a path that follows the
   /// given headings and curvatures.

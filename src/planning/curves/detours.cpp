@@ -193,9 +193,10 @@ class DetourPlanner {
   }
 
   /// Returns the room of a corner at a speed [m/s]: the tangent of an arc, or half of a leg on
-  /// which the car corrects a heading error e without leaving the leg at its ends. Two triangular
-  /// lobes of curvature of opposite signs do so, whose lengths have the golden ratio phi. With the
-  /// sharpness sigma, they need a leg of length sqrt(4 phi^3 e/sigma).
+  /// which the car corrects a heading error e without leaving the leg at its ends. The car corrects
+  /// e by two triangular lobes of curvature with opposite signs. The ratio of their lengths is the
+  /// golden ratio phi. With the sharpness sigma, the lobes need a leg of length sqrt(4 phi^3
+  /// e/sigma).
   [[nodiscard]] CornerRoom RoomOf(double turn, double speed) const {
     const VehicleParams& car = request_.vehicle;
     const double sharpness = car.steering_rate / (car.wheelbase * speed);

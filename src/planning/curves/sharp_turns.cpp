@@ -250,7 +250,7 @@ class SharpWords {
 /// Searches alpha for the shortest word. Where u >= 0, f falls: f' = -u - g, with g > 0 due to the
 /// turns. A small turn adds its length/4 to g, and a full turn adds the constant `along` of its
 /// circle. Therefore f has at most one root in a range of alpha in which u >= 0. The search halves
-/// an interval of alpha until u < 0 in a cell, by the bound on u, or until the cell is small.
+/// an interval of alpha until the bound on u shows that u < 0, or until the interval is small.
 class AlphaSearch {
  public:
   AlphaSearch(const SharpWords& words, double limit) : words_(words), limit_(limit) {}

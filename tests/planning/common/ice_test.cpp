@@ -38,7 +38,7 @@ TEST(Feasibility, SlowsDownForIceAnywhereInABend) {
            friction});
       slipperiest = std::min(slipperiest, friction);
     }
-    // The car climbs a grade of 4.0 / 9.81 = 0.41 times the factor of the ice.
+    // The car climbs a grade of 4.0 / 9.81 = 0.41 times the friction factor of the ice.
     const double grade = 0.3 * slipperiest * unit(random);
     const double downhill = between(-kPi, kPi);
     request.ground.grade = {grade * std::cos(downhill), grade * std::sin(downhill)};
