@@ -10,6 +10,7 @@
 #include "src/recording/log_source.h"
 #include "trackbed/bag/bag.h"
 #include "trackbed/bag/message.h"
+#include "trackbed/core/csv_columns.h"
 #include "trackbed/core/csv_rows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/path_files/globe_file.h"

@@ -9,7 +9,7 @@
 
 #include "trackbed/bag/bag.h"
 #include "trackbed/bag/message.h"
-#include "trackbed/core/csv_rows.h"
+#include "trackbed/core/csv_columns.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/path_files/globe_file.h"

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "tests/support/temp_folder.h"
+#include "trackbed/core/csv_columns.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
@@ -263,12 +264,13 @@ TEST(ReadCsvExcerpt, WantsFiniteNumbers) {
             "t.csv:4: cell 2 (b): 'x' is not a number");
 }
 
-TEST(ReadCsvNumbers, PassesNoRowsOfAFileWithoutANeededColumn) {
+TEST(ReadCsvColumns, PassesNoRowsOfAFileWithoutANeededColumn) {
   const TempFolder folder;
   const std::filesystem::path file = folder.Write("t.csv", "a,b\n1,2\n3,x\n");
   int rows = 0;
   try {
-    ReadCsvNumbers(file, {"a", "b", "c"}, ',', [&](const std::vector<double>&, int) { ++rows; });
+    ReadCsvColumns(file, {"a", "b", "c"}, ',', "",
+                   [&](const std::vector<double>&, int) { ++rows; });
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("t.csv:1: no column 'c'; columns: a, b"));

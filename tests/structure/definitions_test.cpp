@@ -27,8 +27,6 @@ struct OfSeveralSources {
 constexpr OfSeveralSources kOfSeveralSources[] = {
     {"include/trackbed/analysis/run.h",
      "run_scenario.cpp defines what only combines other functions of the header"},
-    {"include/trackbed/core/csv_rows.h",
-     "table.cpp defines the functions that read rows with the reader of tables"},
     {"include/trackbed/core/version.h", "the build generates the source"},
     {"include/trackbed/planning/fillet/fillet.h",
      "fillet_radius.cpp and fillet_planner.cpp define parts"},

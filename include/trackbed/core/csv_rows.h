@@ -62,16 +62,4 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
 bool ReadCsvTable(const std::filesystem::path& file, CsvLimits limits, ProblemList& problems,
                   const TakeCsvNames& take_names, const TakeCsvRow& take);
 
-/// Reads columns of a CSV file of any length as a stream, as ReadCsvNumbers does. Cells of the
-/// column `timestamps` may also be timestamps, which are passed on as seconds since 1970
-/// (TimestampSeconds). Throws InputError and RunError in the same cases as ReadCsvNumbers.
-void ReadCsvColumns(const std::filesystem::path& file, const std::vector<std::string>& columns,
-                    char delimiter, const std::string& timestamps,
-                    const std::function<void(const std::vector<double>& numbers, int line)>& take);
-
-/// Returns the names of the columns of a CSV file from another program, and counts its rows. Throws
-/// InputError if the file has no names or is not valid CSV. Throws RunError in the same cases as
-/// ReadFile.
-std::vector<std::string> ReadCsvNames(const std::filesystem::path& file, std::size_t& rows);
-
 }  // namespace trackbed

@@ -82,14 +82,4 @@ struct CsvExcerpt {
 CsvExcerpt ReadCsvExcerpt(const std::filesystem::path& file, std::vector<std::string> needed,
                           std::vector<std::string> optional = {});
 
-/// Reads columns of a CSV file of any length as a stream. Calls `take` for each row, with the
-/// numbers in the order of `columns` and the line on which the row begins. The names in `columns`
-/// must be distinct. An empty cell is passed to `take` as NaN. Cells that are NaN or infinite are
-/// also passed to `take`, and the number of cells is not limited. For all other problems that
-/// ReadCsvExcerpt rejects, throws InputError after the last row. Throws RunError in the same cases
-/// as ReadFile.
-void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::string>& columns,
-                    char delimiter,
-                    const std::function<void(const std::vector<double>& numbers, int line)>& take);
-
 }  // namespace trackbed

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/core/table.h"
+
+namespace trackbed {
+
+/// Specifies which columns of a CSV file are read and which cells are valid.
+struct ColumnSelection {
+  bool all = true;
+  std::vector<std::string> needed{};    // Columns that the table must have, if `all` is false.
+  std::vector<std::string> optional{};  // Columns that the table may have, if `all` is false.
+  bool finite = false;                  // Whether infinite and NaN cells are errors.
+  std::string timestamps{};             // Column whose cells may be timestamps.
+  bool empty = false;                   // Whether cells may be empty; an empty cell is read as NaN.
+
+  [[nodiscard]] bool Takes(const std::string& column) const {
+    return all || std::find(needed.begin(), needed.end(), column) != needed.end() ||
+           std::find(optional.begin(), optional.end(), column) != optional.end();
+  }
+};
+
+/// Converts rows of text to a table of numbers.
+struct NumberReader {
+  std::string file;
+  ColumnSelection selection;
+  // Receives the rows, if all needed columns are there. If `take` is empty, the rows are added to
+  // the table.
+  std::function<void(const std::vector<double>& numbers, int line)> take{};
+  std::optional<Table> table{};
+  std::vector<int> lines{};           // Line of the file from which each row of the table was read.
+  std::vector<std::string> header{};  // Names of all columns of the file, in the order of the file.
+  std::vector<std::size_t> taken{};   // For each column of the table, its index in `header`.
+  std::vector<std::string> cells{};   // Cells of the current row.
+  int line = 1;                       // Line of the file on which the current row begins.
+  bool has_needed = true;             // Whether the file has all needed columns.
+  ProblemList problems{};
+
+  /// Adds a problem of the current line.
+  void AddError(std::string key, std::string message);
+
+  /// Adds a problem of a cell. The error message contains the number of the cell in its row,
+  /// counted from 1, and the name of the column, because libcsv does not report the position of
+  /// characters.
+  void AddCellError(std::size_t cell, std::string message);
+
+  /// Reads the names of the columns from the first row, and the numbers from all other rows.
+  void TakeRow();
+
+  /// Reads the given cells, which have the same contents afterwards, by TakeRow.
+  void Take(std::vector<std::string>& row, int row_line);
+
+ private:
+  void Header();
+  void Row();
+};
+
+}  // namespace trackbed
