@@ -1,10 +1,15 @@
 #include "trackbed/analysis/run.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "src/analysis/origin_statement.h"
 #include "src/analysis/simulate_plants.h"
+#include "trackbed/analysis/compare.h"
 #include "trackbed/analysis/evaluate_run.h"
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/mcap.h"
@@ -96,6 +101,19 @@ void AddUnlessEmpty(const Table& table, const std::string& name, ResultWriter& w
   }
 }
 
+const RunLog& FindLog(const RunResult& run, const std::string& plant) {
+  if (const std::optional<PlantRun> found = run.Find(plant)) {
+    return found->log;
+  }
+  std::vector<std::string> driven;
+  for (const RunLog& log : run.logs) {
+    driven.push_back(log.plant);
+  }
+  throw InputError(
+      Problem{.message = fmt::format("the run {} has no plant {}; it has: {}", run.scenario.name,
+                                     plant, fmt::join(driven, ", "))});
+}
+
 /// Checks a scenario as strictly as LoadScenario checks a file. Throws InputError.
 void CheckFilledInCode(const Scenario& scenario) {
   CheckScenario(scenario);
@@ -109,6 +127,22 @@ void CheckFilledInCode(const Scenario& scenario) {
 }
 
 }  // namespace
+
+std::optional<PlantRun> RunResult::Find(const std::string& plant) const {
+  const auto log = std::find_if(logs.begin(), logs.end(),
+                                [&](const RunLog& each) { return each.plant == plant; });
+  const auto own = std::find_if(metrics.begin(), metrics.end(),
+                                [&](const PlantMetrics& each) { return each.plant == plant; });
+  if (log == logs.end() || own == metrics.end()) {
+    return std::nullopt;
+  }
+  return PlantRun{*log, *own};
+}
+
+Scenario LoadScenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                      const std::vector<std::filesystem::path>& asset_folders) {
+  return ReadScenario(file, overrides, PossibleMetrics, asset_folders);
+}
 
 ordered_json Versions() {
   return {
@@ -127,6 +161,10 @@ RunResult RunScenario(const Scenario& scenario, CarCache& cars, const RunHooks& 
 
 RunResult RunScenario(const Scenario& scenario, const CarModel& car, const RunHooks& hooks) {
   return SimulateRun(PlanRun(scenario, car), car, hooks);
+}
+
+RunResult RunScenario(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  return RunScenario(LoadScenario(file, overrides));
 }
 
 RunResult PlanRun(const Scenario& scenario, const CarModel& car) {
@@ -158,6 +196,17 @@ RunResult SimulateRun(RunResult planned, const CarModel& car, const RunHooks& ho
   }
   JudgeRun(result, car);
   return result;
+}
+
+PlantComparison Compare(const RunResult& run, const std::string& first, const std::string& second) {
+  return ComparePlants(FindLog(run, first), FindLog(run, second));
+}
+
+PlantComparison Compare(const RunResult& first, const RunResult& second, const std::string& plant) {
+  PlantComparison comparison = ComparePlants(FindLog(first, plant), FindLog(second, plant));
+  comparison.first = first.scenario.name + "/" + plant;
+  comparison.second = second.scenario.name + "/" + plant;
+  return comparison;
 }
 
 ordered_json MetricsJson(const RunResult& result) {

@@ -25,8 +25,6 @@ struct OfSeveralSources {
   std::string_view reason;
 };
 constexpr OfSeveralSources kOfSeveralSources[] = {
-    {"include/trackbed/analysis/run.h",
-     "run_scenario.cpp defines what only combines other functions of the header"},
     {"include/trackbed/core/version.h", "the build generates the source"},
     {"include/trackbed/planning/fillet/fillet.h",
      "fillet_radius.cpp and fillet_planner.cpp define parts"},
