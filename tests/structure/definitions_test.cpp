@@ -37,7 +37,6 @@ constexpr OfSeveralSources kOfSeveralSources[] = {
     {"src/bag/sources.h", "one source for each format of bags"},
     {"src/cli/verbs.h", "one source for each verb"},
     {"src/optimize/ipopt/ipopt.h", "a build without IPOPT has another source"},
-    {"src/path/fit_once.h", "fit_path.cpp defines the fit and its check"},
     {"src/path_files/formats.h", "one source for each format of path files"},
     {"src/planning/fillet/fillet_layout.h", "one source for each search for radii"},
     {"src/planning/grid/pose_search.h", "hybrid_astar.cpp chooses the kind of search"},
