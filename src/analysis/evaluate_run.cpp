@@ -62,7 +62,7 @@ void NoteFollowing(RunResult& result) {
     std::map<std::string, double> times;  // Time for which each reason held [s].
     double total = 0.0;
     for (std::size_t i = 0; i < log.changes.size(); ++i) {
-      const auto* found = log.changes[i].plan.diagnostics.replan.As<ReplanDiagnostics>();
+      const auto* found = log.changes[i].plan.diagnostics.replan.GetIf<ReplanDiagnostics>();
       if (found == nullptr || !found->along || found->along->kind != ManeuverType::kFollow) {
         continue;
       }

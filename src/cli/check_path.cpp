@@ -151,7 +151,7 @@ int CheckPathFile(const CheckPathOptions& options) {
   }
   const Scenario scenario =
       options.scenario.Parse(ScenarioText(options), "check-path", file.parent_path());
-  const auto* plan = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;
+  const auto* plan = scenario.plan ? scenario.plan->global.GetIf<PathFileOptions>() : nullptr;
   if (plan == nullptr) {
     throw InputError(Problem{.file = "--set", .key = "plan", .message = "must stay path_file"});
   }

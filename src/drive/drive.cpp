@@ -66,7 +66,7 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
                     .seed = scenario.seed,
                     .configuration_columns = car.configuration_columns()};
   if (scenario.plan) {
-    if (const auto* course = scenario.plan->global.As<LaneChangePlannerOptions>()) {
+    if (const auto* course = scenario.plan->global.GetIf<LaneChangePlannerOptions>()) {
       config.coasts_from = ReleaseStation(*course, car.params());
     }
   }

@@ -81,7 +81,7 @@ void ExpectKeepsClear(const TrackDrive& drive, double error) {
 }
 
 const std::string& KindOf(const PlanChange& change) {
-  return change.plan.diagnostics.replan.As<ReplanDiagnostics>()->kind;
+  return change.plan.diagnostics.replan.GetIf<ReplanDiagnostics>()->kind;
 }
 
 TEST(TrackReplanning, PassesWhatStandsBetweenTheEdges) {

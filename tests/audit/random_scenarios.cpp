@@ -179,21 +179,21 @@ struct Generator {
     scenario.plan = PlanSpec{};
     scenario.plan->global = entry.defaults;
     PlannerOptions& global = scenario.plan->global;
-    if (auto* course = global.As<CourseOptions>()) {
+    if (auto* course = global.GetIf<CourseOptions>()) {
       Course(*course);
-    } else if (auto* path = global.As<PathFileOptions>()) {
+    } else if (auto* path = global.GetIf<PathFileOptions>()) {
       PathOfFile(*path);
-    } else if (auto* lane_change = global.As<LaneChangePlannerOptions>()) {
+    } else if (auto* lane_change = global.GetIf<LaneChangePlannerOptions>()) {
       lane_change->standard = LaneChangeStandard::kIso3888_2;
       lane_change->lead_in = dice.Between(1.0, 10.0);
       lane_change->lead_out = 2.0;
-    } else if (auto* hybrid = global.As<HybridAStarOptions>()) {
+    } else if (auto* hybrid = global.GetIf<HybridAStarOptions>()) {
       hybrid->reverse = dice.Chance(0.5);
       hybrid->budget = 10000;
-    } else if (auto* rrt = global.As<RrtPlannerOptions>()) {
+    } else if (auto* rrt = global.GetIf<RrtPlannerOptions>()) {
       rrt->trees = 3;
       rrt->iterations = 3000;
-    } else if (auto* astar = global.As<AStarOptions>()) {
+    } else if (auto* astar = global.GetIf<AStarOptions>()) {
       astar->budget = 100000;
     }
     if (entry.min_waypoints > 0) {

@@ -45,8 +45,8 @@ TEST(MethodOptions, HoldTheStructTheyAreMadeOf) {
   MethodOptions<Entry> options = Walk{.speed = 2.0};
   EXPECT_TRUE(options.Is<Walk>());
   EXPECT_FALSE(options.Is<Swim>());
-  EXPECT_EQ(options.As<Swim>(), nullptr);
-  ASSERT_NE(options.As<Walk>(), nullptr);
+  EXPECT_EQ(options.GetIf<Swim>(), nullptr);
+  ASSERT_NE(options.GetIf<Walk>(), nullptr);
   options.Get<Walk>().speed = 3.0;
   EXPECT_EQ(options.Get<Walk>().speed, 3.0);
   EXPECT_THROW(static_cast<void>(options.Get<Swim>()), InternalError);

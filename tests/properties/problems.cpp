@@ -81,7 +81,7 @@ void SetOptions(PlannerOptions& options, double scale, bool adversarial) {
                     value *= scale;
                   }
                 });
-  if (auto* course = options.As<CourseOptions>()) {
+  if (auto* course = options.GetIf<CourseOptions>()) {
     const int count = Pick(1, 4);
     for (int i = 0; i < count; ++i) {
       CoursePiece piece{.length = scale * *Between(0.5, 20.0)};
@@ -89,7 +89,7 @@ void SetOptions(PlannerOptions& options, double scale, bool adversarial) {
       (OnceIn(2) ? piece.curvature_to : piece.curvature) = curvature;
       course->segments.push_back(piece);
     }
-  } else if (auto* path = options.As<PathFileOptions>()) {
+  } else if (auto* path = options.GetIf<PathFileOptions>()) {
     FittedPath fitted;
     const double length = scale * *Between(0.5, 20.0);
     const double curvature = *Within(adversarial ? 0.4 : 0.15) / scale;
@@ -99,18 +99,18 @@ void SetOptions(PlannerOptions& options, double scale, bool adversarial) {
     fitted.given.points = {{0.0, 0.0}, fitted.path.At(3.0 * length).pose.position()};
     fitted.stations = {0.0, fitted.path.length()};
     path->path = std::make_shared<const FittedPath>(std::move(fitted));
-  } else if (auto* lane_change = options.As<LaneChangePlannerOptions>()) {
+  } else if (auto* lane_change = options.GetIf<LaneChangePlannerOptions>()) {
     lane_change->lead_in = *Between(0.1, 20.0);
-  } else if (auto* hybrid = options.As<HybridAStarOptions>()) {
+  } else if (auto* hybrid = options.GetIf<HybridAStarOptions>()) {
     hybrid->reverse = OnceIn(2);
     hybrid->budget = 2000;
-  } else if (auto* rrt = options.As<RrtPlannerOptions>()) {
+  } else if (auto* rrt = options.GetIf<RrtPlannerOptions>()) {
     rrt->trees = 2;
     rrt->iterations = 1000;
-  } else if (auto* rrt_star = options.As<RrtStarPlannerOptions>()) {
+  } else if (auto* rrt_star = options.GetIf<RrtStarPlannerOptions>()) {
     rrt_star->trees = 2;
     rrt_star->iterations = 1000;
-  } else if (auto* astar = options.As<AStarOptions>()) {
+  } else if (auto* astar = options.GetIf<AStarOptions>()) {
     astar->budget = 20000;
   }
 }
@@ -118,7 +118,7 @@ void SetOptions(PlannerOptions& options, double scale, bool adversarial) {
 /// Applies `transform` to the path in the options of the planner path_file.
 template <typename Transform>
 void TransformPath(PlannerOptions& options, const Transform& transform) {
-  auto* own = options.As<PathFileOptions>();
+  auto* own = options.GetIf<PathFileOptions>();
   if (own != nullptr && own->path != nullptr) {
     FittedPath fitted = *own->path;
     fitted.path = transform(fitted.path);
@@ -218,7 +218,7 @@ Problem Mirrored(const Problem& problem) {
   }
   mirror(request.start);
   request.start_steering = -request.start_steering;
-  if (auto* lane_change = mirrored.options.As<LaneChangePlannerOptions>()) {
+  if (auto* lane_change = mirrored.options.GetIf<LaneChangePlannerOptions>()) {
     lane_change->first = lane_change->first == Side::kLeft ? Side::kRight : Side::kLeft;
   }
   TransformPath(mirrored.options, [](const Path& path) {
@@ -230,7 +230,7 @@ Problem Mirrored(const Problem& problem) {
     }
     return Path({start.x, -start.y, -start.yaw}, segments);
   });
-  if (auto* course = mirrored.options.As<CourseOptions>()) {
+  if (auto* course = mirrored.options.GetIf<CourseOptions>()) {
     for (CoursePiece& piece : course->segments) {
       for (std::optional<double>* own :
            {&piece.curvature, &piece.curvature_from, &piece.curvature_to}) {
@@ -280,7 +280,7 @@ std::string ToText(const Problem& problem) {
     text += fmt::format("\n  box {} {} {} of {} x {}", box.center.x, box.center.y, box.center.yaw,
                         box.length, box.width);
   }
-  if (const auto* course = problem.options.As<CourseOptions>()) {
+  if (const auto* course = problem.options.GetIf<CourseOptions>()) {
     for (const CoursePiece& piece : course->segments) {
       text += fmt::format("\n  piece {} curvature {} to {}", piece.length,
                           piece.curvature.value_or(NAN), piece.curvature_to.value_or(NAN));

@@ -30,11 +30,11 @@ class MethodOptions {
 
   /// Returns a pointer to the options if their type is `Options`, else null.
   template <typename Options>
-  [[nodiscard]] const Options* As() const {
+  [[nodiscard]] const Options* GetIf() const {
     return std::any_cast<Options>(&value_);
   }
   template <typename Options>
-  [[nodiscard]] Options* As() {
+  [[nodiscard]] Options* GetIf() {
     return std::any_cast<Options>(&value_);
   }
 
@@ -42,12 +42,12 @@ class MethodOptions {
   template <typename Options>
   [[nodiscard]] const Options& Get() const {
     TRACKBED_CHECK(Is<Options>(), "options of another method: {}", value_.type().name());
-    return *As<Options>();
+    return *GetIf<Options>();
   }
   template <typename Options>
   [[nodiscard]] Options& Get() {
     TRACKBED_CHECK(Is<Options>(), "options of another method: {}", value_.type().name());
-    return *As<Options>();
+    return *GetIf<Options>();
   }
 
   friend bool AreOfOneMethod(const MethodOptions& a, const MethodOptions& b) {

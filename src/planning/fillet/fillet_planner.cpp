@@ -190,7 +190,7 @@ double NeutralSteering(const FilletOptions& options) {
 /// generation.
 Table ConvergenceTable(const PlanDiagnostics& diagnostics) {
   Table table({"waypoint", "evaluations", "objective", "radius_m"});
-  const auto* all_turns = diagnostics.planner.As<FilletDiagnostics>();
+  const auto* all_turns = diagnostics.planner.GetIf<FilletDiagnostics>();
   for (std::size_t k = 0; k < diagnostics.turns.size(); ++k) {
     const auto& found = diagnostics.turns[k].Get<FilletTurnFindings>();
     const double waypoint = found.turn.waypoint;

@@ -231,7 +231,7 @@ constexpr int kClothoidPoses = 6000;
 /// Returns the number of poses that the searches for a plan expanded.
 int Expansions(const Plan& plan) {
   int sum = 0;
-  if (const auto* own = plan.diagnostics.planner.As<HybridAStarDiagnostics>()) {
+  if (const auto* own = plan.diagnostics.planner.GetIf<HybridAStarDiagnostics>()) {
     for (const HybridAStarLeg& leg : own->legs) {
       sum += leg.expansions;
     }

@@ -131,7 +131,7 @@ Plan PlanWith(const MinimumCurvatureOptions& options, const PlanRequest& request
         found.refused + "; " + RemedyForNarrowTrack(found.room, request.vehicle.width));
   }
   Plan plan = FollowLine(request, found.line);
-  if (const auto* own = plan.diagnostics.planner.As<TrackPlanDiagnostics>()) {
+  if (const auto* own = plan.diagnostics.planner.GetIf<TrackPlanDiagnostics>()) {
     plan.diagnostics.planner = MinimumCurvatureDiagnostics{
         .plan = *own,
         .iterations = found.iterations,

@@ -238,7 +238,7 @@ Plan PlanWith(const MinimumTimeOptions& options, const PlanRequest& request) {
     return route::Refused(PlanStatus::kNoPath, found.refused + RemedyFor(found, request, options));
   }
   Plan plan = FollowLine(request, found.line);
-  if (const auto* own = plan.diagnostics.planner.As<TrackPlanDiagnostics>()) {
+  if (const auto* own = plan.diagnostics.planner.GetIf<TrackPlanDiagnostics>()) {
     plan.diagnostics.planner =
         MinimumTimeDiagnostics{.plan = *own,
                                .lap_time = found.time,

@@ -81,9 +81,9 @@ TEST(Diagnostics, OfAnyPlannerAreWrittenAsItNamesThem) {
 
 TEST(Diagnostics, KeepTheirType) {
   const Plan plan = PlanWithOwn();
-  ASSERT_NE(plan.diagnostics.planner.As<OwnDiagnostics>(), nullptr);
+  ASSERT_NE(plan.diagnostics.planner.GetIf<OwnDiagnostics>(), nullptr);
   EXPECT_EQ(plan.diagnostics.planner.Get<OwnDiagnostics>().expansions, 7);
-  EXPECT_EQ(plan.diagnostics.planner.As<WithoutStations>(), nullptr);
+  EXPECT_EQ(plan.diagnostics.planner.GetIf<WithoutStations>(), nullptr);
   EXPECT_THROW((void)plan.diagnostics.planner.Get<WithoutStations>(), InternalError);
   EXPECT_FALSE(Plan{}.diagnostics.planner.has_value());
 }

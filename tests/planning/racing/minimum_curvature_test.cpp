@@ -112,7 +112,7 @@ TEST(MinimumCurvature, IsPlannedAndFeasible) {
   const Plan plan = MakePlan(request, MinimumCurvatureOptions{.margin = 0.5});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_TRUE(FindExcesses(plan, request).empty());
-  const auto* own = plan.diagnostics.planner.As<MinimumCurvatureDiagnostics>();
+  const auto* own = plan.diagnostics.planner.GetIf<MinimumCurvatureDiagnostics>();
   ASSERT_NE(own, nullptr);
   EXPECT_LT(own->plan.lap.curvature_square, 0.9 * own->center_curvature_square);
   EXPECT_GT(own->plan.lap.radius_min, 32.0);

@@ -357,7 +357,7 @@ TEST(MinimumTime, IsPlannedWithTheLapTimeThatItStates) {
   const PlanRequest request = LimitLaps(3);
   const Plan plan = MakePlan(request, MinimumTimeOptions{.margin = 0.5});
   ASSERT_TRUE(plan.ok()) << plan.reason;
-  const auto* own = plan.diagnostics.planner.As<MinimumTimeDiagnostics>();
+  const auto* own = plan.diagnostics.planner.GetIf<MinimumTimeDiagnostics>();
   ASSERT_NE(own, nullptr);
   EXPECT_EQ(own->end, "converged");
   EXPECT_LT(own->lap_time, own->minimum_curvature_lap_time);
@@ -390,7 +390,7 @@ TEST(MinimumTime, SaysThatItStoppedEarly) {
   ASSERT_TRUE(plan.ok()) << plan.reason;
   ASSERT_FALSE(plan.notes.empty());
   EXPECT_THAT(plan.notes.front(), HasSubstr("stopped after 1 step, which gained"));
-  EXPECT_EQ(plan.diagnostics.planner.As<MinimumTimeDiagnostics>()->end, "iteration_limit");
+  EXPECT_EQ(plan.diagnostics.planner.GetIf<MinimumTimeDiagnostics>()->end, "iteration_limit");
 }
 
 TEST(MinimumTime, NeedsSpeedsAtTheLimit) {

@@ -64,10 +64,10 @@ std::shared_ptr<const FittedPath> FittedFrom(const Pose2& start) {
 /// Returns the default options, with a course or a path for the planners that require one.
 PlannerOptions DefaultOptions(const PlannerEntry& entry, const PlanRequest& request) {
   PlannerOptions options = entry.defaults;
-  if (auto* path = options.As<PathFileOptions>()) {
+  if (auto* path = options.GetIf<PathFileOptions>()) {
     path->path = FittedFrom(std::isfinite(request.start.yaw) ? request.start : Pose2{});
   }
-  if (auto* course = options.As<CourseOptions>()) {
+  if (auto* course = options.GetIf<CourseOptions>()) {
     course->segments = {{.length = 10.0, .curvature = 0.0},
                         {.length = 5.0, .curvature_to = 0.05},
                         {.length = 12.0, .curvature = 0.05},

@@ -66,13 +66,13 @@ PlanRequest Blocked() {
 }
 
 void SetBudget(PlannerOptions& options, int budget) {
-  if (auto* astar = options.As<AStarOptions>()) {
+  if (auto* astar = options.GetIf<AStarOptions>()) {
     astar->budget = budget;
-  } else if (auto* hybrid = options.As<HybridAStarOptions>()) {
+  } else if (auto* hybrid = options.GetIf<HybridAStarOptions>()) {
     hybrid->budget = budget;
-  } else if (auto* rrt = options.As<RrtPlannerOptions>()) {
+  } else if (auto* rrt = options.GetIf<RrtPlannerOptions>()) {
     rrt->iterations = budget;
-  } else if (auto* rrt_star = options.As<RrtStarPlannerOptions>()) {
+  } else if (auto* rrt_star = options.GetIf<RrtStarPlannerOptions>()) {
     rrt_star->iterations = budget;
   }
 }
@@ -190,7 +190,7 @@ TEST_P(EveryRoutePlanner, SaysWhenItsBudgetIsUsedUp) {
     PlanRequest far = Aisle();
     far.waypoints.back() = {1e6, 1e6};
     options = GetParam().defaults;
-    if (auto* rrt_star = options.As<RrtStarPlannerOptions>()) {
+    if (auto* rrt_star = options.GetIf<RrtStarPlannerOptions>()) {
       rrt_star->expand_distance = 2.0;  // by default it depends on the distance to the goal
     }
     EXPECT_EQ(MakePlan(far, options)->status, PlanStatus::kBudgetUsedUp);

@@ -104,17 +104,16 @@ class MethodDiagnostics {
 
   /// Returns the contained struct if its type is `Struct`; else null.
   template <typename Struct>
-  [[nodiscard]] const Struct* As() const {
+  [[nodiscard]] const Struct* GetIf() const {
     return std::any_cast<Struct>(&value_);
   }
 
-  /// Returns the struct. Returns the contained struct. Throws InternalError if the type of the
-  /// contained struct is not `Struct`.
+  /// Returns the contained struct. Throws InternalError if its type is not `Struct`.
   template <typename Struct>
   [[nodiscard]] const Struct& Get() const {
-    TRACKBED_CHECK(As<Struct>() != nullptr, "diagnostics of another method: {}",
+    TRACKBED_CHECK(GetIf<Struct>() != nullptr, "diagnostics of another method: {}",
                    value_.type().name());
-    return *As<Struct>();
+    return *GetIf<Struct>();
   }
 
   /// Visits the fields of the contained struct, if there is one.
