@@ -46,7 +46,7 @@
 #include "trackbed/planning/course/lane_change.h"           // IWYU pragma: export
 #include "trackbed/planning/course/straight.h"              // IWYU pragma: export
 #include "trackbed/planning/curves/curve_planners.h"        // IWYU pragma: export
-#include "trackbed/planning/fillet/fillet.h"                // IWYU pragma: export
+#include "trackbed/planning/fillet/fillet_planner.h"        // IWYU pragma: export
 #include "trackbed/planning/frenet/frenet_options.h"        // IWYU pragma: export
 #include "trackbed/planning/grid/astar_planner.h"           // IWYU pragma: export
 #include "trackbed/planning/grid/hybrid_astar.h"            // IWYU pragma: export

@@ -1,10 +1,11 @@
+#include "src/planning/fillet/fillet_driven.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/route_start.h"
 

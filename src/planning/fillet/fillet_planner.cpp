@@ -1,15 +1,18 @@
+#include "trackbed/planning/fillet/fillet_planner.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "src/planning/fillet/fillet_driven.h"
 #include "src/planning/fillet/fillet_layout.h"
+#include "src/planning/fillet/fillet_waypoints.h"
 #include "trackbed/planning/common/waypoint_miss.h"
-#include "trackbed/planning/fillet/fillet.h"
 
 // Converts a fillet plan (Skackauskas, dissertation, appendix C and listing F.1) to a Plan. The
 // Plan contains the path, its steering schedule, and speed caps over the turns that are slower than
 // the mission's speed. The Plan also lists isolated turns, whose heading error can be predicted.
-// The rest of this file writes the diagnostics to plan.json and defines the option keys.
+// The rest of this file writes the diagnostics to plan.json.
 
 namespace trackbed {
 namespace {
@@ -273,63 +276,6 @@ std::vector<double> DrivenRadii(const std::vector<double>& x) {
     radii.push_back(x[i]);
   }
   return radii;
-}
-
-void Visit(KeyVisitor& keys, DrivenWeights& weights) {
-  keys.Field(
-      {"position", "1/m^3", "weight of the squared path deviation, integrated over the length"},
-      weights.position, Need::kOptional, kNonNegative);
-  keys.Field({"heading", "1/m", "weight of the squared heading error, integrated over the length"},
-             weights.heading, Need::kOptional, kNonNegative);
-  keys.Field({"end", "1/m^2", "weight of the squared distance to the goal at the end"}, weights.end,
-             Need::kOptional, kNonNegative);
-}
-
-void Visit(KeyVisitor& keys, FilletOptions& options) {
-  keys.Field(
-      {"radius", "m", "radius of all turns; default: the largest that the constraint allows"},
-      options.radius, kPositive);
-  static const EnumNames<RadiusConstraint> constraints{
-      {RadiusConstraint::kSteeringRoom, "steering_room"},
-      {RadiusConstraint::kHalfLeg, "half_leg"},
-      {RadiusConstraint::kNone, "none"}};
-  keys.Field({"constraint", "",
-              "constraint on the radius: leaves room for the steering ramps, fits half the "
-              "shorter leg, or none"},
-             options.constraint, Need::kOptional, constraints);
-  keys.Field({"neutral_steering", "rad",
-              "steering angle between turns, positive to the left; unless 0, a kinematic car "
-              "leaves the straight legs"},
-             options.neutral_steering, Need::kOptional, kSteering);
-  keys.Field({"max_radius", "m", "upper bound of the radius"}, options.max_radius, Need::kOptional,
-             kPositive);
-  static const EnumNames<InfeasibleTurnPolicy> without_room{
-      {InfeasibleTurnPolicy::kSlowDown, "slow_down"},
-      {InfeasibleTurnPolicy::kHalfLeg, "half_leg"},
-      {InfeasibleTurnPolicy::kRefuse, "refuse"}};
-  keys.Field(
-      {"without_room", "", "what to do about turns for which steering_room leaves no radius"},
-      options.without_room, Need::kOptional, without_room);
-  keys.Field({"min_speed", "m/s", "minimum speed in turns"}, options.min_speed, Need::kOptional,
-             kPositive);
-  static const EnumNames<RadiusObjective> objectives{{RadiusObjective::kLargest, "largest"},
-                                                     {RadiusObjective::kLiteral, "literal"},
-                                                     {RadiusObjective::kTurnLocal, "turn_local"},
-                                                     {RadiusObjective::kDriven, "driven"}};
-  keys.Field({"objective", "",
-              "criterion for the radii: largest radius, yaw rate over a window of the route or "
-              "over the turn, or tracking error of the simulated car"},
-             options.objective, Need::kOptional, objectives);
-  keys.Section({"search", "", "optimizer of the objective; not for 'largest'"}, options.search);
-  keys.Field(
-      {"resimulate_each_turn", "", "simulate the reference run before each turn, instead of once"},
-      options.resimulate_each_turn, Need::kOptional);
-  static const EnumNames<ReferencePoint> references{
-      {ReferencePoint::kRearAxle, "rear_axle"},
-      {ReferencePoint::kCenterOfGravity, "center_of_gravity"}};
-  keys.Field({"reference", "", "point of the car that follows the path in the reference run"},
-             options.reference, Need::kOptional, references);
-  keys.Section({"weights", "", "weights of the objective 'driven'"}, options.weights);
 }
 
 PlannerEntry FilletPlanner() {

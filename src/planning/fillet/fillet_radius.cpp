@@ -1,114 +1,25 @@
+#include "src/planning/fillet/fillet_radius.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
 
+#include "src/planning/fillet/feasible_root.h"
 #include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/fewer_corners.h"
 #include "trackbed/planning/common/waypoint_miss.h"
+#include "trackbed/planning/fillet/steering_room.h"
 
 // Computes the limits of a turn's radius (Skackauskas, dissertation, eqs. (C.34) and (C.40)).
 // Equation C.34 limits the tangent length of the turn to half of the shorter adjacent leg. Equation
-// C.40 also reserves the distance that the car drives while its wheels turn. The function g(r) of
-// equation C.40 has a single minimum, so the permitted radii form an interval between two roots of
-// g. If no radius is permitted at the mission's speed, the options decide whether the turn gets a
-// lower speed, is refused, or is limited by equation C.34 alone.
+// C.40 also reserves the distance that the car drives while its wheels turn (steering_room.h). If
+// no radius is permitted at the mission's speed, the options decide whether the turn gets a lower
+// speed, is refused, or is limited by equation C.34 alone.
 
-namespace trackbed {
-namespace {
-
-/// Relative tolerance of the radius limits, so that a radius exactly on a limit is accepted.
-constexpr double kRounding = 1e-12;
-
-/// Finds the root of f in [a, b] and returns a point next to the root at which f <= 0. The function
-/// f must have different signs at a and b.
-template <typename Function>
-double Root(const Function& f, double a, double b) {
-  std::uintmax_t iterations = 200;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      f, a, b, boost::math::tools::eps_tolerance<double>(52), iterations);
-  return f(high) <= 0.0 ? high : low;
-}
-
-/// Returns the function g(r) of equation C.40 [m].
-double SteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
-                    double shorter_leg, double neutral, double radius) {
-  const double travel = std::abs(std::atan(vehicle.wheelbase / radius) - neutral);
-  return radius / std::tan(interior_angle / 2.0) + speed / vehicle.steering_rate * travel -
-         0.5 * shorter_leg;
-}
-
-/// Returns the radius r that minimizes g(r) of equation C.40. The function g decreases below the
-/// returned radius and increases above it.
-double RoomiestRadius(const VehicleParams& vehicle, double speed, double interior_angle,
-                      double neutral, RadiusInterval bounds) {
-  const double L = vehicle.wheelbase;
-  const double squared = speed / vehicle.steering_rate * L * std::tan(interior_angle / 2.0) - L * L;
-  double roomiest = std::sqrt(std::max(0.0, squared));
-  if (neutral > 0.0) {
-    // For radii above the radius driven at the neutral steering angle d_0, the steering travel from
-    // d_0 grows with the radius.
-    roomiest = std::min(roomiest, L / std::tan(neutral));
-  }
-  return std::clamp(roomiest, bounds.low, bounds.high);
-}
-
-}  // namespace
-
-std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter_leg,
-                                           RadiusInterval bounds) {
-  const double largest = 0.5 * shorter_leg * std::tan(interior_angle / 2.0);
-  if (largest < bounds.low * (1.0 - kRounding)) {
-    return std::nullopt;
-  }
-  return RadiusInterval{bounds.low, std::clamp(largest, bounds.low, bounds.high)};
-}
-
-std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, double speed,
-                                                double interior_angle, double shorter_leg,
-                                                RadiusInterval bounds, double neutral) {
-  const auto g = [&](double r) {
-    return SteeringRoom(vehicle, speed, interior_angle, shorter_leg, neutral, r);
-  };
-  const double lowest = RoomiestRadius(vehicle, speed, interior_angle, neutral, bounds);
-  if (g(lowest) > kRounding * shorter_leg) {
-    return std::nullopt;
-  }
-  if (g(lowest) > 0.0) {
-    return RadiusInterval{lowest, lowest};
-  }
-  return RadiusInterval{g(bounds.low) <= 0.0 ? bounds.low : Root(g, bounds.low, lowest),
-                        g(bounds.high) <= 0.0 ? bounds.high : Root(g, lowest, bounds.high)};
-}
-
-std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
-                                        double shorter_leg, RadiusInterval bounds,
-                                        SpeedInterval speeds, double neutral) {
-  // The smallest value of g(r) rises with the speed.
-  const auto least = [&](double speed) {
-    const double r = RoomiestRadius(vehicle, speed, interior_angle, neutral, bounds);
-    return SteeringRoom(vehicle, speed, interior_angle, shorter_leg, neutral, r);
-  };
-  if (least(speeds.high) <= 0.0) {
-    return speeds.high;
-  }
-  if (least(speeds.low) > 0.0) {
-    return std::nullopt;
-  }
-  return Root(least, speeds.low, speeds.high);
-}
-
-namespace fillet {
-
-double LeastSteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
-                         RadiusInterval bounds) {
-  const double radius = RoomiestRadius(vehicle, speed, interior_angle, 0.0, bounds);
-  return SteeringRoom(vehicle, speed, interior_angle, 0.0, 0.0, radius);
-}
-
+namespace trackbed::fillet {
 namespace {
 
 /// Returns the argument `neutral` of SteeringRoomRadii: the neutral steering angle [rad], positive
@@ -258,7 +169,7 @@ RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions
         .value_or(room);
   };
   const auto excess = [&](double v) { return RampExcess(vehicle, turn, v, room_at(v).high); };
-  const double slower = excess(slowest) > 0.0 ? slowest : Root(excess, slowest, turn.speed);
+  const double slower = excess(slowest) > 0.0 ? slowest : FeasibleRoot(excess, slowest, turn.speed);
   turn.note = fmt::format(
       "{}{}at {:.4g} m/s the wheels turn too slowly for a radius of {:.4g} m; speed reduced to "
       "{:.4g} m/s",
@@ -348,5 +259,4 @@ double ConstraintAt(const VehicleParams& vehicle, RadiusConstraint constraint,
              : radius / std::tan(turn.interior_angle / 2.0) - 0.5 * turn.shorter_leg;
 }
 
-}  // namespace fillet
-}  // namespace trackbed
+}  // namespace trackbed::fillet

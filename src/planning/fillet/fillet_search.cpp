@@ -1,10 +1,10 @@
+#include "src/planning/fillet/fillet_search.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "src/planning/fillet/fillet_layout.h"
 
 namespace trackbed::fillet {
 namespace {

@@ -1,10 +1,12 @@
+#include "src/planning/fillet/fillet_waypoints.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/fewer_corners.h"
+#include "trackbed/planning/fillet/steering_room.h"
 
 // Leaves out waypoints between which no turn fits, such as points on a line that were rounded to
 // millimeters. The search of LeaveOutCloseWaypoints chooses the points. A first pass leaves out
@@ -81,8 +83,9 @@ std::vector<int> NumbersOf(const std::vector<Vec2>& points, const std::vector<Ve
   return numbers;
 }
 
-/// Returns the polyline of some of the route's waypoints that has the fewest tight corners, and
-/// passes the other waypoints within `choice.max_gap`; the waypoints themselves if none has fewer.
+/// Leaves out waypoints of a route. Of the polylines that pass the waypoints left out within
+/// `choice.max_gap`, returns the one with the fewest tight corners. Returns all waypoints if no
+/// polyline has fewer tight corners.
 std::vector<Vec2> WithFewestTightCorners(const VehicleParams& vehicle, const Route& route,
                                          const std::vector<Vec2>& given,
                                          const WaypointChoice& choice) {

@@ -15,7 +15,7 @@
 #include "trackbed/planning/course/lane_change.h"
 #include "trackbed/planning/course/straight.h"
 #include "trackbed/planning/curves/curve_planners.h"
-#include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/fillet/fillet_planner.h"
 #include "trackbed/planning/grid/astar_planner.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/lanes/lane_route_planner.h"

@@ -17,6 +17,7 @@
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/fillet/steering_room.h"
 
 // Tests fillet plans against the printed tables of routes A and B (Skackauskas, dissertation;
 // constraint C.40 and identities C.9, C.14-C.19, listing F.1), against dense scans of the feasible

@@ -13,6 +13,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/fillet/steering_room.h"
 #include "trackbed/planning/registry/planners.h"
 
 // Tests fillet plans of a car whose wheels are at the neutral steering angle d_0 between its turns.

@@ -23,6 +23,7 @@
 #include "trackbed/planning/course/course.h"
 #include "trackbed/planning/curves/curve_planners.h"
 #include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/fillet/fillet_planner.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 

@@ -194,38 +194,6 @@ struct FilletPlan {
   std::optional<SearchResult> search;
 };
 
-/// A closed interval of radii [m].
-struct RadiusInterval {
-  double low = 0.0;
-  double high = 0.0;
-};
-
-/// Returns the radii within `bounds` that meet eq. (C.40); nullopt if there are none. Eq. (C.40) is
-/// equivalent to g(r) = r/tan(phi/2) + v/omega_delta |atan(L/r) - n| - q_S/2 <= 0. The argument
-/// `neutral` is n = sgn(h) d_0 [rad], positive toward the turn. With growing r, the function g
-/// first decreases and then increases, so that the returned radii form one interval. The ends of
-/// the returned interval are accurate to the last few bits.
-std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, double speed,
-                                                double interior_angle, double shorter_leg,
-                                                RadiusInterval bounds, double neutral = 0.0);
-
-/// A closed interval of speeds [m/s].
-struct SpeedInterval {
-  double low = 0.0;
-  double high = 0.0;
-};
-
-/// Returns the highest speed within `speeds` at which eq. (C.40) allows a radius within `bounds`;
-/// nullopt if there is no such speed.
-std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
-                                        double shorter_leg, RadiusInterval bounds,
-                                        SpeedInterval speeds, double neutral = 0.0);
-
-/// Returns the radii within `bounds` that meet eq. (C.34), r/tan(phi/2) <= q_S/2; nullopt if there
-/// are none.
-std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter_leg,
-                                           RadiusInterval bounds);
-
 inline constexpr std::size_t kMinFilletWaypoints = 2;
 
 /// Plans a path along a route of N >= 2 waypoints. The car drives at `speed` [m/s], and more slowly
@@ -245,36 +213,5 @@ inline constexpr std::size_t kMinFilletWaypoints = 2;
 /// search of kDriven takes 20 us per evaluation.
 FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& waypoints,
                        double speed, const FilletOptions& options, std::uint64_t seed = 0);
-
-/// Diagnostics of a turn of a plan, stored in PlanDiagnostics::turns.
-struct FilletTurnFindings {
-  FilletTurn turn;
-  std::string search_method;  ///< Name of the search method that `turn.search` used, if any.
-  /// Predicted open-loop error at the middle of the turn, if the turn is isolated.
-  std::optional<TurnError> predicted;
-};
-void Visit(DiagnosticsVisitor& out, const FilletTurnFindings& own);
-/// Shifts the stations of a turn that lies beyond a replaced stretch of the path. Adds a note to a
-/// turn that overlaps the replaced stretch.
-void ReplaceStretch(FilletTurnFindings& own, const Stations& replaced, double shift);
-
-/// Diagnostics of a plan or of its failure, stored in PlanDiagnostics::planner.
-struct FilletDiagnostics {
-  std::optional<int> failed_waypoint;  ///< Index of the waypoint at which planning failed.
-  double neutral_steering = 0.0;       ///< Neutral steering angle d_0 between turns [rad].
-  /// Curvature on which a kinematic car drives with the steering angle d_0 [rad/m].
-  double neutral_curvature = 0.0;
-  std::string search_method;  ///< Name of the search method that `search` used, if any.
-  /// Result of the search over all turns together (kDriven).
-  std::optional<SearchResult> search{};
-};
-void Visit(DiagnosticsVisitor& out, const FilletDiagnostics& own);
-
-/// Extracts the radii [m] from the variables `x` of a search over all turns together (kDriven). The
-/// argument `x` is the result of such a search, or an entry of the search's history.
-std::vector<double> DrivenRadii(const std::vector<double>& x);
-
-/// Returns the planner `fillet`.
-PlannerEntry FilletPlanner();
 
 }  // namespace trackbed
