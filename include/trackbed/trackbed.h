@@ -49,7 +49,7 @@
 #include "trackbed/planning/fillet/fillet_planner.h"        // IWYU pragma: export
 #include "trackbed/planning/frenet/frenet_options.h"        // IWYU pragma: export
 #include "trackbed/planning/grid/astar_planner.h"           // IWYU pragma: export
-#include "trackbed/planning/grid/hybrid_astar.h"            // IWYU pragma: export
+#include "trackbed/planning/grid/hybrid_astar_planner.h"    // IWYU pragma: export
 #include "trackbed/planning/lanes/lane_route_planner.h"     // IWYU pragma: export
 #include "trackbed/planning/path_file/path_file_planner.h"  // IWYU pragma: export
 #include "trackbed/planning/racing/center_line.h"           // IWYU pragma: export

@@ -26,8 +26,6 @@ struct OfSeveralSources {
 };
 constexpr OfSeveralSources kOfSeveralSources[] = {
     {"include/trackbed/core/version.h", "the build generates the source"},
-    {"include/trackbed/planning/grid/hybrid_astar.h",
-     "the searches and the planner have sources of their own"},
     {"include/trackbed/render/film.h", "a build without FFmpeg has another source"},
     {"render/gl_context.h", "one source for each library of OpenGL"},
     {"render/video.h", "one source for each file format"},
@@ -36,8 +34,6 @@ constexpr OfSeveralSources kOfSeveralSources[] = {
     {"src/cli/verbs.h", "one source for each verb"},
     {"src/optimize/ipopt/ipopt.h", "a build without IPOPT has another source"},
     {"src/path_files/formats.h", "one source for each format of path files"},
-    {"src/planning/grid/pose_search.h", "hybrid_astar.cpp chooses the kind of search"},
-    {"src/planning/grid/pose_tree.h", "one source for each kind of search"},
     {"src/sim/plants.h", "one source for each plant"},
 };
 

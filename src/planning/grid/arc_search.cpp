@@ -1,3 +1,5 @@
+#include "src/planning/grid/arc_search.h"
+
 #include <algorithm>
 #include <cmath>
 

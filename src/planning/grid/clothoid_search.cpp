@@ -1,3 +1,5 @@
+#include "src/planning/grid/clothoid_search.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,8 +40,8 @@ class ClothoidSearch final : public PoseTree {
   using PoseTree::IsFree;
 
   /// Number of expansions after the first path, in addition to as many as the first path needed.
-  /// The estimated costs to the goal know nothing of slow clothoids. A search until no path can be
-  /// cheaper would take a hundred times as long as the search for the first path.
+  /// The estimated costs to the goal neglect that the car is slow on clothoids. A search until no
+  /// path can be cheaper would take a hundred times as long as the search for the first path.
   static constexpr int kMoreExpansions = 1500;
 
   /// Index of the largest of the curvatures.

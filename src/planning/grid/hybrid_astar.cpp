@@ -1,242 +1,262 @@
+#include "trackbed/planning/grid/hybrid_astar.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
 
-#include "src/planning/grid/pose_tree.h"
+#include "src/planning/curves/continuous_route.h"
+#include "src/planning/grid/pose_search.h"
 #include "trackbed/core/angle.h"
-#include "trackbed/planning/curves/dubins.h"
-#include "trackbed/planning/curves/reeds_shepp.h"
-#include "trackbed/planning/grid/astar.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/route.h"
 
-// Hybrid A* (Dolgov et al. 2008) searches over poses that a car can reach, forwards and in reverse.
-// The heuristic is the larger of the Reeds-Shepp (or Dubins) length and the grid distance.
-// Dijkstra's algorithm computes the grid distance around the obstacles. To expand a node, the
-// search drives arcs or clothoids forwards and in reverse (arc_search.cpp, clothoid_search.cpp).
-// The search keeps only the cheapest node per cell of position, heading, direction and, with
-// clothoids, curvature. The nearer a node is to the goal, the more often the search tries a
-// collision-free curve to the goal. The search ends when the cheapest open node is at the goal,
-// reached by a collision-free curve. A search from the goal does the same along the path driven
-// backwards in time, from the goal to the start.
+// Runs hybrid A* at the requested resolution and, if this finds no path, at a fixed series of
+// resolutions from coarse to fine. Coarse bins lose narrow maneuvers; fine bins use up the budget
+// in wide areas. The series depends on the turning radius alone. A path that the series finds is
+// therefore found for every `cell` and for every number of `headings`. At each resolution of the
+// series, one search from the start and one search from the goal advance in turn. If one of them
+// has expanded all its poses, the next resolution follows. A tight gap around the goal is thus
+// detected from inside within few poses, while a search from the start would expand the whole area.
 
 namespace trackbed {
 namespace {
 
-/// Largest ratio of the length of a path on the eight-neighbor grid to the length of the straight
-/// line: 1/cos(pi/8).
-constexpr double kOctileOverStraight = 1.0823922002923940;
+/// Numbers of heading bins at the coarsest resolution of the series. An arc of 15 degrees is about
+/// a quarter of the turning radius long.
+constexpr int kCoarsestHeadings = 24;
+/// Number of resolutions of the series; each one halves the bins and the steps. The shortest steps
+/// are 1.6 % of the turning radius long: for a car, four times the smallest step of
+/// CollisionChecker.
+constexpr int kResolutions = 5;
+/// Maximum number of cells of the grid for the series. Computing the distances on this grid takes
+/// as long as expanding about 2000 poses.
+constexpr double kMaxSeriesCells = 2.5e5;
+/// Number of poses expanded from the start for each pose expanded from the goal, at the requested
+/// resolution. The search from the goal only detects that the goal is in a tight gap.
+constexpr int kPosesPerGoalPose = 16;
 
-/// Returns whether a path may drive both segments as one: as one arc, or as one clothoid.
-bool Continues(const Segment& before, const Segment& segment) {
-  if (before.direction != segment.direction || before.sharpness != segment.sharpness) {
+class Searches {
+ public:
+  Searches(const VehicleParams& vehicle, const HybridAStarProblem& problem,
+           const HybridAStarOptions& options)
+      : vehicle_(vehicle),
+        problem_(problem),
+        options_(options),
+        radius_(options.radius.value_or(1.1 * vehicle.min_turning_radius())),
+        clear_(vehicle, problem.obstacles, options.safe_distance, problem.start),
+        area_(AreaAround(problem.start, {problem.start.position(), problem.goal.position()},
+                         problem.obstacles, options.margin)) {}
+
+  HybridAStarResult Run() {
+    if (CellsIn(area_, options_.cell) > kMaxCells) {
+      return Fail(PlanStatus::kBudgetUsedUp,
+                  fmt::format("more than {:.3g} cells of {:.3g} m", kMaxCells, options_.cell));
+    }
+    const std::shared_ptr<const OccupancyGrid> grid = MakeGrid(options_.cell);
+    result_.cells = static_cast<int>(grid->size());
+    if (!clear_.IsFree(problem_.start)) {
+      return Fail(PlanStatus::kStartBlocked, "the start is blocked: " + Nearest(problem_.start));
+    }
+    if (!clear_.IsFree(problem_.goal)) {
+      return Fail(PlanStatus::kGoalBlocked, "the goal is blocked: " + Nearest(problem_.goal));
+    }
+    const auto to_goal = DistanceTo(grid, problem_.goal);
+    if (!Connects(*to_goal)) {
+      return Enclosed();
+    }
+    const auto search = MakePoseSearch(Space(), Requested(), SearchSide::kStart, to_goal);
+    // The series has its own half of the budget. Its result therefore does not depend on the number
+    // of poses that the search at the requested resolution expands.
+    const int for_series = options_.budget / 2;
+    const bool goal_in_gap = SearchWhileGoalIsOpen(*search, grid, options_.budget - for_series);
+    const bool series_ended = !search->has_path() && RunSeries(for_series);
+    if (result_.ok() || result_.reason != "") {
+      result_.expansions += search->expansions();
+      return result_;
+    }
+    const int most = options_.budget - result_.expansions;
+    while (!(series_ended && goal_in_gap) && !search->ended() && search->expansions() < most) {
+      search->Advance();
+    }
+    result_.expansions += search->expansions();
+    if (search->has_path()) {
+      return Found(*search);
+    }
+    if (series_ended && (goal_in_gap || search->ended())) {
+      return Fail(PlanStatus::kNoPath, "no feasible path");
+    }
+    return Fail(PlanStatus::kBudgetUsedUp,
+                fmt::format("no path found in {} expansions", result_.expansions));
+  }
+
+ private:
+  /// Describes the obstacle nearest to the car at `pose`, for people.
+  [[nodiscard]] std::string Nearest(const Pose2& pose) const {
+    return route::NearestObstacle(vehicle_, pose, problem_.obstacles, options_.safe_distance);
+  }
+
+  HybridAStarResult Fail(PlanStatus status, const std::string& reason) {
+    result_.status = status;
+    result_.reason = reason;
+    return result_;
+  }
+
+  HybridAStarResult Enclosed() {
+    return Fail(PlanStatus::kNoPath, "obstacles enclose the start or the goal");
+  }
+
+  HybridAStarResult Found(const PoseSearch& search) {
+    result_.status = PlanStatus::kOk;
+    result_.cost = search.cost();
+    result_.segments = search.Path();
+    return result_;
+  }
+
+  [[nodiscard]] SearchSpace Space() const {
+    return {vehicle_, problem_, options_, radius_, clear_};
+  }
+
+  [[nodiscard]] Resolution Requested() const {
+    return Resolution::WithBins(options_.cell, options_.headings, radius_);
+  }
+
+  /// Makes a grid in which a cell is occupied if the rear-axle center cannot be at any point of the
+  /// cell. In such a cell, every point is closer to an obstacle than the permitted minimum. This
+  /// minimum is the distance from the rear-axle center to the nearest side of the footprint, plus
+  /// the required distance.
+  [[nodiscard]] std::shared_ptr<const OccupancyGrid> MakeGrid(double cell) const {
+    const auto inflated_by = [&](double distance) {
+      return std::max(clear_.inner_radius() + distance - 0.5 * std::sqrt(2.0) * cell, 0.0);
+    };
+    Inflation inflation = inflated_by(options_.safe_distance);
+    for (const double distance : clear_.distances()) {
+      inflation.own.push_back(inflated_by(distance));
+    }
+    return std::make_shared<const OccupancyGrid>(
+        Rasterize(problem_.start, area_, cell, problem_.obstacles, inflation));
+  }
+
+  static std::shared_ptr<const GridDistance> DistanceTo(
+      const std::shared_ptr<const OccupancyGrid>& grid, const Pose2& target) {
+    return std::make_shared<const GridDistance>(grid, target.position());
+  }
+
+  /// Returns whether the grid has a path from the start to the goal.
+  [[nodiscard]] bool Connects(const GridDistance& to_goal) const {
+    return std::isfinite(to_goal.LowerBound(problem_.start.position()));
+  }
+
+  /// Advances a search from the start until it ends, or until it has expanded `most` poses. Stops
+  /// earlier and returns true if the goal is in a gap. At the requested resolution, a search from
+  /// the goal has then expanded all its poses before the search from the start has found a path.
+  [[nodiscard]] bool SearchWhileGoalIsOpen(PoseSearch& search,
+                                           const std::shared_ptr<const OccupancyGrid>& grid,
+                                           int most) const {
+    std::unique_ptr<PoseSearch> from_goal;
+    while (!search.ended() && search.expansions() < most) {
+      search.Advance();
+      if (search.has_path() || search.expansions() % kPosesPerGoalPose != 0) {
+        continue;
+      }
+      if (from_goal == nullptr) {
+        from_goal = MakePoseSearch(Space(), Requested(), SearchSide::kGoal,
+                                   DistanceTo(grid, problem_.start));
+      }
+      from_goal->Advance();
+      if (from_goal->ended() && !from_goal->has_path()) {
+        return true;
+      }
+    }
     return false;
   }
-  // The curvature at the end of a clothoid is rounded.
-  constexpr double kRounding = 1e-12;
-  const double end = before.CurvatureAt(before.length);
-  return std::abs(end - segment.curvature) <=
-         (before.sharpness == 0.0 ? 0.0 : kRounding * std::abs(end));
-}
+
+  /// Searches for a path at each resolution of the series, and sets the result if there is a path
+  /// or if obstacles enclose the start or the goal. Returns whether the search at the finest
+  /// resolution has ended without a path. Sets the number of expanded poses.
+  bool RunSeries(int budget) {
+    const auto bins = [&](int headings) { return 2.0 * kPi * radius_ / (1.5 * headings); };
+    double cell = bins(kCoarsestHeadings << (kResolutions - 1));
+    while (CellsIn(area_, cell) > kMaxSeriesCells) {
+      cell *= 2.0;
+    }
+    const auto grid = MakeGrid(cell);
+    const auto to_goal = DistanceTo(grid, problem_.goal);
+    const auto to_start = DistanceTo(grid, problem_.start);
+    if (!Connects(*to_goal)) {
+      Enclosed();
+      return true;
+    }
+    bool ended = false;
+    for (int i = 0; i < kResolutions; ++i) {
+      const int headings = kCoarsestHeadings << i;
+      const Resolution resolution = Resolution::WithBins(bins(headings), headings, radius_);
+      const auto forth = MakePoseSearch(Space(), resolution, SearchSide::kStart, to_goal);
+      const auto back = MakePoseSearch(Space(), resolution, SearchSide::kGoal, to_start);
+      // Finer resolutions inherit the part of the budget that coarser resolutions have not used.
+      const int most = result_.expansions + (budget - result_.expansions) / (kResolutions - i);
+      ended = false;
+      while (!ended && result_.expansions + 2 <= most) {
+        forth->Advance();
+        back->Advance();
+        result_.expansions += 2;
+        ended = forth->ended() || back->ended();
+      }
+      if (forth->has_path() || back->has_path()) {
+        Found(forth->cost() <= back->cost() ? *forth : *back);
+        return false;
+      }
+    }
+    return ended;
+  }
+
+  const VehicleParams& vehicle_;
+  const HybridAStarProblem& problem_;
+  const HybridAStarOptions& options_;
+  double radius_;
+  CollisionChecker clear_;
+  GridArea area_;
+  HybridAStarResult result_;
+};
 
 }  // namespace
 
-std::vector<Segment> Reversed(std::vector<Segment> segments) {
-  std::reverse(segments.begin(), segments.end());
-  for (Segment& segment : segments) {
-    if (segment.sharpness != 0.0) {
-      segment.curvature = segment.CurvatureAt(segment.length);
-      segment.sharpness = -segment.sharpness;
-    }
-    segment.direction = -segment.direction;
-  }
-  return segments;
+HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
+                                    const HybridAStarOptions& options) {
+  TRACKBED_CHECK(options.cell > 0.0 && options.headings >= 8 && options.margin >= 0.0 &&
+                     options.budget >= 0 && options.radius.value_or(1.0) > 0.0 &&
+                     options.weight >= 1.0 && options.reverse_cost >= 1.0 &&
+                     options.switch_cost >= 0.0 && options.steering_cost >= 0.0,
+                 "cells of {} m and {} headings, margin {}, budget {}, costs {}, {}, {}",
+                 options.cell, options.headings, options.margin, options.budget,
+                 options.reverse_cost, options.switch_cost, options.steering_cost);
+  return Searches(vehicle, problem, options).Run();
 }
 
-PoseTree::PoseTree(const SearchSpace& space, const Resolution& resolution, SearchSide side,
-                   std::shared_ptr<const GridDistance> left)
-    : vehicle_(space.vehicle),
-      options_(space.options),
-      problem_(space.problem),
-      radius_(space.radius),
-      clear_(space.clear),
-      resolution_(resolution),
-      from_start_(side == SearchSide::kStart),
-      target_(from_start_ ? problem_.goal : problem_.start),
-      left_(std::move(left)) {
-  nodes_.push_back({.pose = from_start_ ? problem_.start : problem_.goal,
-                    .curvature = from_start_ ? problem_.clothoids.start_curvature : 0.0});
-  open_.push({options_.weight * Left(nodes_.front().pose), 0});
-}
-
-void PoseTree::Advance() {
-  while (!ended()) {
-    const int index = open_.top().node;
-    const Node node = nodes_[static_cast<std::size_t>(index)];
-    open_.pop();
-    if (node.parent < 0 || best_.at(NodeKey(node)) >= node.cost) {
-      Expand(index, node, ++expansions_);
-      return;
-    }
-    // The search has since found a cheaper path to this cell.
-  }
-}
-
-std::vector<Segment> PoseTree::StepsTo(int index) const {
-  std::vector<Segment> steps;
-  for (int i = index; nodes_[static_cast<std::size_t>(i)].parent >= 0;) {
-    const Node& node = nodes_[static_cast<std::size_t>(i)];
-    steps.push_back(node.step);
-    i = node.parent;
-  }
-  std::reverse(steps.begin(), steps.end());
-  return steps;
-}
-
-std::vector<Segment> PoseTree::Path() const {
-  // The last node with a curve has the cheapest path.
-  const auto end = std::find_if(nodes_.rbegin(), nodes_.rend(),
-                                [](const Node& node) { return node.last_curve >= 0; });
-  std::vector<Segment> path;
-  if (end == nodes_.rend()) {
-    return path;
-  }
-  std::vector<Segment> steps = StepsTo(end->parent);
-  const auto& last = last_curves_[static_cast<std::size_t>(end->last_curve)];
-  steps.insert(steps.end(), last.begin(), last.end());
-  for (const Segment& step : InSearchOrder(std::move(steps))) {
-    if (!path.empty() && Continues(path.back(), step)) {
-      path.back().length += step.length;
-    } else {
-      path.push_back(step);
-    }
-  }
-  return path;
-}
-
-double PoseTree::Left(const Pose2& pose) const {
-  const auto [from, to] = CurveEnds(pose);
-  const double curve =
-      options_.reverse ? ReedsSheppLength(from, to, radius_) : Dubins(from, to, radius_).length;
-  return std::max(LeftOnGrid(pose), curve);
-}
-
-/// Returns the key of the cell of position, heading, direction of motion and curvature that
-/// contains a node.
-std::uint64_t PoseTree::NodeKey(const Node& node) const {
-  // Keys of bins are unique within 2^22 bins of the start.
-  const Vec2 local = ToLocal(problem_.start, node.pose.position()) / resolution_.cell;
-  const auto column = static_cast<std::uint64_t>(std::llround(local.x()));
-  const auto row = static_cast<std::uint64_t>(std::llround(local.y()));
-  const double turn = WrapAngle(node.pose.yaw - problem_.start.yaw) / (2.0 * kPi);
-  const std::int64_t heading = std::llround(turn * resolution_.headings) + resolution_.headings;
-  const auto headings = static_cast<std::uint64_t>(resolution_.headings);
-  const std::uint64_t bin =
-      ((row << 26) + column) * headings + static_cast<std::uint64_t>(heading) % headings;
-  return (bin * 2 + (node.step.direction > 0 ? 1 : 0)) * 8 + CurvatureBin(node);
-}
-
-bool PoseTree::BeginsWell(const Node& node, const std::vector<Segment>& curve) const {
-  if (from_start_) {
-    return !MustGoForwards(node) || curve.empty() || !IsReverse(curve.front());
-  }
-  return !problem_.rolls || !IsReverse(curve.empty() ? node.step : curve.back());
-}
-
-void PoseTree::Expand(int index, const Node& node, int expansions) {
-  // Try a curve to the goal more often near the goal: if n turning radii remain to the goal, try
-  // at every (n + 1)-th expansion.
-  const double left = Left(node.pose);
-  if (expansions % (1 + static_cast<int>(left / radius_)) == 0 || expansions == 1) {
-    TryToEnd(index, node);
-  }
-  for (const auto& [segment, end_curvature] : Steps(node)) {
-    Node child{.pose = EndOf(node.pose, segment),
-               .curvature = end_curvature,
-               .cost = node.cost + StepCost(node.step, segment),
-               .length = node.length + segment.length,
-               .parent = index,
-               .step = segment};
-    if (!std::isfinite(LeftOnGrid(child.pose))) {
-      continue;
-    }
-    const auto [best, is_new] = best_.try_emplace(NodeKey(child), child.cost);
-    if ((!is_new && best->second <= child.cost) || !IsFree(node.pose, segment)) {
-      if (is_new) {
-        best_.erase(best);
-      }
-      continue;
-    }
-    best->second = child.cost;
-    Push(child, child.cost + options_.weight * Left(child.pose));
-  }
-}
-
-void PoseTree::Push(const Node& node, double estimate) {
-  open_.push({estimate, static_cast<int>(nodes_.size())});
-  nodes_.push_back(node);
-}
-
-std::vector<Segment> PoseTree::InSearchOrder(std::vector<Segment> segments) const {
-  return from_start_ ? segments : Reversed(std::move(segments));
-}
-
-void PoseTree::AddEnd(int index, double cost, std::vector<Segment> curve) {
-  best_end_ = cost;
-  Push({.pose = target_,
-        .cost = cost,
-        .parent = index,
-        .step = {},
-        .last_curve = static_cast<int>(last_curves_.size())},
-       cost);
-  last_curves_.push_back(std::move(curve));
-}
-
-double PoseTree::EndCost(const Node& node, const std::vector<Segment>& curve) const {
-  double cost = node.cost;
-  const Segment* before = &node.step;
-  for (const Segment& segment : curve) {
-    cost += StepCost(*before, segment);
-    before = &segment;
-  }
-  return cost;
-}
-
-bool PoseTree::IsFree(Pose2 pose, const std::vector<Segment>& segments) const {
-  for (const Segment& segment : segments) {
-    if (!IsFree(pose, segment)) {
-      return false;
-    }
-    pose = EndOf(pose, segment);
-  }
-  return true;
-}
-
-GridDistance::GridDistance(std::shared_ptr<const OccupancyGrid> grid, const Vec2& target)
-    : grid_(std::move(grid)),
-      distances_(DistancesTo(*grid_, static_cast<std::size_t>(grid_->CellAt(target)))) {}
-
-double GridDistance::LowerBound(const Vec2& point) const {
-  const int cell = grid_->CellAt(point);
-  if (cell < 0) {
-    return std::numeric_limits<double>::infinity();
-  }
-  // Points of two cells may be closer together than the cells' centers, by up to the diagonal of a
-  // cell.
-  const double steps = distances_[static_cast<std::size_t>(cell)] / kOctileOverStraight;
-  return grid_->cell * std::max(steps - std::sqrt(2.0), 0.0);
-}
-
-Resolution Resolution::WithBins(double cell, int headings, double radius) {
-  return {.cell = cell,
-          .headings = headings,
-          .step = std::max(1.5 * cell, 2.0 * kPi * radius / headings)};
-}
-
-std::unique_ptr<PoseSearch> MakePoseSearch(const SearchSpace& space, const Resolution& resolution,
-                                           SearchSide side,
-                                           std::shared_ptr<const GridDistance> left) {
-  const CurveCurvature curvature = space.options.curvature;
-  return curvature == CurveCurvature::kAuto || curvature == CurveCurvature::kSteps
-             ? MakeArcSearch(space, resolution, side, std::move(left))
-             : MakeClothoidSearch(space, resolution, side, std::move(left));
+void Visit(KeyVisitor& keys, HybridAStarOptions& options) {
+  route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);
+  keys.Field({"reverse", "", "whether the path may reverse"}, options.reverse, Need::kOptional);
+  keys.Field({"reverse_cost", "", "cost factor of reverse travel"}, options.reverse_cost,
+             Need::kOptional, Range{.min = 1.0, .max = 1e3});
+  keys.Field({"switch_cost", "m", "cost of a change of direction"}, options.switch_cost,
+             Need::kOptional, kNonNegative);
+  keys.Field({"steering_cost", "m", "cost of a curvature step from straight to the radius"},
+             options.steering_cost, Need::kOptional, kNonNegative);
+  keys.Field({"weight", "",
+              "weight of the heuristic: above 1, fewer expansions, and a cost of at most `weight` "
+              "times the optimum"},
+             options.weight, Need::kOptional, Range{.min = 1.0, .max = 10.0});
+  keys.Field(route::kGridCell, options.cell, Need::kOptional, route::kCellSize);
+  keys.Field({"headings", "", "number of heading cells"}, options.headings, Need::kOptional,
+             Range{.min = 8, .max = 720});
+  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNonNegative);
+  keys.Field({"budget", "", "maximum expanded poses per leg"}, options.budget, Need::kOptional,
+             Range{.min = 0, .max = 1e7});
+  keys.Field(kCurvatureKey, options.curvature, Need::kOptional, CurvaturesWithCusps());
+  VisitClothoids(keys, options.max_lateral_acceleration, options.max_steering_rate_fraction);
 }
 
 }  // namespace trackbed

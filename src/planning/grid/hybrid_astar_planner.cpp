@@ -1,3 +1,5 @@
+#include "trackbed/planning/grid/hybrid_astar_planner.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 #include "trackbed/planning/curves/drivable_curve.h"
 #include "trackbed/planning/curves/dubins.h"
 #include "trackbed/planning/curves/reeds_shepp.h"
-#include "trackbed/planning/grid/hybrid_astar.h"
 
 // The planner `hybrid_astar`: one search (hybrid_astar.h) for each leg between two stops.
 // 1. PlanArcs searches with arcs. The curvature steps between arcs, so the plan slows down or stops
@@ -286,29 +287,6 @@ void Visit(DiagnosticsVisitor& out, const HybridAStarLeg& leg) {
 
 void Visit(DiagnosticsVisitor& out, const HybridAStarDiagnostics& own) {
   out.List("legs", own.legs);
-}
-
-void Visit(KeyVisitor& keys, HybridAStarOptions& options) {
-  route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);
-  keys.Field({"reverse", "", "whether the path may reverse"}, options.reverse, Need::kOptional);
-  keys.Field({"reverse_cost", "", "cost factor of reverse travel"}, options.reverse_cost,
-             Need::kOptional, Range{.min = 1.0, .max = 1e3});
-  keys.Field({"switch_cost", "m", "cost of a change of direction"}, options.switch_cost,
-             Need::kOptional, kNonNegative);
-  keys.Field({"steering_cost", "m", "cost of a curvature step from straight to the radius"},
-             options.steering_cost, Need::kOptional, kNonNegative);
-  keys.Field({"weight", "",
-              "weight of the heuristic: above 1, fewer expansions, and a cost of at most `weight` "
-              "times the optimum"},
-             options.weight, Need::kOptional, Range{.min = 1.0, .max = 10.0});
-  keys.Field(route::kGridCell, options.cell, Need::kOptional, route::kCellSize);
-  keys.Field({"headings", "", "number of heading cells"}, options.headings, Need::kOptional,
-             Range{.min = 8, .max = 720});
-  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNonNegative);
-  keys.Field({"budget", "", "maximum expanded poses per leg"}, options.budget, Need::kOptional,
-             Range{.min = 0, .max = 1e7});
-  keys.Field(kCurvatureKey, options.curvature, Need::kOptional, CurvaturesWithCusps());
-  VisitClothoids(keys, options.max_lateral_acceleration, options.max_steering_rate_fraction);
 }
 
 PlannerEntry HybridAStarPlanner() {

@@ -151,14 +151,4 @@ class PoseTree : public PoseSearch {
   std::vector<std::vector<Segment>> last_curves_;
 };
 
-/// Makes a search for paths of arcs and straights, at whose joints the curvature steps.
-std::unique_ptr<PoseSearch> MakeArcSearch(const SearchSpace& space, const Resolution& resolution,
-                                          SearchSide side,
-                                          std::shared_ptr<const GridDistance> left);
-
-/// Makes a search for paths of continuous curvature.
-std::unique_ptr<PoseSearch> MakeClothoidSearch(const SearchSpace& space,
-                                               const Resolution& resolution, SearchSide side,
-                                               std::shared_ptr<const GridDistance> left);
-
 }  // namespace trackbed

@@ -17,7 +17,7 @@
 #include "trackbed/planning/curves/curve_planners.h"
 #include "trackbed/planning/fillet/fillet_planner.h"
 #include "trackbed/planning/grid/astar_planner.h"
-#include "trackbed/planning/grid/hybrid_astar.h"
+#include "trackbed/planning/grid/hybrid_astar_planner.h"
 #include "trackbed/planning/lanes/lane_route_planner.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/racing/center_line.h"

@@ -16,6 +16,7 @@
 #include "trackbed/planning/common/waypoint_miss.h"
 #include "trackbed/planning/curves/curve_planners.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
+#include "trackbed/planning/grid/hybrid_astar_planner.h"
 
 // Routes on which curves through all waypoints would have loops.
 namespace trackbed {

@@ -10,6 +10,7 @@
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/curves/continuous_curvature.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
+#include "trackbed/planning/grid/hybrid_astar_planner.h"
 
 // Paths of continuous curvature by hybrid A*.
 namespace trackbed {
