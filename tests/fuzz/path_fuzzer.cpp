@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "src/path_files/formats.h"
 #include "tests/fuzz/target.h"
 #include "trackbed/path/fit_path.h"
 #include "trackbed/path_files/path_file.h"
@@ -31,13 +32,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace trackbed;
   const std::string text = fuzz::Text(data, size);
   const std::filesystem::path file = fuzz::Write("path.txt", text);
-  for (const PathFormat format :
-       {PathFormat::kCsv, PathFormat::kNavPath, PathFormat::kCommonRoad, PathFormat::kLanelet2,
-        PathFormat::kGeoJson, PathFormat::kGpx, PathFormat::kKml, PathFormat::kBag}) {
+  for (const PathFormatEntry& entry : PathFormats()) {
     fuzz::Expect([&] {
       PathMap map;
-      map.format = format;
-      if (format == PathFormat::kLanelet2) {
+      map.format = entry.format;
+      if (entry.format == PathFormat::kLanelet2) {
         map.lanelets = EndsOfRoute(text);
       }
       const PathPoints points = ReadPathFile(file, map).points;
