@@ -1,6 +1,9 @@
 #include "trackbed/control/playback.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <utility>
 
 #include "trackbed/control/recording_file.h"
 #include "trackbed/control/speed_controller.h"
@@ -64,6 +67,42 @@ void SetRecording(PlaybackOptions& options, const Recording& recording) {
 
 bool ReplaysRecord(const PlaybackOptions& options) {
   return options.file.empty();
+}
+
+/// Checks the recording of a scenario that a program filled in. The reader of scenario files checks
+/// the files of recordings.
+std::vector<OptionProblem> CheckRecording(const PlaybackOptions& options,
+                                          const CouldReadKey& /*could_read*/) {
+  const Recording& recording = options.recording;
+  if (recording.steering.empty()) {
+    return {{"file", options.file.empty()
+                         ? "missing; name a file and use ReadScenario or ParseScenario, which read "
+                           "it, or set PlaybackOptions::recording"
+                         : fmt::format("{} has not been read; ReadScenario and ParseScenario read "
+                                       "it",
+                                       options.file)}};
+  }
+  std::vector<OptionProblem> problems;
+  for (const auto& [name, signal] :
+       {std::pair("steering", &recording.steering), std::pair("speed", &recording.speed),
+        std::pair("acceleration", &recording.acceleration)}) {
+    if (!signal->IsStrictlyIncreasing()) {
+      problems.push_back(
+          {"file", fmt::format("the recorded {} is not finite, or its {} do not increase", name,
+                               options.by == PlaybackAxis::kTime ? "times" : "distances")});
+    }
+  }
+  if (!recording.speed.empty() && !recording.acceleration.empty()) {
+    problems.push_back({"file", "the recording has both speed and acceleration; remove one"});
+  }
+  return problems;
+}
+
+/// Returns the options before a file is read: a recording of straight driving.
+PlaybackOptions StraightOn() {
+  PlaybackOptions options;
+  options.recording.steering = {{{0.0, 0.0}}};
+  return options;
 }
 
 void ReadInputs(PlaybackOptions& options, InputReader& reader) {
@@ -144,10 +183,11 @@ void Visit(KeyVisitor& keys, PlaybackOptions& options) {
 ControllerEntry Playback() {
   return {.name = "playback",
           .summary = "replays recorded steering and speed or acceleration",
-          .defaults = PlaybackOptions{},
+          .defaults = StraightOn(),
           .station = StationSource::kOdometer,
           .needs_plan = false,
           .make = MakeBy<PlaybackOptions, PlaybackController>,
+          .check = OnOptions<PlaybackOptions, CheckRecording>,
           .duration = OnOptions<PlaybackOptions, DurationOf>,
           .recording = RecordingOf,
           .replays_record = OnOptions<PlaybackOptions, ReplaysRecord>,

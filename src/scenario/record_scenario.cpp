@@ -35,6 +35,7 @@ Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::s
     // Without a steering signal, or if the car drove in reverse, the recorded drive can be viewed
     // and compared but not replayed.
     record.windows.clear();
+    playback.recording.steering = {{{0.0, 0.0}}};
   }
   scenario.control.steering = std::move(playback);
   scenario.control.speed.gain = ReplayOptions{}.speed_gain;

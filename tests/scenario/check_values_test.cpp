@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/support/error_text.h"
+#include "trackbed/control/playback.h"
 #include "trackbed/control/preview.h"
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/scenario/scenario.h"
@@ -105,6 +106,33 @@ INSTANTIATE_TEST_SUITE_P(
             "record.file: log.csv has not been read; ReadScenario and ParseScenario read it\n"
             "record.ground: road.csv has not been read; ReadScenario and ParseScenario read "
             "it"},
+        WrongValue{"playback_without_recording",
+                   [](Scenario& s) { s.control.steering = PlaybackOptions{}; },
+                   "control.file: missing; name a file and use ReadScenario or ParseScenario, "
+                   "which read it, or set PlaybackOptions::recording"},
+        WrongValue{"recording_that_was_not_read",
+                   [](Scenario& s) { s.control.steering = PlaybackOptions{.file = "turns.csv"}; },
+                   "control.file: turns.csv has not been read; ReadScenario and ParseScenario "
+                   "read it"},
+        WrongValue{"recording_out_of_order",
+                   [](Scenario& s) {
+                     PlaybackOptions playback;
+                     playback.recording.steering.knots = {{0.0, 0.1}, {2.0, 0.2}, {1.0, 0.0}};
+                     playback.recording.speed.knots = {{0.0, 3.0}, {1.0, kNan}};
+                     s.control.steering = std::move(playback);
+                   },
+                   "control.file: the recorded steering is not finite, or its times do not "
+                   "increase\n"
+                   "control.file: the recorded speed is not finite, or its times do not increase"},
+        WrongValue{"recording_of_speed_and_acceleration",
+                   [](Scenario& s) {
+                     PlaybackOptions playback{.by = PlaybackAxis::kDistance};
+                     playback.recording.steering.knots = {{0.0, 0.1}};
+                     playback.recording.speed.knots = {{0.0, 3.0}};
+                     playback.recording.acceleration.knots = {{0.0, 0.0}};
+                     s.control.steering = std::move(playback);
+                   },
+                   "control.file: the recording has both speed and acceleration; remove one"},
         WrongValue{"track_that_was_not_read",
                    [](Scenario& s) { s.mission.track = TrackSpec{.file = "oval.csv"}; },
                    "mission.track.file: oval.csv has not been read; ReadScenario and ParseScenario "

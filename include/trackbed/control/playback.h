@@ -19,8 +19,9 @@ enum class PlaybackAxis {
 /// distance). A recording has a speed signal or an acceleration signal, but not both. If the speed
 /// and the acceleration are both empty, the recording does not set the speed.
 struct Recording {
-  /// Steering angle of the bicycle model [rad], positive to the left; not empty.
-  Signal steering{{{0.0, 0.0}}};
+  /// Steering angle of the bicycle model [rad], positive to the left. A recording without steering
+  /// cannot be replayed.
+  Signal steering;
   Signal speed;         ///< Speed of the rear axle [m/s], >= 0.
   Signal acceleration;  ///< Rate of change of the speed, dv/dt [m/s^2].
 };
