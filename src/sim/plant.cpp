@@ -13,10 +13,6 @@ namespace trackbed {
 
 namespace {
 
-std::unique_ptr<Plant> MakeKinematic(const PlantSetup& setup) {
-  return MakeIdealKinematicPlant(setup, ReferencePoint::kRearAxle);
-}
-
 template <TyreLaw law>
 std::unique_ptr<Plant> MakeMujocoWith(const PlantSetup& setup) {
   PlantSetup own = setup;
@@ -29,7 +25,8 @@ Registry<PlantEntry>& Table() {
   static Registry<PlantEntry> table(
       "plant",
       {
-          {"kinematic", "kinematic single-track model with rate-limited steering", MakeKinematic},
+          {"kinematic", "kinematic single-track model with rate-limited steering",
+           MakeIdealKinematicPlant},
           {"single_track", "linear dynamic single-track model with the tyres' cornering stiffness",
            MakeSingleTrackPlant},
           {"mujoco", "MJCF model in MuJoCo, with the scenario's tyre model", MakeMujocoPlant},
@@ -73,10 +70,6 @@ std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setu
                    start.pose.x, start.pose.y, start.pose.yaw, start.speed, start.steering,
                    start.lateral_speed.value_or(0.0), start.yaw_rate.value_or(0.0));
   return WithSteeringResponse(Table().Find(name).make(setup), setup);
-}
-
-std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference) {
-  return WithSteeringResponse(MakeIdealKinematicPlant(setup, reference), setup);
 }
 
 }  // namespace trackbed

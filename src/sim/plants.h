@@ -7,7 +7,7 @@ namespace trackbed {
 // The actuators of planar plants follow each command immediately. The wrapper in
 // steering_filter_plant.h adds delays.
 
-std::unique_ptr<Plant> MakeIdealKinematicPlant(const PlantSetup& setup, ReferencePoint reference);
+std::unique_ptr<Plant> MakeIdealKinematicPlant(const PlantSetup& setup);
 
 /// Throws InputError naming the missing coefficients if the car's file has no tyres.
 std::unique_ptr<Plant> MakeSingleTrackPlant(const PlantSetup& setup);

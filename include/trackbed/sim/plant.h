@@ -163,8 +163,4 @@ void RegisterPlant(PlantEntry entry);
 /// not finite.
 std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup);
 
-/// Makes a plant that simulates a KinematicCar with the given reference point. With
-/// kCenterOfGravity, `start.speed` and the commanded acceleration refer to the center of gravity.
-std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference);
-
 }  // namespace trackbed
