@@ -47,8 +47,8 @@ double AnyHeading() {
   }
 }
 
-/// Returns random points of a lattice. Many of them coincide, lie on one line or turn back. Some
-/// points lie slightly off the lattice.
+/// Returns random points of a lattice. Many of the points coincide, lie on one line or turn back.
+/// Some points lie slightly off the lattice.
 std::vector<Vec2> LatticeRoute(std::size_t count, double scale) {
   std::vector<Vec2> route;
   for (std::size_t i = 0; i < count; ++i) {
