@@ -39,9 +39,10 @@ std::optional<double> NoiseDeviation(const PathPoints& given, const PathFitOptio
       options.fit == PathFit::kSpline ? kStep * spline.max_deviation : kEqualityTolerance;
   for (; allowed <= 0.1 * length && fits < kMaxFits; allowed *= kStep) {
     spline.max_deviation = RoundedUp(allowed);
-    const std::vector<Leg> legs = FindLegs(given, spline.max_deviation);
+    const PathPoints points = AtStandstills(given, spline.max_deviation);
+    const std::vector<Leg> legs = FindLegs(points, spline.max_deviation);
     const bool can_fit = std::all_of(legs.begin(), legs.end(), [&](const Leg& leg) {
-      const DistinctPoints distinct = DistinctFor(PointsOf(given, leg), spline);
+      const DistinctPoints distinct = DistinctFor(PointsOf(points, leg), spline);
       return distinct.chords.points.size() > 1 && distinct.chords.u.back() <= kMaxPathLength &&
              FindReversals(KnotsOf(distinct, spline), distinct.period).empty();
     });

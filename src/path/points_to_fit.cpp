@@ -111,6 +111,33 @@ std::string NameOf(const PathPoints& given, std::size_t point) {
                      line > 0 ? static_cast<std::size_t>(line) : point + 1, at.x(), at.y());
 }
 
+PathPoints AtStandstills(PathPoints given, double noise) {
+  const std::size_t count = given.speed.size();
+  for (std::size_t first = 0, end = 0; first < count; first = end) {
+    end = first + 1;
+    if (given.speed[first] > 0.0) {
+      continue;
+    }
+    Vec2 low = given.points[first];
+    Vec2 high = low;
+    for (; end < count && !(given.speed[end] > 0.0); ++end) {
+      low = low.cwiseMin(given.points[end]);
+      high = high.cwiseMax(given.points[end]);
+    }
+    const Vec2 place = first == 0     ? given.points.front()
+                       : end == count ? given.points.back()
+                                      : Vec2(0.5 * (low + high));
+    const auto begin = given.points.begin();
+    const auto from = begin + static_cast<std::ptrdiff_t>(first);
+    const auto to = begin + static_cast<std::ptrdiff_t>(end);
+    if ((first > 0 || end < count) &&
+        std::all_of(from, to, [&](const Vec2& own) { return (own - place).norm() <= noise; })) {
+      std::fill(from, to, place);
+    }
+  }
+  return given;
+}
+
 DistinctPoints Distinct(const PathPoints& given, bool closed, double noise) {
   DistinctPoints distinct;
   std::vector<PointGroup> groups;

@@ -22,6 +22,12 @@ int LineOf(const PathPoints& given, std::size_t point);
 /// numbers are not known.
 std::string NameOf(const PathPoints& given, std::size_t point);
 
+/// Returns the points with one position for each run of successive points with the speed 0, at
+/// which the car stands: the center of their bounding box, or the first or last point of the path.
+/// Runs with a point farther than `noise` [m] from this position keep their points, because the car
+/// may move there. Points without speeds are returned as they are.
+PathPoints AtStandstills(PathPoints given, double noise);
+
 /// The given points without repeated points and without noise that turns back, with the chord
 /// length at each point.
 struct DistinctPoints {

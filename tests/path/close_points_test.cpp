@@ -96,6 +96,49 @@ TEST(ClosePoints, MayBeMoreThanASplineCanHave) {
   EXPECT_NEAR(fitted.path.length(), 2.0, Tolerance(1e-9));
 }
 
+// A recorder logs a car that stands at the begin, at 10 m and at the end of a line, with noise of
+// the positions of up to 17 mm along each axis: at most 48 mm between two points, less than the
+// largest deviation of 50 mm.
+TEST(ClosePoints, AreOnePlaceWhereTheSpeedIsZero) {
+  Random random(471);
+  PathPoints given;
+  const auto add = [&](double s, double speed, double noise) {
+    given.points.emplace_back(s + random.Uniform(-noise, noise), random.Uniform(-noise, noise));
+    given.speed.push_back(speed);
+  };
+  const auto stand = [&](double s) {
+    for (int i = 0; i < 40; ++i) {
+      add(s, 0.0, 0.017);
+    }
+  };
+  stand(0.0);
+  for (double s = 0.5; s < 20.0; s += 0.5) {
+    s == 10.0 ? stand(s) : add(s, 2.0, 0.0);
+  }
+  stand(20.0);
+  const PathFitOptions options;
+  const FittedPath fitted = FitPath(given, options);
+  EXPECT_NEAR(fitted.path.length(), 20.0, Tolerance(2.0 * options.max_deviation));
+  for (std::size_t i = 1; i < given.speed.size(); ++i) {
+    if (given.speed[i] == 0.0 && given.speed[i - 1] == 0.0) {
+      EXPECT_EQ(fitted.stations[i], fitted.stations[i - 1]) << i;
+    }
+  }
+}
+
+// A file whose speeds are missing: the car drives on, so its points stay apart.
+TEST(ClosePoints, StayApartWhereTheCarMovesWithTheSpeedZero) {
+  PathPoints given;
+  for (int i = 0; i <= 40; ++i) {
+    given.points.emplace_back(0.5 * i, 0.0);
+    given.speed.push_back(i < 10 || i > 20 ? 2.0 : 0.0);
+  }
+  const FittedPath fitted = FitPath(given, {});
+  for (std::size_t i = 0; i < given.points.size(); ++i) {
+    EXPECT_NEAR(fitted.stations[i], 0.5 * static_cast<double>(i), Tolerance(1e-9));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, ClosePoints,
                          ::testing::Values(CurveShape{"Straight", Straight},
                                            CurveShape{"Bend", Bend}, CurveShape{"Spiral", Spiral},

@@ -135,7 +135,8 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// constant on both sides of a step between two points, and differs, it jumps within the step.
 ///
 /// Steps that turn back by more than a right angle within max_deviation are noise, as of a recorder
-/// in a car that stands. A spline is fitted to the centers of these points.
+/// in a car that stands. A spline is fitted to the centers of these points. Successive points with
+/// the speed 0 are one place if they lie within max_deviation of it; `given` then has this place.
 ///
 /// Guarantees: an open path, and each of its legs, begins at the first point and ends at the last
 /// point, to 1e-9 m. At coordinates of 1e6 m and more, it does so to their rounding. If all points

@@ -19,6 +19,10 @@ namespace {
 // Lower bound of the speed caps [m/s]. Next to a stop, the mean of the file's speeds may be lower.
 constexpr double kMinSpeed = 0.1;
 
+// Length of a path among points over their distance, above which the points go to and fro. Noise
+// does so; a car that drives with missing speeds does not.
+constexpr double kToAndFro = 2.0;
+
 std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
   const std::vector<double>& speed = fitted.given.speed;
   std::vector<SpeedCap> caps;
@@ -213,6 +217,22 @@ std::vector<std::string> SpeedNotes(const FittedPath& fitted, const std::vector<
   return notes;
 }
 
+/// Returns a deviation within which the points lie around one place, be it their first or last
+/// point or the center of their bounding box [m].
+double NoiseOf(const PathPoints& given, std::size_t first, std::size_t last) {
+  Vec2 low = given.points[first];
+  Vec2 high = low;
+  double largest = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    const Vec2& point = given.points[i];
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+    largest = std::max(
+        {largest, (point - given.points[first]).norm(), (point - given.points[last]).norm()});
+  }
+  return std::max(largest, 0.5 * (high - low).norm());
+}
+
 }  // namespace
 
 std::vector<double> CuspsOf(const Path& path) {
@@ -231,14 +251,21 @@ std::vector<Problem> FileSpeedProblems(const FittedPath& fitted, const std::stri
     // Points that are closer than the fit resolves are one place, at which the car stands.
     const double extent = fitted.stations[last] - fitted.stations[first];
     if (extent > fitted.options.max_deviation) {
+      const double noise = NoiseOf(given, first, last);
       problems.push_back(
           {.file = file,
            .line = given.lines.empty() ? 0 : given.lines[first],
            .key = "speed",
-           .message = fmt::format("the speed is 0 from point {} to point {}, which are {:.4g} m "
-                                  "apart, so the car would never arrive; give speeds above 0, or "
-                                  "set speeds: mission",
-                                  first + 1, last + 1, extent)});
+           .message = fmt::format(
+               "the speed is 0 from point {} to point {}, {:.4g} m along the path, so the car "
+               "would "
+               "never arrive; {}give speeds above 0, or set speeds: mission",
+               first + 1, last + 1, extent,
+               extent > kToAndFro * noise
+                   ? fmt::format("if the car stands there and its positions are noisy, set "
+                                 "max_deviation: {:.2g}; otherwise ",
+                                 1.05 * noise)
+                   : "")});
     }
   }
   return problems;
