@@ -20,6 +20,7 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/initial_state.h"
+#include "trackbed/vehicle/steering_reach.h"
 
 // Plans the mission of a scenario before the run.
 // 1. Refuses a start at which the car overlaps an obstacle (StartOverlap).
@@ -115,9 +116,10 @@ void NoteTimeLimit(FeasiblePlan& plan, double time_limit) {
 Path TurnRoundPath(const VehicleParams& vehicle, const StartState& start, const PathPoint& to,
                    double speed) {
   const double turn = AngleDifference(to.pose.yaw, start.pose.yaw);
-  const double tightest = CurvatureForSteering(vehicle, vehicle.steering_limit);
+  const double reach = SteeringReach(vehicle, 0.0);
+  const double tightest = CurvatureForSteering(vehicle, reach);
   const double curvature = to.direction * std::copysign(tightest, turn);
-  const double ramp = speed * vehicle.steering_limit / vehicle.steering_rate;
+  const double ramp = speed * reach / vehicle.steering_rate;
   const double arc = std::abs(turn) / tightest - 0.5 * ramp;
   std::vector<Segment> segments{
       {.length = ramp, .direction = to.direction, .sharpness = curvature / ramp}};

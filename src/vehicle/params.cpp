@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trackbed/vehicle/steering_reach.h"
+
 namespace trackbed {
 
 double VehicleParams::min_turning_radius() const {
-  return wheelbase / std::tan(steering_limit);
+  return wheelbase / std::tan(SteeringReach(*this, 0.0));
 }
 
 double AccelerationLimit::At(double friction) const {

@@ -8,6 +8,7 @@
 
 #include "src/planning/avoidance/curve_variables.h"
 #include "trackbed/core/error.h"
+#include "trackbed/vehicle/steering_reach.h"
 #include "trackbed/world/world.h"
 
 // Fit places the control points P_3 and P_4 of a degree-7 Bezier curve by least squares along a
@@ -56,7 +57,7 @@ double CurveProblem::SpeedAt(double distance) const {
 }
 
 bool CurveCheck::Keeps(const CurveProblem& problem) const {
-  return clearance >= problem.safe_distance && steering <= problem.vehicle.steering_limit &&
+  return clearance >= problem.safe_distance && steering <= SteeringReach(problem.vehicle, 0.0) &&
          steering_rate <= problem.steering_rate &&
          lateral_acceleration <= problem.lateral_acceleration;
 }

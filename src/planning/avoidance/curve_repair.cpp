@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/planning/avoidance/curve_variables.h"
+#include "trackbed/vehicle/steering_reach.h"
 #include "trackbed/world/world.h"
 
 // Changes a degree-7 Bezier curve past obstacles until the curve is feasible. Position, heading and
@@ -135,7 +136,7 @@ class Evaluation {
       const double nearest = NearestObstacle(position, first / parameter_speed);
       Raise(constraints_[kStretches + stretch], (wanted_ - nearest) / (1.0 + wanted_));
     }
-    constraints_[2 * kStretches] = steering / (kLimitMargin * vehicle.steering_limit) - 1.0;
+    constraints_[2 * kStretches] = steering / (kLimitMargin * SteeringReach(vehicle, 0.0)) - 1.0;
     constraints_[2 * kStretches + 1] =
         acceleration / (kLimitMargin * problem_.lateral_acceleration) - 1.0;
     // Prevents cusps: the norm of the curve's derivative with respect to the parameter must be at

@@ -11,6 +11,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/vehicle/steering_reach.h"
 #include "trackbed/world/world.h"
 
 // Computes the curve past an obstacle in a turn as printed in Skackauskas (dissertation, listing
@@ -316,7 +317,7 @@ ManeuverRun SimulateManeuver(const TurnManeuver& maneuver, const TurnLayout& lay
 
   drive.test_passed = drive.test_distance >= maneuver.safe_distance + 0.5 * vehicle.width;
   drive.keeps_clear = drive.clearance >= maneuver.safe_distance;
-  drive.steerable = drive.steering_max <= vehicle.steering_limit &&
+  drive.steerable = drive.steering_max <= SteeringReach(vehicle, 0.0) &&
                     drive.steering_rate_max <= vehicle.steering_rate;
   return drive;
 }

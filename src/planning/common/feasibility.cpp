@@ -13,6 +13,7 @@
 #include "trackbed/path/acceleration_caps.h"
 #include "trackbed/planning/common/path_pieces.h"
 #include "trackbed/planning/common/road_hold.h"
+#include "trackbed/vehicle/steering_reach.h"
 
 // Checks a plan against the car's limits and, if possible, changes the plan until it is feasible.
 // The check covers the start, the path, the steering rate and the accelerations, at samples along
@@ -91,7 +92,10 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
                                feasible_speeds::SpeedOn(path, piece, road, v_from, v_to)),
                 vehicle.steering_rate, s);
     }
-    steering.Take(SteeringForCurvature(vehicle, piece.curvature), vehicle.steering_limit, s);
+    steering.Take(
+        SteeringForCurvature(vehicle, piece.curvature),
+        SteeringReach(vehicle, piece.bends().front().curvature + piece.bends().back().curvature),
+        s);
     lateral.Take(v * v * piece.curvature, feasible_speeds::LateralOver(road, path, piece.stations),
                  s);
     speed.Take(v, vehicle.top_speed, s);

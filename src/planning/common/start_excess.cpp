@@ -9,6 +9,7 @@
 #include "src/planning/common/feasible_speeds.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/road_hold.h"
+#include "trackbed/vehicle/steering_reach.h"
 
 namespace trackbed::start_excess {
 namespace {
@@ -63,7 +64,7 @@ std::optional<Excess> SteeringStep(const Plan& plan, const PlanRequest& request)
   const double fitting = SteeringForCurvature(vehicle, plan.reference.path.At(0.0).curvature);
   const double step = std::abs(fitting - request.start_steering);
   const bool can_steer =
-      std::abs(fitting) <= vehicle.steering_limit * (1.0 + feasible_speeds::kRounding);
+      std::abs(fitting) <= SteeringReach(vehicle, fitting) * (1.0 + feasible_speeds::kRounding);
   if (!(request.start_speed > 0.0) || !can_steer || step <= kSteeringTolerance) {
     return std::nullopt;
   }

@@ -9,6 +9,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path/fit_path.h"
 #include "trackbed/planning/common/course_schedule.h"
+#include "trackbed/vehicle/steering_reach.h"
 
 namespace trackbed {
 
@@ -57,12 +58,13 @@ Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const double sharpest = SharpestCurvature(segments[i]);
     const double steering = std::abs(SteeringForCurvature(request.vehicle, sharpest));
-    if (steering > request.vehicle.steering_limit) {
+    const double reach = SteeringReach(request.vehicle, sharpest);
+    if (steering > reach) {
       plan.status = PlanStatus::kTurnTooTight;
       plan.reason = fmt::format(
           "segments[{}]: curvature {:.4g} 1/m needs a steering angle of {:.3f} rad, which exceeds "
           "the limit of {:.3f} rad",
-          i, sharpest, steering, request.vehicle.steering_limit);
+          i, sharpest, steering, reach);
       plan.diagnostics.planner = CourseDiagnostics{.failed_segment = i, .segments = {}};
       return plan;
     }

@@ -8,6 +8,7 @@
 
 #include "trackbed/core/error.h"
 #include "trackbed/path/bezier.h"
+#include "trackbed/vehicle/steering_reach.h"
 #include "trackbed/world/world.h"
 
 // Plans the double lane changes of ISO 3888-1 and ISO 3888-2.
@@ -176,12 +177,13 @@ Plan PlanWith(const LaneChangePlannerOptions& options, const PlanRequest& reques
   const std::vector<Segment> segments = LaneChangePath(options, plan.gates, start, stop);
   for (const Segment& segment : segments) {
     const double steering = std::abs(SteeringForCurvature(request.vehicle, segment.curvature));
-    if (steering > request.vehicle.steering_limit) {
+    const double reach = SteeringReach(request.vehicle, segment.curvature);
+    if (steering > reach) {
       plan.gates.clear();
       plan.status = PlanStatus::kTurnTooTight;
       plan.reason =
           fmt::format("steering angle {:.3f} rad between the gates exceeds the limit of {:.3f} rad",
-                      steering, request.vehicle.steering_limit);
+                      steering, reach);
       return plan;
     }
   }

@@ -12,6 +12,7 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/vehicle/params.h"
+#include "trackbed/vehicle/steering_reach.h"
 
 namespace trackbed {
 namespace {
@@ -40,12 +41,12 @@ std::string SteeringLimitError(const VehicleParams& vehicle, const std::vector<S
     const double end = segment.CurvatureAt(segment.length);
     const double sharpest = std::abs(end) > std::abs(segment.curvature) ? end : segment.curvature;
     const double steering = std::abs(SteeringForCurvature(vehicle, sharpest));
-    if (steering > vehicle.steering_limit) {
+    if (const double reach = SteeringReach(vehicle, sharpest); steering > reach) {
       return fmt::format(
           "the lanes' curvature of {:.4g} 1/m at s = {:.4g} m needs a steering angle of {:.3f} "
           "rad, "
           "which exceeds the limit of {:.3f} rad",
-          sharpest, station, steering, vehicle.steering_limit);
+          sharpest, station, steering, reach);
     }
     station += segment.length;
   }

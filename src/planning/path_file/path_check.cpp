@@ -10,6 +10,7 @@
 
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/path_pieces.h"
+#include "trackbed/vehicle/steering_reach.h"
 
 // Checks whether a car can drive a path at a constant speed, without simulation.
 // 1. The path is divided into pieces of kSpacing.
@@ -100,7 +101,8 @@ std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, double slo
   demand.speed_by_friction = by_acceleration(limits.friction_limit);
   demand.speed_by_rollover = by_acceleration(limits.rollover_limit);
   const std::array<std::pair<double, PathFaultKind>, 5> speeds{
-      {{demand.steering > vehicle.steering_limit * (1.0 + kRounding) ? 0.0 : kInfinity,
+      {{demand.steering > SteeringReach(vehicle, begin.curvature) * (1.0 + kRounding) ? 0.0
+                                                                                      : kInfinity,
         PathFaultKind::kSteeringAngle},
        {demand.speed_by_steering_rate, PathFaultKind::kSteeringRate},
        {demand.speed_by_friction, PathFaultKind::kFriction},
@@ -148,7 +150,7 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
                    "CheckPath: speed {} m/s, friction {}; must be above 0", options.speed,
                    options.friction);
   PathCheck check;
-  check.steering_limit = vehicle.steering_limit;
+  check.steering_limit = SteeringReach(vehicle, 0.0);
   check.steering_rate_limit = vehicle.steering_rate;
   check.friction_limit = MaxLateralAcceleration(vehicle, options.friction);
   check.rollover_limit = options.rollover_acceleration.value_or(0.0);
@@ -157,7 +159,8 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
   }
   const Path& path = fitted.path;
   const std::vector<HeadingJump>& jumps = fitted.jumps;
-  FaultFinder angle(PathFaultKind::kSteeringAngle, vehicle.steering_limit);
+  FaultFinder left(PathFaultKind::kSteeringAngle, SteeringReach(vehicle, 1.0));
+  FaultFinder right(PathFaultKind::kSteeringAngle, SteeringReach(vehicle, -1.0));
   FaultFinder rate(PathFaultKind::kSteeringRate, vehicle.steering_rate);
   FaultFinder friction(PathFaultKind::kFriction, check.friction_limit);
   FaultFinder rollover(PathFaultKind::kRollOver, check.rollover_limit);
@@ -194,7 +197,9 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
                  options.speed, check);
     check.demands.push_back(demand);
     limit_speed(demand.speed, demand.s, limit);
-    angle.Take(piece.stations, demand.steering, path, check.faults);
+    const bool is_left = demand.curvature >= 0.0;
+    left.Take(piece.stations, is_left ? demand.steering : 0.0, path, check.faults);
+    right.Take(piece.stations, is_left ? 0.0 : demand.steering, path, check.faults);
     rate.Take(piece.stations, demand.steering_rate, path, check.faults);
     friction.Take(piece.stations, demand.lateral_acceleration, path, check.faults);
     rollover.Take(piece.stations, demand.lateral_acceleration, path, check.faults);

@@ -8,6 +8,7 @@
 
 #include "trackbed/core/error.h"
 #include "trackbed/path/bounded_fit.h"
+#include "trackbed/vehicle/steering_reach.h"
 
 namespace trackbed {
 namespace {
@@ -30,7 +31,7 @@ std::optional<SteerableFit> FitWithinSteering(const FittedPath& fitted,
   // Share of the car's largest curvature that the fit aims at: FitPathWithin exceeds its bound by
   // at most 1e-3.
   constexpr double kShare = 1.0 - 1e-3;
-  const double limit = CurvatureForSteering(vehicle, vehicle.steering_limit);
+  const double limit = CurvatureForSteering(vehicle, SteeringReach(vehicle, 0.0));
   const double largest = LargestCurvature(fitted.path);
   if (fitted.smoothing_length == 0.0 || largest <= limit) {
     return std::nullopt;

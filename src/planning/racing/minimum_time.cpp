@@ -15,6 +15,7 @@
 #include "trackbed/planning/common/diagnostics.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/racing/minimum_curvature.h"
+#include "trackbed/vehicle/steering_reach.h"
 
 // Finds the line with the least lap time (problem of Casanova 2000 and Christ et al. 2021) by a
 // trust-region method. The search starts at the line with the least curvature. If this line has
@@ -219,7 +220,7 @@ std::string RemedyFor(const MinimumTimeLine& found, const PlanRequest& request,
   }
   return fmt::format(
       "; the track needs a car whose wheels turn by {:.3g} rad instead of {:.3g} rad",
-      std::abs(SteeringForCurvature(vehicle, found.sharpest)), vehicle.steering_limit);
+      std::abs(SteeringForCurvature(vehicle, found.sharpest)), SteeringReach(vehicle, 0.0));
 }
 
 Plan PlanWith(const MinimumTimeOptions& options, const PlanRequest& request) {
@@ -255,7 +256,7 @@ Plan PlanWith(const MinimumTimeOptions& options, const PlanRequest& request) {
 LapLimits LimitsOfLap(const PlanRequest& request) {
   TRACKBED_CHECK(request.limits.has_value(), "a request {}", "without limits");
   const VehicleParams& vehicle = request.vehicle;
-  const double sharpest = CurvatureForSteering(vehicle, vehicle.steering_limit);
+  const double sharpest = CurvatureForSteering(vehicle, SteeringReach(vehicle, 0.0));
   double speed = request.speed.speed;
   if (vehicle.top_speed > 0.0) {
     speed = std::min(speed, vehicle.top_speed);

@@ -11,6 +11,7 @@
 #include "trackbed/path/smooth_curvature.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/vehicle/state.h"
+#include "trackbed/vehicle/steering_reach.h"
 #include "trackbed/world/world.h"
 
 // Plans motions along a route among obstacles, by polynomials in the Frenet frame or by a lattice.
@@ -193,7 +194,7 @@ class AlongRoute {
   /// opposite turns at the steering limit.
   [[nodiscard]] bool EndsBeforeGoal(const FrenetState& stop) const {
     const VehicleParams& car = request_.vehicle;
-    const double radius = car.wheelbase / std::tan(car.steering_limit);
+    const double radius = car.min_turning_radius();
     const double offset = std::max(std::abs(stop.d) - kGoalTolerance, 0.0);
     const double back = std::sqrt(offset * std::max(4.0 * radius - offset, 0.0));
     return stop.s + back <= frame_.goal + kGoalTolerance;
@@ -231,7 +232,7 @@ class AlongRoute {
     const VehicleParams& car = request_.vehicle;
     const double rate =
         kRounding * MotionLimits(options_).max_steering_rate_fraction * car.steering_rate;
-    const double angle = kRounding * car.steering_limit;
+    const double angle = kRounding * SteeringReach(car, 0.0);
     const double began = found_.motion.duration();
     const auto steering = [&](const TrajectoryPoint& point) {
       return SteeringForCurvature(car, point.motion.curvature);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <type_traits>
@@ -51,6 +52,22 @@ std::vector<std::string> Kinds(const Plan& plan, const PlanRequest& request) {
     kinds.push_back(excess.what);
   }
   return kinds;
+}
+
+TEST(Feasibility, JudgesEachSideByTheReachOfItsWheels) {
+  // The wheels turn to 0.3 rad to the left and 0.4 rad to the right. Without backlash, a bend of
+  // 0.35 rad exceeds the limit on the left alone.
+  PlanRequest request = Request(1.0, {{0.0, 0.0}, {1.0, 0.0}});
+  request.vehicle.steering_response.curve = {{-0.5, -0.4}, {-0.2, -0.2}, {0.2, 0.2}, {0.5, 0.3}};
+  const double bend = CurvatureForSteering(request.vehicle, 0.35);
+  for (const double side : {-1.0, 1.0}) {
+    Plan plan;
+    plan.reference.path = Path(request.start, {{5.0, side * bend}});
+    plan.reference.speed = SpeedProfile({{0.0, 1.0}, {5.0, 1.0}});
+    plan.schedule_speed = plan.reference.speed;
+    const std::vector<std::string> kinds = Kinds(plan, request);
+    EXPECT_EQ(std::count(kinds.begin(), kinds.end(), "steering angle"), side > 0.0 ? 1 : 0);
+  }
 }
 
 TEST(Feasibility, SlowsACurveDownToWhatTheTyresHold) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "trackbed/vehicle/params.h"
+
+/// Computes how far the steering actuator can turn the wheels of a car.
+namespace trackbed {
+
+/// Returns the largest steering angle [rad] > 0 that the wheels can hold to the left (`side` > 0),
+/// to the right (`side` < 0), or to both sides (`side` = 0). This angle is the steering limit, or
+/// the angle at the end of the steering curve minus half of the backlash if this is less: wheels
+/// that come from straight ahead stop at the near edge of the play. Never above the steering limit.
+[[nodiscard]] double SteeringReach(const VehicleParams& params, double side);
+
+}  // namespace trackbed
