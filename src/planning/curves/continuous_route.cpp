@@ -382,8 +382,7 @@ class RoutePlanner {
         PlanStatus::kNoPath,
         fmt::format("all {} curves to waypoint {} collide with obstacles{}", tried_, blocked_,
                     IsRolling(blocked_ - 1) && route_.motion != CurveMotion::kForwards
-                        ? " or start backwards; a car at rest (mission.start.speed: 0) has more "
-                          "curves"
+                        ? " or start backwards"
                         : ""));
   }
 

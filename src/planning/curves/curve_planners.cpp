@@ -167,12 +167,9 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
         rolls ? FirstRolling(request, clear, stops[1], words, drive)
               : FirstFree(request, clear, stops[i - 1], stops[i], all, drive, any);
     if (!found) {
-      return Refused(
-          PlanStatus::kNoPath,
-          fmt::format("all {} curves to waypoint {} collide with obstacles{}", all.size(), i,
-                      rolls ? " or start with a steering step; a car at rest (mission.start.speed: "
-                              "0) has more curves"
-                            : ""));
+      return Refused(PlanStatus::kNoPath,
+                     fmt::format("all {} curves to waypoint {} collide with obstacles{}",
+                                 all.size(), i, rolls ? " or start with a steering step" : ""));
     }
     AppendPieces(segments, found->segments);
     found_curves.curves.push_back({.word = CurveWord(found->curve),
