@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "tests/planning/frenet_scenes.h"
@@ -77,6 +78,23 @@ TEST(ShiftLength, UsesTheTightestLimitOfTheQuintic) {
       const double used = std::max({bend * car.min_turning_radius(), bend * speed * speed / 2.0,
                                     rate / (0.8 * car.steering_rate)});
       EXPECT_NEAR(used, 1.0, Tolerance(1e-9)) << speed << " m/s, " << aside << " m";
+    }
+  }
+}
+
+TEST(PullOutOptions, HaveLatticesOfAtLeastASecond) {
+  // A short move aside at a low speed needs less than a second of the car's way. The car brakes
+  // after the end of a motion, so a motion that ended before the next plan would slow it down.
+  for (const double speed : {0.5, 2.0, 5.0, 8.0}) {
+    for (const double aside : {0.05, 0.5, 3.0}) {
+      const Road road(speed, 0.5 * speed, 10.0);
+      const double needed = ShiftLength(ReferenceCar(), LatticeOptions{}.limits, speed, aside);
+      const auto variants = PullOutOptions(LatticeOptions{}, road.request, {aside}, speed);
+      ASSERT_GE(variants.size(), 2U);
+      const auto& first = std::get<LatticeOptions>(variants.front());
+      EXPECT_EQ(first.layers, 1);
+      EXPECT_NEAR(first.spacing, std::max(needed, speed), Tolerance(1e-12 * speed))
+          << speed << " m/s, " << aside << " m";
     }
   }
 }
