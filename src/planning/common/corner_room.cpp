@@ -40,6 +40,15 @@ Plan WithLessCornerRoom(const PlanRequest& request, double corner_room,
     }
     best.diagnostics.samples = samples;
   }
+  // A detour around obstacles is common. A plan from rest takes time, so it is made only if the
+  // detour is longer than the distance on which the car could stop.
+  const double stopping =
+      0.5 * request.start_speed * request.start_speed / request.speed.deceleration;
+  if (best.partial.empty() && corner_room > 0.0 &&
+      (request.obstacles.empty() || ExtraLength(best, request) > stopping)) {
+    NoteDetourOfRollingStart(request, best,
+                             [&](const PlanRequest& own) { return plan(own, corner_room); });
+  }
   return best;
 }
 

@@ -1,5 +1,7 @@
 #include "trackbed/planning/common/plan_comparison.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <limits>
 
@@ -11,20 +13,40 @@ double PlanLength(const Plan& plan) {
   return plan.ok() ? plan.reference.path.length() : std::numeric_limits<double>::infinity();
 }
 
-bool IsDetour(const Plan& plan, const PlanRequest& request) {
+double ExtraLength(const Plan& plan, const PlanRequest& request) {
   Vec2 at = request.start.position();
   double straight = 0.0;
   for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
     straight += (request.waypoints[i] - at).norm();
     at = request.waypoints[i];
   }
-  return PlanLength(plan) >= straight + request.vehicle.min_turning_radius();
+  return PlanLength(plan) - straight;
+}
+
+bool IsDetour(const Plan& plan, const PlanRequest& request) {
+  return ExtraLength(plan, request) >= request.vehicle.min_turning_radius();
 }
 
 bool IsShorterAndNotSlower(const Plan& plan, const Plan& best, const VehicleParams& car) {
   return plan.ok() &&
          (!best.ok() || (PlanLength(plan) + car.min_turning_radius() <= PlanLength(best) &&
                          DrivingTime(plan, car) <= DrivingTime(best, car)));
+}
+
+void NoteDetourOfRollingStart(const PlanRequest& request, Plan& detour,
+                              const std::function<Plan(const PlanRequest&)>& plan) {
+  if (!detour.ok() || request.start_speed == 0.0 || !IsDetour(detour, request)) {
+    return;
+  }
+  PlanRequest at_rest = request;
+  at_rest.start_speed = 0.0;
+  const Plan shorter = plan(at_rest);
+  if (IsShorterAndNotSlower(shorter, detour, request.vehicle)) {
+    detour.notes.push_back(
+        fmt::format("the path is {:.4g} m long, because the car starts at {:.3g} m/s; with "
+                    "mission.start.speed: 0, it is {:.4g} m long",
+                    PlanLength(detour), request.start_speed, PlanLength(shorter)));
+  }
 }
 
 }  // namespace trackbed

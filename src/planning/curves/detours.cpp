@@ -114,7 +114,8 @@ class DetourPlanner {
       TryOtherHeadings(best, request_);
       TryFewerWaypoints(best);
     }
-    NoteRollingStart(best);
+    NoteDetourOfHeadings(best);
+    NoteDetourOfRollingStart(request_, best, plan_);
     return best;
   }
 
@@ -141,19 +142,31 @@ class DetourPlanner {
             DrivingTime(plan, request_.vehicle) <= DrivingTime(best, request_.vehicle));
   }
 
-  /// Replaces `best` by a shorter plan for the request with other headings.
-  void TryOtherHeadings(Plan& best, PlanRequest request) const {
+  /// Replaces `best` by a shorter plan for the request with other headings: those of the shortest
+  /// route of arcs with a radius. Ramps of the steering need more room than arcs, so larger radii
+  /// follow if a detour is left.
+  void TryOtherHeadings(Plan& best, const PlanRequest& request) const {
     const std::vector<Pose2> stops = PlannedStops(request);
-    const std::vector<Pose2> shortest = WithShortestHeadings(stops, radius_, length_);
-    if (RouteLength(shortest, radius_, length_) + radius_ > RouteLength(stops, radius_, length_)) {
-      return;
-    }
-    for (const Pose2& stop : shortest) {
-      request.headings.push_back(stop.yaw);
-    }
-    Plan other = plan_(request);
-    if (IsBetter(other, best)) {
-      best = std::move(other);
+    std::vector<double> tried;
+    for (const double share : {1.0, 1.5, 2.25}) {
+      const double radius = share * radius_;
+      const std::vector<Pose2> shortest = WithShortestHeadings(stops, radius, length_);
+      PlanRequest own = request;
+      for (const Pose2& stop : shortest) {
+        own.headings.push_back(stop.yaw);
+      }
+      if (own.headings == tried ||
+          RouteLength(shortest, radius, length_) + radius_ > RouteLength(stops, radius, length_)) {
+        continue;
+      }
+      tried = own.headings;
+      Plan other = plan_(own);
+      if (IsBetter(other, best)) {
+        best = std::move(other);
+      }
+      if (!HasDetour(best)) {
+        return;
+      }
     }
   }
 
@@ -233,19 +246,19 @@ class DetourPlanner {
         Stops(all), Stops(plan));
   }
 
-  /// Adds a note if a car at rest would not drive the detour.
-  void NoteRollingStart(Plan& best) const {
-    if (!best.ok() || !IsDetour(best, request_) || request_.start_speed == 0.0) {
+  /// Adds a note if the path is a detour only because of the mission's headings.
+  void NoteDetourOfHeadings(Plan& best) const {
+    if (!best.ok() || request_.headings.empty() || !IsDetour(best, request_)) {
       return;
     }
     PlanRequest request = request_;
-    request.start_speed = 0.0;
-    const Plan at_rest = plan_(request);
-    if (IsShorterAndNotSlower(at_rest, best, request_.vehicle)) {
+    request.headings.clear();
+    const Plan along_legs = plan_(request);
+    if (IsShorterAndNotSlower(along_legs, best, request_.vehicle)) {
       best.notes.push_back(
-          fmt::format("the path is {:.4g} m long, because the car starts at {:.3g} m/s; with "
-                      "mission.start.speed: 0, it is {:.4g} m long",
-                      PlanLength(best), request_.start_speed, PlanLength(at_rest)));
+          fmt::format("the path is {:.4g} m long, because mission.headings demands it; without "
+                      "mission.headings, it is {:.4g} m long",
+                      PlanLength(best), PlanLength(along_legs)));
     }
   }
 

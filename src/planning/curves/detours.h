@@ -16,13 +16,13 @@ using CurveLength = std::function<double(const Pose2&, const Pose2&, double)>;
 /// more, that stops between start and goal, or that the car cannot drive from its start speed. If
 /// the request has no headings, the function tries these remedies against a detour or a refusal:
 /// * other headings at the waypoints between start and goal: those of the shortest curves among
-///   sixteen directions at each waypoint;
+///   sixteen directions at each waypoint, for one to three turning radii;
 /// * fewer waypoints: those within a quarter of the car's width from the lines between the others
 ///   are left out, if the path passes them within this distance. A note names them.
 /// A remedy is taken only if the path becomes shorter by this radius or more, or has fewer stops
 /// because waypoints are left out, and if it takes no longer to drive. If a longer path is left
-/// that a car at rest would not drive, a note says so, with the length from rest. Costs one plan if
-/// there is no detour, otherwise up to eleven.
+/// that a car at rest, or a car without the given headings, would not drive, a note says so, with
+/// the shorter length. Costs one plan if there is no detour, otherwise up to 19.
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
                     const std::function<Plan(const PlanRequest&)>& plan);
 

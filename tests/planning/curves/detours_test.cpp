@@ -166,6 +166,20 @@ TEST(Detours, ChooseHeadingsWithoutLoops) {
   EXPECT_GE(shorter, 1);
 }
 
+TEST(Detours, NameTheHeadingsAsTheCause) {
+  // The car cannot face across the road at a point 5 m ahead of it without a loop.
+  PlanRequest request = DetourRequest({{0, 0}, {5, 0}, {40, 0}}, 0.0);
+  request.headings = {0.0, 0.5 * kPi, 0.0};
+  const PlannerEntry dubins = DubinsPlanner();
+  const Plan turned = dubins.plan(request, dubins.defaults);
+  ASSERT_TRUE(turned.ok()) << turned.reason;
+  EXPECT_THAT(turned.notes, Contains(HasSubstr("because mission.headings demands it; without "
+                                               "mission.headings, it is 40 m long")));
+  request.headings = {0.0, 0.0, 0.0};
+  EXPECT_THAT(dubins.plan(request, dubins.defaults).notes,
+              Not(Contains(HasSubstr("mission.headings"))));
+}
+
 TEST(Detours, NameARollingStartAsTheCause) {
   // From 10 m/s, the car needs 33 m to brake at 1.5 m/s^2, so it cannot turn to the goal 6 m beside
   // a point 12 m ahead without a loop. From rest it can.

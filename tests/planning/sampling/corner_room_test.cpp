@@ -52,6 +52,21 @@ TEST(CornerRoom, IsReducedWhereTheCarFitsThroughAGate) {
   }
 }
 
+TEST(CornerRoom, DetourOfARollingStartIsNamed) {
+  // From 14 m/s, the car needs 65 m to stop at 1.5 m/s^2, so it drives past a goal 6 m ahead.
+  PlanRequest request = ThroughAGate(1.0, 1.0);
+  request.obstacles.clear();
+  request.waypoints = {{0.0, 0.0}, {6.0, 1.0}};
+  request.start_speed = 14.0;
+  for (const PlannerOptions& planner : PlannersOfCorners()) {
+    const Plan plan = MakePlan(request, planner);
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    EXPECT_GT(plan.reference.path.length(), 65.0);
+    EXPECT_THAT(plan.notes, Contains(HasSubstr("because the car starts at 14 m/s; with "
+                                               "mission.start.speed: 0, it is 6")));
+  }
+}
+
 TEST(CornerRoom, IsKeptWhereItCostsNoDetour) {
   // The first gate is wide enough for the whole corner_room of 1 m; A* adds half a diagonal of a
   // cell of 0.5 m, 0.354 m. The second gate is too narrow for the car, so the path leads around it

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "trackbed/planning/common/planner.h"
 
 /// Compares plans by length and driving time.
@@ -7,6 +9,10 @@ namespace trackbed {
 
 /// Returns the length of the planned path [m]; infinity if there is no path.
 [[nodiscard]] double PlanLength(const Plan& plan);
+
+/// Returns the length of the path beyond the straight lines from the start through the waypoints
+/// [m]; infinity if there is no path.
+[[nodiscard]] double ExtraLength(const Plan& plan, const PlanRequest& request);
 
 /// Returns whether the path is longer than the straight lines from the start through the waypoints
 /// by the car's smallest turning radius or more. A refused plan is a detour.
@@ -16,5 +22,10 @@ namespace trackbed {
 /// takes no longer to drive. Every path is better than a refusal.
 [[nodiscard]] bool IsShorterAndNotSlower(const Plan& plan, const Plan& best,
                                          const VehicleParams& car);
+
+/// Adds a note to a detour of a rolling car if `plan` makes a path for a car at rest that is
+/// shorter and not slower. The note gives both lengths. Costs one plan for a detour.
+void NoteDetourOfRollingStart(const PlanRequest& request, Plan& detour,
+                              const std::function<Plan(const PlanRequest&)>& plan);
 
 }  // namespace trackbed
