@@ -126,7 +126,7 @@ TEST(ClosePoints, AreOnePlaceWhereTheSpeedIsZero) {
   }
 }
 
-// A file whose speeds are missing: the car drives on, so its points stay apart.
+// A file without some of its speeds: the points move by 0.5 m each, so the car does not stand.
 TEST(ClosePoints, StayApartWhereTheCarMovesWithTheSpeedZero) {
   PathPoints given;
   for (int i = 0; i <= 40; ++i) {

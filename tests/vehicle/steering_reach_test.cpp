@@ -24,7 +24,7 @@ VehicleParams LopsidedCar() {
 
 TEST(SteeringReach, IsTheLimitWithoutACurve) {
   VehicleParams car = ReferenceCar();
-  car.steering_response.backlash = 0.02;  // commands beyond the limit make up for the play
+  car.steering_response.backlash = 0.02;  // larger commands compensate it
   for (const double side : {-1.0, 0.0, 1.0}) {
     EXPECT_EQ(SteeringReach(car, side), car.steering_limit);
   }

@@ -217,8 +217,8 @@ std::vector<std::string> SpeedNotes(const FittedPath& fitted, const std::vector<
   return notes;
 }
 
-/// Returns a deviation within which the points lie around one place, be it their first or last
-/// point or the center of their bounding box [m].
+/// Returns the radius of a circle around the first point, the last point or the center of the
+/// bounding box that contains all points, whichever is largest [m].
 double NoiseOf(const PathPoints& given, std::size_t first, std::size_t last) {
   Vec2 low = given.points[first];
   Vec2 high = low;
