@@ -212,6 +212,7 @@ FittedPath JoinLegs(const std::vector<Leg>& legs, const std::vector<FittedPath>&
 
 FittedPath FitOnce(PathPoints given, const PathFitOptions& options, double max_curvature,
                    std::optional<double> start_yaw) {
+  given = AtStandstills(std::move(given), options.max_deviation);
   const std::vector<Leg> legs = FindLegs(given, options.max_deviation);
   EndHeadings start;
   if (start_yaw && !options.closed) {
