@@ -95,7 +95,11 @@ const SpeedProfile& SegmentSequencer::speed() const {
 
 double SegmentSequencer::StationFor(const VehicleState& state) const {
   return options_.station_source == StationSource::kOdometer ? state.distance - start_distance_
-                                                             : station_;
+                                                             : OnSegment(station_);
+}
+
+double SegmentSequencer::OnSegment(double station) const {
+  return stationary_steer_.InProgress() ? std::max(station, 0.0) : station;
 }
 
 std::optional<Projection> SegmentSequencer::Project(const VehicleState& state) {
@@ -114,7 +118,8 @@ std::optional<Projection> SegmentSequencer::Project(const VehicleState& state) {
 }
 
 double SegmentSequencer::StationNear(const Pose2& pose) const {
-  return plan_.reference.path.Project(pose, StationsAround(options_.vehicle, station_, 0.0)).s;
+  return OnSegment(
+      plan_.reference.path.Project(pose, StationsAround(options_.vehicle, station_, 0.0)).s);
 }
 
 void SegmentSequencer::Replace(const FeasiblePlan& plan, const VehicleState& state) {

@@ -74,14 +74,16 @@ class SegmentSequencer {
 
   /// Returns the station that the controller receives in `state` [m]. Depending on the controller's
   /// StationSource, this is the station of the last projection or the distance driven since the
-  /// start of the segment.
+  /// start of the segment. At a standstill, the station is at least 0: a car that stands a little
+  /// before a bend turns its wheels for the bend, not for the straight extension of the path.
   [[nodiscard]] double StationFor(const VehicleState& state) const;
 
   /// Projects the car onto the path near the car's last station. Returns the station of the log and
   /// the car's deviation from the path without extensions; none without a path.
   std::optional<Projection> Project(const VehicleState& state);
 
-  /// Returns the station of a measured pose [m], searched near the last projection.
+  /// Returns the station of a measured pose [m], searched near the last projection; at a
+  /// standstill at least 0.
   [[nodiscard]] double StationNear(const Pose2& pose) const;
 
   /// Replaces the remaining plan by `plan`, which begins at the car's state.
@@ -102,6 +104,8 @@ class SegmentSequencer {
 
  private:
   void Begin(Plan plan, double offset, const VehicleState& state);
+  /// Returns a station; at a standstill at least 0.
+  [[nodiscard]] double OnSegment(double station) const;
   /// Keeps the car at standstill for `wait` [s] from `time` [s] on, and until its wheels have
   /// turned.
   void BeginStandstill(double time, double wait);

@@ -229,6 +229,19 @@ TEST(SegmentSequencer, SteersBeforeAStartOnABendFromRestAlone) {
   EXPECT_FALSE(steers({{.length = 10.0}}, StateAt(0.0, 0.0)));
 }
 
+TEST(SegmentSequencer, LetsACarThatStandsBeforeABendSteerForTheBend) {
+  const std::vector<Segment> bend{{.length = 10.0, .curvature = 0.1}};
+  SegmentSequencer sequencer(Drivable(PlanAlongRoute(bend, 0.0)), StateAt(0.0, 0.0), Options());
+  const VehicleState before = StateAt(-0.001, 0.0);
+  sequencer.Project(before);
+  EXPECT_EQ(sequencer.StationFor(before), 0.0);
+  EXPECT_EQ(sequencer.StationNear(before.pose), 0.0);
+  sequencer.stationary_steer().Update(0.2, 0.1);
+  sequencer.stationary_steer().Update(0.2, 0.2);
+  ASSERT_FALSE(sequencer.stationary_steer().InProgress());
+  EXPECT_NEAR(sequencer.StationFor(before), -0.001, Tolerance(1e-12));
+}
+
 TEST(SegmentSequencer, HasNoProjectionWithoutAPath) {
   SegmentSequencer sequencer(Drivable(PlanAtSpeed(3.0)), StateAt(0.0, 0.0), Options());
   EXPECT_FALSE(sequencer.has_path());
