@@ -19,7 +19,8 @@ constexpr double kMostTime = 1.2;
 
 }  // namespace
 
-Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request) {
+Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request,
+                       const std::function<Plan(Plan)>& faster) {
   // A plan that keeps the limits only if the request allows to exceed them does not fit.
   PlanRequest strict = request;
   strict.infeasible = InfeasiblePolicy::kSlowDown;
@@ -30,8 +31,11 @@ Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request) 
   }
   std::string why = smooth->reason;
   if (smooth.ok()) {
-    const double time = DrivingTime(smooth, request.vehicle);
+    double time = DrivingTime(smooth, request.vehicle);
     const double with_steps = DrivingTime(stepping, request.vehicle);
+    if (time > kMostTime * with_steps && faster) {
+      time = DrivingTime(MakeFeasible(faster(continuous), strict), request.vehicle);
+    }
     if (time <= kMostTime * with_steps) {
       return continuous;
     }

@@ -179,17 +179,6 @@ class RoutePlanner {
     return {};
   }
 
-  [[nodiscard]] LegLimits LimitsOfMotion() const {
-    const VehicleParams& car = request_.vehicle;
-    return {.speed = {.speed = speed_,
-                      .acceleration = request_.speed.acceleration,
-                      .deceleration = request_.speed.deceleration},
-            .steering_rate = route_.max_steering_rate_fraction * car.steering_rate,
-            .lateral = LateralAccelerationOnClothoids(car, request_.friction,
-                                                      route_.max_lateral_acceleration),
-            .wheelbase = car.wheelbase};
-  }
-
   [[nodiscard]] double CostOf(const std::vector<Segment>& segments, double speed,
                               std::size_t leg) const {
     const bool counts_time = route_.objective == CurveObjective::kTime;
@@ -202,7 +191,7 @@ class RoutePlanner {
       }
     }
     if (counts_time) {
-      const LegLimits limits = LimitsOfMotion();
+      const LegLimits limits = LimitsOfMotion(route_, request_);
       const bool starts = leg == 0 && request_.start_speed == 0.0;
       const bool ends = leg + 2 == stops_.size();
       cost += LegTime(limits, LegPieces(limits, segments, speed), starts ? 0.0 : speed,
@@ -358,7 +347,8 @@ class RoutePlanner {
         const Segment& segment = leg.segments[i];
         if (leg.speed < speed_ && i >= leg.lead && !IsStraight(segment)) {
           double from = station;
-          for (const LegPiece& piece : LegPieces(LimitsOfMotion(), {segment}, leg.speed)) {
+          for (const LegPiece& piece :
+               LegPieces(LimitsOfMotion(route_, request_), {segment}, leg.speed)) {
             plan.caps.push_back({from, from + piece.length, piece.speed});
             from += piece.length;
           }
@@ -396,6 +386,17 @@ class RoutePlanner {
 };
 
 }  // namespace
+
+LegLimits LimitsOfMotion(const ContinuousRoute& route, const PlanRequest& request) {
+  const VehicleParams& car = request.vehicle;
+  return {.speed = {.speed = std::max(request.speed.speed, route.min_speed),
+                    .acceleration = request.speed.acceleration,
+                    .deceleration = request.speed.deceleration},
+          .steering_rate = route.max_steering_rate_fraction * car.steering_rate,
+          .lateral =
+              LateralAccelerationOnClothoids(car, request.friction, route.max_lateral_acceleration),
+          .wheelbase = car.wheelbase};
+}
 
 double LateralAccelerationOnClothoids(const VehicleParams& vehicle, double friction, double most) {
   const double grip = kGripShare * MaxLateralAcceleration(vehicle, friction);

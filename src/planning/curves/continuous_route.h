@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/planning/curves/continuous_words.h"
+#include "src/planning/curves/leg_speeds.h"
 #include "trackbed/planning/curves/curve_planners.h"
 
 namespace trackbed {
@@ -21,6 +22,9 @@ struct ContinuousRoute {
 /// that the steering can follow at the speed of the leg. The curvature at each waypoint is the one
 /// of a few choices for which the whole route is cheapest.
 Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request);
+
+/// Returns the limits on the motion along a route.
+LegLimits LimitsOfMotion(const ContinuousRoute& route, const PlanRequest& request);
 
 /// Returns the largest lateral acceleration on a path of continuous curvature [m/s^2]. It is
 /// `most`, or a share of the tyres' grip on a road with the factor `friction`, if that is less.

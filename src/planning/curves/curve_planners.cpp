@@ -8,6 +8,7 @@
 #include "src/planning/curves/continuous_or_steps.h"
 #include "src/planning/curves/continuous_route.h"
 #include "src/planning/curves/detours.h"
+#include "src/planning/curves/faster_route.h"
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/curves/drivable_curve.h"
@@ -181,6 +182,18 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
   return route::AlongSegments(std::move(plan), request, std::move(segments), options.min_speed);
 }
 
+/// Returns the requirements of the options on a route of continuous curvature.
+template <typename Options>
+ContinuousRoute RouteFor(const Options& options, const PlanRequest& request, CurveMotion motion) {
+  return {.motion = motion,
+          .objective = options.objective,
+          .max_lateral_acceleration = options.max_lateral_acceleration,
+          .max_steering_rate_fraction = options.max_steering_rate_fraction,
+          .radius = RadiusFor(request.vehicle, options.radius),
+          .safe_distance = options.safe_distance,
+          .min_speed = options.min_speed};
+}
+
 /// Plans a path of curves of continuous curvature.
 template <typename Options>
 Plan PlanContinuous(const Options& options, const PlanRequest& request, CurveMotion motion) {
@@ -190,14 +203,16 @@ Plan PlanContinuous(const Options& options, const PlanRequest& request, CurveMot
       return refused;
     }
   }
-  const ContinuousRoute route{.motion = motion,
-                              .objective = options.objective,
-                              .max_lateral_acceleration = options.max_lateral_acceleration,
-                              .max_steering_rate_fraction = options.max_steering_rate_fraction,
-                              .radius = RadiusFor(request.vehicle, options.radius),
-                              .safe_distance = options.safe_distance,
-                              .min_speed = options.min_speed};
-  return PlanContinuousRoute(route, request);
+  return PlanContinuousRoute(RouteFor(options, request, motion), request);
+}
+
+/// Makes a route of continuous curvature faster, after its legs have been chosen.
+template <typename Options>
+Plan Faster(const Options& options, const PlanRequest& request, CurveMotion motion, Plan plan) {
+  if (options.curvature == CurveCurvature::kSteps) {
+    return plan;
+  }
+  return FasterRoute(RouteFor(options, request, motion), request, std::move(plan));
 }
 
 /// Plans a path of curves among `words`, or of continuous curvature, as the options demand.
@@ -213,17 +228,19 @@ Plan PlanWithCurvature(const Options& options, const PlanRequest& request, Curve
     case CurveCurvature::kAuto:
       break;
   }
-  return ContinuousOrSteps(PlanContinuous(options, request, continuous),
-                           PlanCurves(options, request, words), request);
+  return ContinuousOrSteps(
+      PlanContinuous(options, request, continuous), PlanCurves(options, request, words), request,
+      [&](Plan plan) { return Faster(options, request, continuous, std::move(plan)); });
 }
 
 Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
   const auto length = [](const Pose2& from, const Pose2& to, double radius) {
     return Dubins(from, to, radius).length;
   };
-  return WithoutDetours(request, length, [&](const PlanRequest& own) {
+  Plan plan = WithoutDetours(request, length, [&](const PlanRequest& own) {
     return PlanWithCurvature(options, own, CurveMotion::kForwards, DubinsWords);
   });
+  return Faster(options, request, CurveMotion::kForwards, std::move(plan));
 }
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
@@ -241,9 +258,10 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
   const CurveMotion motion = options.curvature == CurveCurvature::kContinuous
                                  ? CurveMotion::kContinuous
                                  : CurveMotion::kHybrid;
-  return WithoutDetours(request, ReedsSheppLength, [&](const PlanRequest& own) {
+  Plan plan = WithoutDetours(request, ReedsSheppLength, [&](const PlanRequest& own) {
     return PlanWithCurvature(options, own, motion, words);
   });
+  return Faster(options, request, motion, std::move(plan));
 }
 
 }  // namespace

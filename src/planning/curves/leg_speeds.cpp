@@ -39,18 +39,17 @@ double PieceTime(const SpeedLimits& limits, double length, double from, double t
 }  // namespace
 
 std::vector<LegPiece> LegPieces(const LegLimits& limits, const std::vector<Segment>& segments,
-                                double least) {
-  constexpr int kParts = 8;  // of a clothoid; the speed on a part is within 6 % of the limit
+                                double least, int parts) {
   const double lower = std::min(least, limits.speed.speed);
   std::vector<LegPiece> pieces;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& segment = segments[i];
-    const int parts = segment.sharpness == 0.0 ? 1 : kParts;
-    for (int k = 0; k < parts; ++k) {
-      const double from = segment.CurvatureAt(segment.length * k / parts);
-      const double to = segment.CurvatureAt(segment.length * (k + 1) / parts);
+    const int count = segment.sharpness == 0.0 ? 1 : parts;
+    for (int k = 0; k < count; ++k) {
+      const double from = segment.CurvatureAt(segment.length * k / count);
+      const double to = segment.CurvatureAt(segment.length * (k + 1) / count);
       const double speed = MostSpeed(limits, from, to, segment.sharpness);
-      pieces.push_back({segment.length / parts, std::max(speed, lower),
+      pieces.push_back({segment.length / count, std::max(speed, lower),
                         k == 0 && i > 0 && segments[i - 1].direction != segment.direction});
     }
   }

@@ -27,10 +27,10 @@ struct LegPiece {
   bool stops = false;   // the car changes its direction of motion before the piece
 };
 
-/// Splits segments into pieces, clothoids into eight of equal length. The speed of a piece is the
-/// largest that keeps the limits at its ends, but at least `least`.
+/// Splits segments into pieces, each clothoid into `parts` of equal length. The speed of a piece is
+/// the largest that keeps the limits at its ends, but at least `least`.
 std::vector<LegPiece> LegPieces(const LegLimits& limits, const std::vector<Segment>& segments,
-                                double least);
+                                double least, int parts = 8);
 
 /// Returns the driving time of pieces from the speed `start` to the speed `end` [s]. The car speeds
 /// up and brakes at the limits, and stops at changes of direction.

@@ -1,0 +1,246 @@
+#include "src/planning/curves/faster_route.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "src/planning/curves/fastest_leg.h"
+#include "trackbed/planning/common/collision_checker.h"
+#include "trackbed/planning/common/driving_time.h"
+#include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/route.h"
+
+namespace trackbed {
+namespace {
+
+/// Number of parts of equal driving time of a leg; ends of segments add further parts.
+constexpr double kParts = 8.0;
+
+/// Gain in driving time below which a leg stays, as a fraction.
+constexpr double kLeastGain = 0.01;
+
+/// Lowest speed between pieces of a leg [m/s]; a slower car could not follow its path.
+constexpr double kLowestSpeed = 0.1;
+
+/// A part of the route in one direction between two waypoints or cusps.
+struct Section {
+  std::vector<Segment> segments;
+  std::size_t leg = 0;
+  bool is_faster = false;  // than the words of the plan
+
+  [[nodiscard]] double Length() const {
+    double length = 0.0;
+    for (const Segment& segment : segments) {
+      length += segment.length;
+    }
+    return length;
+  }
+};
+
+class RouteRefiner {
+ public:
+  RouteRefiner(const ContinuousRoute& route, const PlanRequest& request, Plan plan)
+      : route_(route),
+        request_(request),
+        clear_(request.vehicle, request.obstacles, route.safe_distance),
+        best_(std::move(plan)),
+        limits_(LimitsOfMotion(route, request)) {}
+
+  [[nodiscard]] Plan Make() {
+    sections_ = SectionsOf(best_);
+    double time = DrivingTime(best_, request_.vehicle);
+    for (std::size_t i = 0; i < sections_.size(); ++i) {
+      std::optional<std::vector<Segment>> faster = Faster(i);
+      if (!faster) {
+        continue;
+      }
+      std::vector<Section> sections = sections_;
+      sections[i].segments = *std::move(faster);
+      sections[i].is_faster = true;
+      Plan plan = PlanOf(sections);
+      const double least_gain = kLeastGain * DurationOf(i);
+      if (const double own = DrivingTime(plan, request_.vehicle);
+          own < time - least_gain && IsFeasible(plan)) {
+        time = own;
+        best_ = std::move(plan);
+        sections_ = std::move(sections);
+      }
+    }
+    return std::move(best_);
+  }
+
+ private:
+  [[nodiscard]] static std::vector<Section> SectionsOf(const Plan& plan) {
+    const auto& curves = plan.diagnostics.planner.As<CurveDiagnostics>()->curves;
+    std::vector<Section> sections;
+    double left = 0.0;  // of the leg [m]
+    std::size_t leg = 0;
+    for (const Segment& segment : plan.reference.path.segments()) {
+      constexpr double kLengthRounding = 1e-9;
+      const bool is_next = left <= kLengthRounding * (1.0 + plan.reference.path.length());
+      if (is_next) {
+        leg = sections.empty() ? 0 : leg + 1;
+        left = curves.at(leg).length;
+      }
+      if (is_next || sections.back().segments.back().direction != segment.direction) {
+        sections.emplace_back().leg = leg;
+      }
+      sections.back().segments.push_back(segment);
+      left -= segment.length;
+    }
+    return sections;
+  }
+
+  [[nodiscard]] double StationOf(std::size_t section) const {
+    double station = 0.0;
+    for (std::size_t i = 0; i < section; ++i) {
+      station += sections_[i].Length();
+    }
+    return station;
+  }
+
+  /// Returns the driving time of a section in the best plan [s].
+  [[nodiscard]] double DurationOf(std::size_t section) const {
+    const double from = StationOf(section);
+    return TimeAt(from + sections_[section].Length()) - TimeAt(from);
+  }
+
+  /// Returns the time at a station of the best plan [s]; stations behind the end are rounded to it.
+  [[nodiscard]] double TimeAt(double station) const {
+    return best_.reference.speed.TimeAt(std::min(station, best_.reference.path.length()));
+  }
+
+  /// Returns whether the car can drive a plan at its speeds.
+  [[nodiscard]] bool IsFeasible(const Plan& plan) const {
+    PlanRequest strict = request_;
+    strict.infeasible = InfeasiblePolicy::kRefuse;
+    return MakeFeasible(plan, strict).ok();
+  }
+
+  /// Returns a faster course of a section that is free of obstacles.
+  [[nodiscard]] std::optional<std::vector<Segment>> Faster(std::size_t section) const {
+    const Section& own = sections_[section];
+    const SpeedProfile& profile = best_.reference.speed;
+    const double from = StationOf(section);
+    const double length = own.Length();
+    FastestLeg leg{.start = own.segments,
+                   .curvature = 1.0 / route_.radius,
+                   .min_speed = std::max(route_.min_speed, kLowestSpeed),
+                   .held_speed = kLowestSpeed,
+                   .limits = limits_};
+    leg.speeds.push_back(profile.SpeedAt(from));
+    const double duration = DurationOf(section);
+    const double chord = Path({}, own.segments).At(length).pose.position().norm();
+    const double least = LegTime(limits_, {{chord, limits_.speed.speed}}, leg.speeds.front(),
+                                 profile.SpeedAt(from + length));
+    // Nothing is faster than the straight line. A small gain is not worth a search.
+    if (!std::isfinite(duration) || duration <= least * (1.0 + kLeastGain)) {
+      return std::nullopt;
+    }
+    double station = from;
+    for (const Segment& segment : own.segments) {
+      const double start = TimeAt(station);
+      const double end = TimeAt(station + segment.length);
+      // Equal segments have equally many parts in spite of rounding.
+      constexpr double kShareRounding = 1e-3;
+      const double parts =
+          std::clamp(std::ceil(kParts * (end - start) / duration - kShareRounding), 1.0, kParts);
+      double done = 0.0;
+      for (double part = 1.0; part <= parts; part += 1.0) {
+        const double to =
+            part == parts
+                ? segment.length
+                : std::clamp(profile.StationAt(start + (end - start) * part / parts) - station,
+                             done, segment.length);
+        leg.lengths.push_back(to - done);
+        leg.speeds.push_back(profile.SpeedAt(station + to));
+        done = to;
+      }
+      station += segment.length;
+    }
+    // A rolling car may start too fast for the mission or for its bend; it then slows down first.
+    const double first = leg.speeds.front();
+    const bool is_slow =
+        *std::max_element(leg.speeds.begin(), leg.speeds.end()) <=
+            request_.speed.speed * (1.0 + 1e-9) &&
+        first * first * std::abs(own.segments.front().curvature) <= limits_.lateral * (1.0 + 1e-9);
+    const bool has_gentle_ends =
+        std::all_of(own.segments.begin(), own.segments.end(), [&](const Segment& segment) {
+          return std::abs(segment.curvature) <= leg.curvature * (1.0 + 1e-9);
+        });
+    if (!is_slow || !has_gentle_ends) {
+      return std::nullopt;
+    }
+    std::optional<std::vector<Segment>> found = FindFasterLeg(leg);
+    if (found && !route::IsFree(clear_, best_.reference.path.At(from).pose, *found)) {
+      found.reset();
+    }
+    return found;
+  }
+
+  [[nodiscard]] Plan PlanOf(const std::vector<Section>& sections) const {
+    Plan plan = best_;
+    plan.caps.clear();
+    CurveDiagnostics diagnostics = *best_.diagnostics.planner.As<CurveDiagnostics>();
+    std::vector<Segment> segments;
+    double station = 0.0;
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+      const Section& section = sections[i];
+      const double length = section.Length();
+      if (section.is_faster) {
+        for (const LegPiece& piece : LegPieces(limits_, section.segments, 0.0, 1)) {
+          plan.caps.push_back({station, station + piece.length, piece.speed});
+          station += piece.length;
+        }
+      } else {
+        const double before = StationOf(i);
+        for (SpeedCap cap : best_.caps) {
+          const double middle = 0.5 * (cap.from + cap.to);
+          if (middle > before && middle < before + length) {
+            cap.from += station - before;
+            cap.to += station - before;
+            plan.caps.push_back(cap);
+          }
+        }
+        station += length;
+      }
+      diagnostics.curves.at(section.leg).length += length - sections_[i].Length();
+      segments.insert(segments.end(), section.segments.begin(), section.segments.end());
+    }
+    plan.diagnostics.planner = std::move(diagnostics);
+    plan.reference.path = Path(request_.start, std::move(segments));
+    route::Complete(plan, request_);
+    return plan;
+  }
+
+  const ContinuousRoute& route_;
+  const PlanRequest& request_;
+  CollisionChecker clear_;
+  Plan best_;
+  LegLimits limits_;
+  std::vector<Section> sections_;
+};
+
+/// Returns whether the curvature is continuous, except at cusps, within rounding.
+bool IsContinuous(const Path& path) {
+  constexpr double kSameCurvature = 1e-9;  // [1/m]
+  const std::vector<Segment>& segments = path.segments();
+  return std::adjacent_find(
+             segments.begin(), segments.end(), [](const Segment& a, const Segment& b) {
+               return a.direction == b.direction &&
+                      std::abs(a.CurvatureAt(a.length) - b.curvature) > kSameCurvature;
+             }) == segments.end();
+}
+
+}  // namespace
+
+Plan FasterRoute(const ContinuousRoute& route, const PlanRequest& request, Plan plan) {
+  const bool can_be_faster = plan.ok() && route.objective == CurveObjective::kTime &&
+                             !request.limits && plan.stops.empty() &&
+                             IsContinuous(plan.reference.path) &&
+                             !plan.reference.path.segments().empty();
+  return can_be_faster ? RouteRefiner(route, request, std::move(plan)).Make() : plan;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,482 @@
+// Minimizes the driving time of a leg by direct transcription into a smooth program.
+//
+// The knots 0 to n separate n pieces. On the piece i, the steering angle delta changes linearly
+// over the time h_i, and so does the speed v. The fastest motion mostly turns its wheels and
+// changes its speed at a limit, so that few pieces suffice. With the acceleration a, the
+// deceleration d, the steering rate omega, the wheelbase L and kappa = tan(delta)/L:
+//   minimize    sum of h_i
+//   subject to  -d h_i <= v_(i+1) - v_i <= a h_i,  |delta_(i+1) - delta_i| <= omega h_i,
+//               v_i^2 |kappa_i| <= lateral acceleration,  and the pose of the goal.
+// Only the last two are nonlinear. The path divides each piece into parts of equal time, on which
+// the curvature is linear over the length. Its end is a sum of integrals over the parts, by
+// Gaussian quadrature. The solution meets the goal to the tolerance of the program; Gauss-Newton
+// steps of the least change of lengths and curvatures meet it exactly. The search amplifies
+// rounding errors of its inputs: it gets rounded inputs, and a leg whose first turn is a left one,
+// so that a moved or mirrored leg has the same solution. Source of the transcription: Betts 2010.
+#include "src/planning/curves/fastest_leg.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <complex>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/optimize/smooth_program.h"
+
+namespace trackbed {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Tolerance of the program, relative to the radius and to the time from lock to straight wheels.
+/// The end is corrected, and the speeds follow from the path.
+constexpr double kTolerance = 1e-3;
+constexpr double kLeastTime = 1e-3;      // of a piece, in the same units
+constexpr double kInputGrid = 0x1p-20;   // of lengths, speeds and angles, in the same units
+constexpr Eigen::Index kPathParts = 16;  // of a piece, on which the curvature is linear
+
+double RoundedInput(double value) {
+  return std::round(value / kInputGrid) * kInputGrid;
+}
+
+/// Points and weights of Gaussian quadrature over [0, 1].
+struct Quadrature {
+  static constexpr std::size_t kPoints = 6;
+  std::array<double, kPoints> at{};
+  std::array<double, kPoints> weight{};
+
+  Quadrature() {
+    using Gauss = boost::math::quadrature::gauss<double, kPoints>;
+    for (std::size_t i = 0; i < kPoints / 2; ++i) {
+      at[2 * i] = 0.5 - 0.5 * Gauss::abscissa()[i];
+      at[2 * i + 1] = 0.5 + 0.5 * Gauss::abscissa()[i];
+      weight[2 * i] = weight[2 * i + 1] = 0.5 * Gauss::weights()[i];
+    }
+  }
+};
+
+/// A piece, with the displacement from its start to its end and its derivatives.
+struct Displacement {
+  Complex total;
+  Complex by_length;
+  Complex by_first;
+  Complex by_last;
+};
+
+Displacement DisplacementOf(double length, double first, double last, double yaw) {
+  static const Quadrature quadrature;
+  Complex sum;
+  Complex turned;
+  Complex by_first;
+  Complex by_last;
+  for (std::size_t k = 0; k < Quadrature::kPoints; ++k) {
+    const double u = quadrature.at[k];
+    const double turn = first * u + 0.5 * (last - first) * u * u;  // per length
+    const Complex way = quadrature.weight[k] * std::polar(1.0, yaw + length * turn);
+    sum += way;
+    turned += turn * way;
+    by_first += (u - 0.5 * u * u) * way;
+    by_last += 0.5 * u * u * way;
+  }
+  constexpr Complex kLeft(0.0, 1.0);
+  return {length * sum, sum + length * kLeft * turned, length * length * kLeft * by_first,
+          length * length * kLeft * by_last};
+}
+
+/// A path of parts with linear curvature, in radii.
+struct LinearParts {
+  Eigen::VectorXd curvatures;  // between the parts and at both ends
+  Eigen::VectorXd lengths;
+};
+
+/// The end of a path of parts, and its derivatives by the curvatures, then by the lengths.
+struct PartsEnd {
+  Eigen::Vector3d end;  // x, y and yaw
+  SmoothValues::Rows rows;
+};
+
+PartsEnd EndOf(const LinearParts& parts) {
+  const Eigen::Index n = parts.lengths.size();
+  std::vector<Displacement> moves;
+  std::vector<Complex> ends;
+  Complex at;
+  double yaw = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double first = parts.curvatures[i];
+    const double last = parts.curvatures[i + 1];
+    moves.push_back(DisplacementOf(parts.lengths[i], first, last, yaw));
+    at += moves.back().total;
+    ends.push_back(at);
+    yaw += 0.5 * parts.lengths[i] * (first + last);
+  }
+  PartsEnd found{.end = {at.real(), at.imag(), yaw},
+                 .rows = SmoothValues::Rows::Zero(3, 2 * n + 1)};
+  constexpr Complex kLeft(0.0, 1.0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double half = 0.5 * parts.lengths[i];
+    const double mean = 0.5 * (parts.curvatures[i] + parts.curvatures[i + 1]);
+    const Complex by_yaw = kLeft * (at - ends[k]);
+    const auto add = [&](Eigen::Index variable, const Complex& moved, double turned) {
+      const Complex total = moved + turned * by_yaw;
+      found.rows.col(variable) += Eigen::Vector3d(total.real(), total.imag(), turned);
+    };
+    add(i, moves[k].by_first, half);
+    add(i + 1, moves[k].by_last, half);
+    add(n + 1 + i, moves[k].by_length, mean);
+  }
+  return found;
+}
+
+/// The program. Units are the smallest radius, the mission's speed, the largest steering angle, and
+/// the time in which the wheels turn by it. The variables are the steering angles and the speeds
+/// between the pieces, and the times of the pieces. The car does not steer on a piece that begins
+/// or ends at rest.
+class LegProgram {
+ public:
+  explicit LegProgram(const FastestLeg& leg)
+      : leg_(leg),
+        n_(static_cast<Eigen::Index>(leg.lengths.size())),
+        held_at_start_(leg.speeds.front() == 0.0 ? 1 : 0),
+        held_at_end_(leg.speeds.back() == 0.0 ? 1 : 0),
+        radius_(1.0 / leg.curvature),
+        speed_(leg.limits.speed.speed),
+        steering_(std::atan(leg.limits.wheelbase * leg.curvature)),
+        time_(steering_ / leg.limits.steering_rate),
+        direction_(leg.start.front().direction) {
+    const Path path({}, leg.start);
+    const Pose2 end = path.At(path.length()).pose;
+    // Forwards: mirrored if the car drives backwards. The heading counts full turns.
+    goal_ = {direction_ * end.x / radius_, end.y / radius_, 0.0};
+    for (const Segment& segment : leg.start) {
+      goal_.z() += segment.length * segment.CurvatureAt(0.5 * segment.length);
+    }
+    const Segment& last = leg.start.back();
+    first_curvature_ = std::clamp(leg.start.front().curvature * radius_, -1.0, 1.0);
+    last_curvature_ = std::clamp(last.CurvatureAt(last.length) * radius_, -1.0, 1.0);
+    first_ = RoundedInput(SteeringOf(first_curvature_ / radius_));
+    last_ = RoundedInput(SteeringOf(last_curvature_ / radius_));
+  }
+
+  [[nodiscard]] SmoothProgram Program() const {
+    SmoothProgram program;
+    program.start = Start().unaryExpr(&RoundedInput);
+    program.lower = Eigen::VectorXd::Constant(Count(), -1.0);
+    program.upper = Eigen::VectorXd::Constant(Count(), 1.0);
+    program.lower.segment(SpeedIndex(1), n_ - 1)
+        .setConstant(std::min(leg_.min_speed / speed_, 1.0));
+    const double held_speed = std::min(leg_.held_speed / speed_, 1.0);
+    if (held_at_start_ > 0) {
+      program.lower[SpeedIndex(1)] = held_speed;
+    }
+    if (held_at_end_ > 0) {
+      program.lower[SpeedIndex(n_ - 1)] = held_speed;
+    }
+    program.lower.tail(n_).setConstant(kLeastTime);
+    program.upper.tail(n_).setConstant(2.0 * program.start.tail(n_).sum() + 1.0);
+    program.equal_count = 3;
+    program.at_most_0_count = 4 * n_ + 2 * (n_ - 1);
+    program.evaluate = [this](const Eigen::VectorXd& x, SmoothValues& values) {
+      Evaluate(x, values);
+    };
+    return program;
+  }
+
+  /// Returns the path of x, and changes it until it ends at the goal, except for rounding; nullopt
+  /// if it does not.
+  [[nodiscard]] std::optional<std::vector<Segment>> PathOf(const Eigen::VectorXd& x) const {
+    constexpr int kMostSteps = 10;
+    constexpr double kGoalRounding = 1e-13;
+    LinearParts parts = PartsOf(x);
+    const Eigen::Index count = parts.lengths.size();
+    const Eigen::Index held_at_start = held_at_start_ * kPathParts;
+    const Eigen::Index held_at_end = held_at_end_ * kPathParts;
+    parts.curvatures.head(held_at_start + 1).setConstant(first_curvature_);
+    parts.curvatures.tail(held_at_end + 1).setConstant(last_curvature_);
+    for (int i = 0; i < kMostSteps; ++i) {
+      PartsEnd found = EndOf(parts);
+      const Eigen::Vector3d miss = found.end - goal_;
+      if (miss.norm() <= kGoalRounding * (1.0 + goal_.norm())) {
+        return Segments(parts);
+      }
+      // The curvatures at both ends stay, and so do those at the limit.
+      for (Eigen::Index k = 0; k <= count; ++k) {
+        if (k <= held_at_start || k >= count - held_at_end ||
+            std::abs(parts.curvatures[k]) >= 1.0) {
+          found.rows.col(k).setZero();
+        }
+      }
+      // Lengths change in proportion to themselves, so that short parts remain.
+      found.rows.rightCols(count) *= parts.lengths.asDiagonal();
+      const Eigen::Matrix3d square = found.rows * found.rows.transpose();
+      const Eigen::VectorXd step =
+          found.rows.transpose() * square.fullPivHouseholderQr().solve(miss);
+      parts.curvatures -= step.head(count + 1);
+      parts.curvatures = parts.curvatures.cwiseMax(-1.0).cwiseMin(1.0);
+      parts.lengths.array() *= 1.0 - step.tail(count).array();
+      if (!step.allFinite() || parts.lengths.minCoeff() <= 0.0) {
+        return std::nullopt;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// Returns the number of variable steering angles.
+  [[nodiscard]] Eigen::Index Steered() const {
+    return std::max<Eigen::Index>(n_ - 1 - held_at_start_ - held_at_end_, 0);
+  }
+  [[nodiscard]] Eigen::Index Count() const { return Steered() + 2 * n_ - 1; }
+  // Indices of the variables at a knot between two pieces, and of a piece.
+  [[nodiscard]] Eigen::Index SteeringIndex(Eigen::Index knot) const {
+    return knot - 1 - held_at_start_;
+  }
+  [[nodiscard]] Eigen::Index SpeedIndex(Eigen::Index knot) const { return Steered() + knot - 1; }
+  [[nodiscard]] Eigen::Index TimeIndex(Eigen::Index piece) const {
+    return Steered() + n_ - 1 + piece;
+  }
+  [[nodiscard]] bool IsInner(Eigen::Index knot) const { return knot > 0 && knot < n_; }
+  [[nodiscard]] bool IsSteered(Eigen::Index knot) const {
+    return knot > held_at_start_ && knot < n_ - held_at_end_;
+  }
+
+  /// Returns the steering angle for a curvature [1/m].
+  [[nodiscard]] double SteeringOf(double curvature) const {
+    return std::clamp(std::atan(leg_.limits.wheelbase * curvature) / steering_, -1.0, 1.0);
+  }
+  /// Returns the curvature for a steering angle, and its derivative.
+  [[nodiscard]] std::array<double, 2> CurvatureOf(double steering) const {
+    const double tan = std::tan(steering_ * steering);
+    const double unit = radius_ / leg_.limits.wheelbase;
+    return {std::clamp(tan * unit, -1.0, 1.0), (1.0 + tan * tan) * steering_ * unit};
+  }
+
+  [[nodiscard]] double Steering(const Eigen::VectorXd& x, Eigen::Index knot) const {
+    return IsSteered(knot) ? x[SteeringIndex(knot)] : knot <= held_at_start_ ? first_ : last_;
+  }
+  [[nodiscard]] double Speed(const Eigen::VectorXd& x, Eigen::Index knot) const {
+    return IsInner(knot)
+               ? x[SpeedIndex(knot)]
+               : RoundedInput((knot == 0 ? leg_.speeds.front() : leg_.speeds.back()) / speed_);
+  }
+
+  [[nodiscard]] Eigen::VectorXd Start() const {
+    Eigen::VectorXd x(Count());
+    std::size_t segment = 0;
+    double within = 0.0;  // distance from the start of the segment [m]
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double length = leg_.lengths[k];
+      const double sum =
+          std::max(leg_.speeds[k], leg_.min_speed) + std::max(leg_.speeds[k + 1], leg_.min_speed);
+      x[TimeIndex(i)] = 2.0 * length / (sum * time_);
+      within += length;
+      // The last part of a segment ends at the segment's end, up to rounding.
+      if (within > leg_.start[segment].length - 0.5 * length && segment + 1 < leg_.start.size()) {
+        within -= leg_.start[segment].length;
+        ++segment;
+      }
+      if (IsSteered(i + 1)) {
+        x[SteeringIndex(i + 1)] =
+            SteeringOf(leg_.start[segment].CurvatureAt(std::max(within, 0.0)));
+      }
+      if (i + 1 < n_) {
+        x[SpeedIndex(i + 1)] = std::clamp(leg_.speeds[k + 1] / speed_, 0.0, 1.0);
+      }
+    }
+    return x;
+  }
+
+  [[nodiscard]] LinearParts PartsOf(const Eigen::VectorXd& x) const {
+    const Eigen::Index count = n_ * kPathParts;
+    LinearParts parts{Eigen::VectorXd(count + 1), Eigen::VectorXd(count)};
+    parts.curvatures[0] = CurvatureOf(first_)[0];
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      const double unit = speed_ * time_ / radius_ / static_cast<double>(kPathParts);
+      for (Eigen::Index k = 0; k < kPathParts; ++k) {
+        const double end = static_cast<double>(k + 1) / static_cast<double>(kPathParts);
+        const double middle = end - 0.5 / static_cast<double>(kPathParts);
+        const Eigen::Index part = i * kPathParts + k;
+        parts.curvatures[part + 1] =
+            CurvatureOf(Steering(x, i) + end * (Steering(x, i + 1) - Steering(x, i)))[0];
+        parts.lengths[part] =
+            unit * x[TimeIndex(i)] * (Speed(x, i) + middle * (Speed(x, i + 1) - Speed(x, i)));
+      }
+    }
+    return parts;
+  }
+
+  [[nodiscard]] std::vector<Segment> Segments(const LinearParts& parts) const {
+    std::vector<Segment> segments;
+    for (Eigen::Index i = 0; i < parts.lengths.size(); ++i) {
+      const double length = parts.lengths[i] * radius_;
+      const double first = parts.curvatures[i] / radius_;
+      const double last = parts.curvatures[i + 1] / radius_;
+      segments.push_back({.length = length,
+                          .curvature = first,
+                          .direction = direction_,
+                          .sharpness = (last - first) / length});
+    }
+    return segments;
+  }
+
+  /// Adds the derivative by the steering or the speed at a knot, unless these are fixed.
+  template <typename Row>
+  void AddSteering(Row&& row, Eigen::Index knot, double value) const {
+    if (IsSteered(knot)) {
+      row[SteeringIndex(knot)] += value;
+    }
+  }
+  template <typename Row>
+  void AddSpeed(Row&& row, Eigen::Index knot, double value) const {
+    if (IsInner(knot)) {
+      row[SpeedIndex(knot)] += value;
+    }
+  }
+
+  void Evaluate(const Eigen::VectorXd& x, SmoothValues& values) const {
+    values.objective = x.tail(n_).sum();
+    values.gradient.tail(n_).setOnes();
+    MeetGoal(x, values);
+    Eigen::Index row = 0;
+    const SpeedLimits& limits = leg_.limits.speed;
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      for (const double sign : {1.0, -1.0}) {
+        const double h = x[TimeIndex(i)];
+        const double most =
+            (sign > 0.0 ? limits.acceleration : limits.deceleration) * time_ / speed_;
+        values.at_most_0[row] = sign * (Speed(x, i + 1) - Speed(x, i)) - most * h;
+        values.at_most_0_rows(row, TimeIndex(i)) = -most;
+        AddSpeed(values.at_most_0_rows.row(row), i + 1, sign);
+        AddSpeed(values.at_most_0_rows.row(row), i, -sign);
+        ++row;
+        values.at_most_0[row] = sign * (Steering(x, i + 1) - Steering(x, i)) - h;
+        values.at_most_0_rows(row, TimeIndex(i)) = -1.0;
+        AddSteering(values.at_most_0_rows.row(row), i + 1, sign);
+        AddSteering(values.at_most_0_rows.row(row), i, -sign);
+        ++row;
+      }
+    }
+    const double most = leg_.limits.lateral * radius_ / (speed_ * speed_);
+    for (Eigen::Index knot = 1; knot < n_; ++knot) {
+      for (const double sign : {1.0, -1.0}) {
+        const double v = Speed(x, knot);
+        const auto [curvature, slope] = CurvatureOf(Steering(x, knot));
+        values.at_most_0[row] = sign * v * v * curvature - most;
+        AddSteering(values.at_most_0_rows.row(row), knot, sign * v * v * slope);
+        AddSpeed(values.at_most_0_rows.row(row), knot, 2.0 * sign * v * curvature);
+        ++row;
+      }
+    }
+  }
+
+  /// Sets the distances from the goal, with the derivatives by the chain rule over the parts.
+  void MeetGoal(const Eigen::VectorXd& x, SmoothValues& values) const {
+    const PartsEnd found = EndOf(PartsOf(x));
+    values.equal = found.end - goal_.unaryExpr(&RoundedInput);
+    const Eigen::Index count = n_ * kPathParts;
+    const double unit = speed_ * time_ / radius_ / static_cast<double>(kPathParts);
+    for (int axis = 0; axis < 3; ++axis) {
+      auto row = values.equal_rows.row(axis);
+      for (Eigen::Index part = 0; part < count; ++part) {
+        const Eigen::Index i = part / kPathParts;
+        const double end =
+            static_cast<double>(part % kPathParts + 1) / static_cast<double>(kPathParts);
+        const double middle = end - 0.5 / static_cast<double>(kPathParts);
+        const double steering = Steering(x, i) + end * (Steering(x, i + 1) - Steering(x, i));
+        const double by_steering = found.rows(axis, part + 1) * CurvatureOf(steering)[1];
+        AddSteering(row, i, (1.0 - end) * by_steering);
+        AddSteering(row, i + 1, end * by_steering);
+        const double by_length = found.rows(axis, count + 1 + part) * unit;
+        const double v = Speed(x, i) + middle * (Speed(x, i + 1) - Speed(x, i));
+        row[TimeIndex(i)] += by_length * v;
+        AddSpeed(row, i, (1.0 - middle) * by_length * x[TimeIndex(i)]);
+        AddSpeed(row, i + 1, middle * by_length * x[TimeIndex(i)]);
+      }
+    }
+  }
+
+  const FastestLeg& leg_;
+  Eigen::Index n_;
+  Eigen::Index held_at_start_;  // number of pieces without steering at the start
+  Eigen::Index held_at_end_;
+  double radius_;    // [m]
+  double speed_;     // [m/s]
+  double steering_;  // [rad]
+  double time_;      // [s]
+  int direction_;
+  double first_curvature_ = 0.0;  // of the leg at both ends, in 1/radius
+  double last_curvature_ = 0.0;
+  double first_ = 0.0;  // steering angles at both ends, rounded
+  double last_ = 0.0;
+  Eigen::Vector3d goal_;  // x, y and yaw
+};
+
+/// Returns the leg with a further part at each end at rest, on which the car reaches the speed at
+/// which it starts to steer, or brakes from the speed at which it stops to.
+FastestLeg WithPartsAtRest(FastestLeg leg) {
+  const double speed = std::min(leg.held_speed, leg.limits.speed.speed);
+  const auto part = [speed](double acceleration, double most) {
+    return std::min(0.5 * speed * speed / acceleration, 0.5 * most);
+  };
+  if (leg.speeds.front() == 0.0) {
+    const double length = part(leg.limits.speed.acceleration, leg.lengths.front());
+    leg.lengths.front() -= length;
+    leg.lengths.insert(leg.lengths.begin(), length);
+    leg.speeds.insert(leg.speeds.begin() + 1, speed);
+  }
+  if (leg.speeds.back() == 0.0) {
+    const double length = part(leg.limits.speed.deceleration, leg.lengths.back());
+    leg.lengths.back() -= length;
+    leg.lengths.push_back(length);
+    leg.speeds.insert(leg.speeds.end() - 1, speed);
+  }
+  return leg;
+}
+
+/// Returns whether the first bend of the segments is a bend to the right.
+bool TurnsRightFirst(const std::vector<Segment>& segments, double most) {
+  for (const Segment& segment : segments) {
+    const double bend = segment.CurvatureAt(0.5 * segment.length);
+    if (std::abs(bend) > kInputGrid * most) {
+      return bend < 0.0;
+    }
+  }
+  return false;
+}
+
+void MirrorSegments(std::vector<Segment>& segments) {
+  for (Segment& segment : segments) {
+    segment.curvature = -segment.curvature;
+    segment.sharpness = -segment.sharpness;
+    segment.sharpness_rate = -segment.sharpness_rate;
+  }
+}
+
+}  // namespace
+
+std::optional<std::vector<Segment>> FindFasterLeg(const FastestLeg& leg) {
+  constexpr int kEvaluations = 200;
+  FastestLeg own = WithPartsAtRest(leg);
+  if (leg.lengths.size() < 2) {
+    return std::nullopt;
+  }
+  const bool is_mirrored = TurnsRightFirst(own.start, own.curvature);
+  if (is_mirrored) {
+    MirrorSegments(own.start);
+  }
+  const LegProgram program(own);
+  const SmoothSolution solution = Minimize(program.Program(), kEvaluations, kTolerance);
+  std::optional<std::vector<Segment>> found;
+  if (solution.ok) {
+    found = program.PathOf(solution.x);
+  }
+  if (found && is_mirrored) {
+    MirrorSegments(*found);
+  }
+  return found;
+}
+
+}  // namespace trackbed
