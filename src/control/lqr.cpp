@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/control/bounded_regulator.h"
 #include "src/control/control_keys.h"
 #include "src/control/error_model.h"
 #include "src/control/ramped_path.h"
@@ -31,15 +32,11 @@ class Lqr final : public SteeringController {
     ErrorWeights weights = WeightsFor(vehicle, options_, model.speed, input.period);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z);
 
-    double rate = -regulator.gain.dot(z);
-    // Computes B^T (A_c^T)^k P from A_c^k B.
-    const ErrorModel::Matrix closed = model.a - model.b * regulator.gain;
-    ErrorModel::Vector reach = model.b;
+    bounded_.Clear();
     for (long k = 0; k < steps; ++k) {
-      const ErrorModel::Vector push = regulator.cost * ahead.Next();
-      rate -= reach.dot(push) / regulator.input_cost;
-      reach = (closed * reach).eval();
+      bounded_.Append(ahead.Next());
     }
+    const double rate = bounded_.Input(model, regulator, z, vehicle.steering_rate);
     return angle_.Turn(input, rate);
   }
 
@@ -47,6 +44,7 @@ class Lqr final : public SteeringController {
   LqrOptions options_;
   CommandedAngle angle_;
   RampedPath path_;
+  BoundedRegulator bounded_;
   TurnRound turn_round_;
 };
 

@@ -10,14 +10,18 @@ namespace trackbed {
 /// The linear-quadratic regulator with preview. For the linear error model
 /// (docs/algorithms/control.md), the regulator minimizes the sum over all control periods of
 ///   cross_track e^2 + heading (psi - psi_0)^2 + steering_rate w^2.
-/// The minimization ignores the car's limits on steering angle and steering rate.
+/// The minimization includes the car's limit of the steering rate within the preview. It ignores
+/// the limit of the steering angle.
 ///
 /// Symbols: e, psi cross-track and heading error of the rear axle [m, rad]; w steering rate
 /// [rad/s], the input, held over a control period; delta_0, psi_0 steering and heading error of the
 /// steady turn on the path's curvature, with understeer; z the deviation of the state from that
 /// turn; g_k change of the path's curvature k periods ahead; K gain, P solution of the discrete
 /// Riccati equation; A_c = A - B K. The steering rate is
-///   w = -K z - (R + B'PB)^-1 B' sum_k (A_c')^k P g_k.
+///   w = -K z - (R + B'PB)^-1 B' sum_k (A_c')^k P g_k
+/// unless this law exceeds the limit of the steering rate within the preview. Then w is the first
+/// input of the quadratic program with this limit (src/control/bounded_regulator.h), so the wheels
+/// begin to turn back in time.
 /// The car is modeled by the dynamic single-track model at the present speed, with the axle forces
 /// that TyreForces selects. A car without tyre coefficients is modeled as the kinematic car. The
 /// dynamic and the kinematic model both include the steering actuator and the steering lag. The
@@ -27,14 +31,15 @@ namespace trackbed {
 /// angle. This integral action compensates delay, backlash and gain errors of the actuator.
 ///
 /// On a path of constant curvature, the regulator commands the angle delta_0 to a car without
-/// tracking error. Steering rate and angle are clipped to the car's limits after the regulator has
-/// computed them. The controller of MpcOptions accounts for these limits in its optimization. The
+/// tracking error. The steering angle is clipped to the car's limit after the regulator has
+/// computed it. The controller of MpcOptions accounts for this limit in its optimization. The
 /// weight of the steering rate grows with the car's distance from the path, so that the
 /// rate-limited steering can follow the commands. The regulator limits the angle at which the car
 /// approaches the path to 0.6 rad. On paths that are driven in reverse, the regulator uses the same
 /// model with a negative speed u. Cost per control period, with a preview of 100 periods: 55 us for
-/// a car on its path, 0.5 ms for a car several meters off its path. The LQR controller allocates no
-/// heap memory.
+/// a car on its path; up to 0.5 ms more for a car several meters off its path, and up to 0.55 ms
+/// more while it predicts rates beyond the limit. The LQR controller allocates heap memory in its
+/// first control period only.
 struct LqrOptions {
   std::optional<double> cross_track;  ///< Weight of the cross-track error [1/m^2], > 0; default:
                                       ///< (2.7/L)^2, with the wheelbase L in m.
