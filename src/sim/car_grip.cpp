@@ -80,7 +80,8 @@ GripModel MakeGripModel(const CarModel& car, TyreLaw law) {
   GripModel grip{.forces = Forces(car),
                  .wheelbase = params.wheelbase,
                  .cg_height = params.braking.axles[0].transfer * params.wheelbase,
-                 .drag_height = parts.aerodynamics.center_of_pressure[1]};
+                 .drag_height = parts.aerodynamics.center_of_pressure[1],
+                 .steering_limit = params.steering_limit};
   const bool formula = SelectTyreLaw(car, law) == TyreLaw::kMagicFormula && parts.tyres;
   constexpr double kRigid = 1e4;  // [N m/rad/kg]
   for (std::size_t i = 0; i < grip.axles.size(); ++i) {

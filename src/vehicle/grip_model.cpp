@@ -78,6 +78,8 @@ struct AxleGripState {
   // Slip angle at the required lateral force or, if the axle cannot generate this force, at the
   // largest lateral force [rad].
   double angle = 0.0;
+  // Lateral force of the outer wheel minus that of the inner wheel at `angle` [N].
+  double difference = 0.0;
 };
 
 AxleGripState OnFrictionCircles(double friction, const AxleDemand& demand) {
@@ -87,7 +89,9 @@ AxleGripState OnFrictionCircles(double friction, const AxleDemand& demand) {
     if (std::abs(demand.along) > most) {
       return {};
     }
-    state.most += std::sqrt(most * most - demand.along * demand.along);
+    const double across = std::sqrt(most * most - demand.along * demand.along);
+    state.difference = across - state.most;
+    state.most += across;
   }
   return state;
 }
@@ -96,12 +100,15 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
   if (!axle.tyre) {
     return OnFrictionCircles(axle.friction, demand);
   }
+  const auto wheel_at = [&](double load, double angle) {
+    // A positive lateral force requires a negative slip angle.
+    return TyreLateral(*axle.tyre, load, demand.road, demand.along,
+                       {.angle = -angle, .camber = demand.camber});
+  };
   const auto lateral_at = [&](double angle) {
     double sum = 0.0;
     for (const double load : demand.load) {
-      // A positive lateral force requires a negative slip angle.
-      const std::optional<double> own = TyreLateral(*axle.tyre, load, demand.road, demand.along,
-                                                    {.angle = -angle, .camber = demand.camber});
+      const std::optional<double> own = wheel_at(load, angle);
       if (!own) {
         return kInfeasibleGrip;
       }
@@ -124,8 +131,13 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
     const double middle = 0.5 * (low + state.angle);
     (lateral_at(middle) < wanted ? low : state.angle) = middle;
   }
+  state.difference = wheel_at(demand.load[1], state.angle).value_or(0.0) -
+                     wheel_at(demand.load[0], state.angle).value_or(0.0);
   return state;
 }
+
+/// Whether the angle of the front wheels is neglected.
+enum class FrontWheels { kStraight, kSteered };
 
 /// Determines which accelerations f_x and f_y the car can hold in a steady state.
 class SteadyState {
@@ -133,6 +145,7 @@ class SteadyState {
   SteadyState(const GripModel& car, double road, double speed)
       : car_(car),
         road_(road),
+        speed_(speed),
         drag_(car.forces.drag * speed * speed),
         weight_(car.forces.mass * kGravity) {
     roll_stiffness_ = car.axles[0].roll_stiffness + car.axles[1].roll_stiffness;
@@ -140,24 +153,33 @@ class SteadyState {
   }
 
   /// Returns whether both axles can generate the forces that the accelerations require. The tyres
-  /// must also overcome the drag due to their slip angles. The drag due to the slip angles depends
-  /// on the tyre forces, so AxlesHold uses a fixed-point iteration.
-  [[nodiscard]] bool AxlesHold(double longitudinal, double lateral) const {
-    // Each iteration reduces the error of the drag to about a tenth.
-    constexpr int kDragIterations = 4;
+  /// must also overcome the drag due to their slip angles, and turn the car with front wheels at
+  /// the steering angle of the turn, unless `wheels` is kStraight. Both depend on the slip angles
+  /// of the axles, so AxlesHold uses a fixed-point iteration.
+  [[nodiscard]] bool AxlesHold(double longitudinal, double lateral, FrontWheels wheels) const {
+    // Each iteration reduces the error of the slip angles to about a tenth.
+    constexpr int kIterations = 4;
+    AxleLoads needed = StraightAhead(lateral);
     double slip_drag = 0.0;  // [m/s^2]
     bool hold = true;
-    for (int round = 0; round < kDragIterations; ++round) {
-      double next = 0.0;
+    for (int round = 0; round < kIterations; ++round) {
+      std::array<AxleGripState, 2> states;
+      double along_front = 0.0;
       hold = true;
-      for (std::size_t i = 0; i < car_.axles.size(); ++i) {
+      for (std::size_t i = 0; i < states.size(); ++i) {
         const AxleDemand demand = DemandOn(i, longitudinal, longitudinal + slip_drag, lateral);
-        const double wanted = car_.forces.mass * lateral * car_.axles[i].weight;
-        const AxleGripState state = FindGrip(car_.axles[i], demand, wanted);
-        hold = hold && state.most >= wanted;
-        next += lateral * car_.axles[i].weight * state.angle;
+        along_front = i == 0 ? demand.along : along_front;
+        states[i] = FindGrip(car_.axles[i], demand, needed[i]);
+        hold = hold && states[i].most >= needed[i];
       }
-      if (std::abs(next - slip_drag) < kSameDrag) {
+      const double next = lateral * (car_.axles[0].weight * states[0].angle +
+                                     car_.axles[1].weight * states[1].angle);
+      const AxleLoads before = needed;
+      if (wheels == FrontWheels::kSteered) {
+        needed = InTheTurn(lateral, along_front, states);
+      }
+      if (std::abs(next - slip_drag) < kSameDrag &&
+          std::abs(needed[0] - before[0]) < kSameDrag * car_.forces.mass) {
         break;
       }
       slip_drag = next;
@@ -166,7 +188,7 @@ class SteadyState {
   }
 
   [[nodiscard]] bool Holds(double longitudinal, double lateral) const {
-    return lateral <= RollOver() && AxlesHold(longitudinal, lateral);
+    return lateral <= RollOver() && AxlesHold(longitudinal, lateral, FrontWheels::kStraight);
   }
 
   /// Returns the largest lateral acceleration f_y that the car can hold at the longitudinal
@@ -174,6 +196,15 @@ class SteadyState {
   [[nodiscard]] double MaxLateral(double longitudinal) const {
     return Largest(0.0, kMaxAcceleration,
                    [&](double lateral) { return Holds(longitudinal, lateral); });
+  }
+
+  /// Returns the largest lateral acceleration f_y up to `most` that the car can hold at f_x with
+  /// its front wheels at the steering angle of the turn.
+  [[nodiscard]] double MaxLateralSteered(double longitudinal, double most) const {
+    const auto holds = [&](double lateral) {
+      return AxlesHold(longitudinal, lateral, FrontWheels::kSteered);
+    };
+    return holds(most) ? most : Largest(0.0, most, holds);
   }
 
   /// Starting at `from`, returns the last longitudinal acceleration f_x in the direction of `side`
@@ -187,8 +218,34 @@ class SteadyState {
  private:
   // Upper bound of accelerations [m/s^2], which no car without downforce reaches.
   static constexpr double kMaxAcceleration = 40.0;
-  // Change of the drag per mass at which the iteration ends [m/s^2].
+  // Change of the drag and of the front axle's force, per mass, at which the iteration ends
+  // [m/s^2].
   static constexpr double kSameDrag = 0.005;
+
+  /// Lateral forces of the front and the rear axle, perpendicular to their wheels [N].
+  using AxleLoads = std::array<double, 2>;
+
+  /// Returns the forces without a steering angle. Each axle carries its fraction of the weight.
+  [[nodiscard]] AxleLoads StraightAhead(double lateral) const {
+    const double force = car_.forces.mass * lateral;
+    return {force * car_.axles[0].weight, force * car_.axles[1].weight};
+  }
+
+  /// Returns the forces in a steady turn with the slip angles and force differences of `axles`.
+  /// `along` is the longitudinal force of each front wheel [N].
+  [[nodiscard]] AxleLoads InTheTurn(double lateral, double along,
+                                    const std::array<AxleGripState, 2>& axles) const {
+    const double steering = std::clamp(
+        std::atan(car_.wheelbase * lateral / (speed_ * speed_)) + axles[0].angle - axles[1].angle,
+        0.0, car_.steering_limit);
+    // The outer front wheel exerts more lateral force than the inner one. At a steering angle, this
+    // difference has a component along the car, whose moment turns the car out of the bend.
+    const double outwards =
+        0.5 * axles[0].difference * std::sin(steering) * car_.axles[0].track / car_.wheelbase;
+    const AxleLoads straight = StraightAhead(lateral);
+    return {(straight[0] + outwards - 2.0 * along * std::sin(steering)) / std::cos(steering),
+            straight[1] - outwards};
+  }
 
   /// Returns the wheel loads and longitudinal forces of axle i. The argument `wheels` is the sum of
   /// the longitudinal tyre forces, divided by the car's mass [m/s^2].
@@ -233,6 +290,7 @@ class SteadyState {
 
   const GripModel& car_;
   double road_;
+  double speed_;           // Speed [m/s].
   double drag_;            // Aerodynamic drag [N].
   double weight_;          // Weight of the car [N].
   double roll_stiffness_;  // Sum of the roll stiffnesses of both axles [N m/rad].
@@ -258,6 +316,50 @@ GgvSection ComputeSection(const GripModel& car, double road, double speed) {
     section.braking.push_back(state.Reach(best, -1.0, lateral));
   }
   return section;
+}
+
+/// Returns the speeds of the sections of a diagram [m/s]. Drag and its load transfer are linear in
+/// the squared speed, like the interpolation between sections. The curvature of a turn is inversely
+/// proportional to the squared speed, so the squared speeds of the sections double, from the speed
+/// at which a turn with full lock needs 1 g. Slower turns at the limit do not exist.
+std::vector<double> TableSpeeds(const GripModel& car, double top) {
+  std::vector<double> speeds;
+  const double slowest = std::sqrt(kGravity * car.wheelbase / std::tan(car.steering_limit));
+  for (double speed = slowest; speed < top / std::numbers::sqrt2; speed *= std::numbers::sqrt2) {
+    speeds.push_back(speed);
+  }
+  speeds.push_back(top);
+  return speeds;
+}
+
+std::vector<double> Interpolate(const std::vector<double>& from, const std::vector<double>& to,
+                                double share) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    values.push_back(std::lerp(from[i], to[i], share));
+  }
+  return values;
+}
+
+/// Returns the sections of a car that steers. `slow` and `fast` are sections without steering
+/// angle, at speed 0 and at the largest speed. The steering angle reduces the largest lateral
+/// acceleration; at the same fraction of it, the car drives and brakes as without steering angle.
+std::vector<GgvSection> SteeredSections(const GripModel& car, const GgvSection& slow,
+                                        const GgvSection& fast) {
+  std::vector<GgvSection> sections;
+  for (const double speed : TableSpeeds(car, fast.speed)) {
+    const double share = speed * speed / (fast.speed * fast.speed);
+    GgvSection section;
+    section.speed = speed;
+    section.road = slow.road;
+    section.driving = Interpolate(slow.driving, fast.driving, share);
+    section.braking = Interpolate(slow.braking, fast.braking, share);
+    section.lateral = SteadyState(car, slow.road, speed)
+                          .MaxLateralSteered(section.driving.front(),
+                                             std::lerp(slow.lateral, fast.lateral, share));
+    sections.push_back(std::move(section));
+  }
+  return sections;
 }
 
 void CheckModel(const GripModel& car, const std::vector<double>& roads) {
@@ -287,18 +389,29 @@ double MaxLateralForce(const GripModel& car, double road, double longitudinal) {
 
 GgvDiagram ComputeGgv(const GripModel& car, const std::vector<double>& roads) {
   CheckModel(car, roads);
-  // The table needs only two speeds, because drag and the load transfer by drag are linear in the
-  // squared speed.
   constexpr double kMaxTableSpeed = 60.0;  // [m/s]
-  std::vector<double> speeds{0.0};
-  if (car.forces.drag > 0.0 && car.drag_height != car.cg_height) {
-    speeds.push_back(car.forces.top_speed > 0.0 ? std::min(car.forces.top_speed, kMaxTableSpeed)
-                                                : kMaxTableSpeed);
-  }
+  const double top =
+      car.forces.top_speed > 0.0 ? std::min(car.forces.top_speed, kMaxTableSpeed) : kMaxTableSpeed;
+  // Without steering angles, drag and the load transfer by drag are linear in the squared speed, so
+  // two speeds suffice.
+  const bool drags = car.forces.drag > 0.0 && car.drag_height != car.cg_height;
   std::vector<GgvSection> sections;
   for (const double road : roads) {
-    for (const double speed : speeds) {
-      sections.push_back(ComputeSection(car, road, speed));
+    GgvSection slow = ComputeSection(car, road, 0.0);
+    GgvSection fast = slow;
+    fast.speed = top;
+    if (drags) {
+      fast = ComputeSection(car, road, top);
+    }
+    if (car.steering_limit > 0.0) {
+      for (GgvSection& section : SteeredSections(car, slow, fast)) {
+        sections.push_back(std::move(section));
+      }
+      continue;
+    }
+    sections.push_back(std::move(slow));
+    if (drags) {
+      sections.push_back(std::move(fast));
     }
   }
   return {car.forces, std::move(sections)};

@@ -129,6 +129,42 @@ TEST(GripModel, DragPressesOnTheRearAxle) {
   EXPECT_NEAR(diagram.TyresAt({.speed = speed}).driving, expected, Tolerance(3.0 * kHalved));
 }
 
+TEST(GripModel, SteeredWheelsPullSideways) {
+  // A point mass on friction circles turns without slip angles at the radius v^2/f_y, with front
+  // wheels at delta = atan(L f_y/v^2). Across the car, the front axle has the part 0.6 of the
+  // weight and of the drive force f_x, so it slides if (f_y - f_x sin(delta))/cos(delta) =
+  // sqrt((mu g)^2 - f_x^2).
+  GripModel car = Car(1e-6);
+  car.axles[0].driving = 0.6;
+  car.axles[1].driving = 0.4;
+  car.steering_limit = 0.6;
+  const double grip = kGrip * kGravity;
+  const GgvDiagram steered = ComputeGgv(car, {1.0});
+  ASSERT_GE(steered.sections().size(), 3U);
+  for (const GgvSection& section : steered.sections()) {
+    SCOPED_TRACE(section.speed);
+    const double along = section.driving.front();
+    const double circle = std::sqrt(grip * grip - along * along);
+    double low = 0.0;
+    double high = grip;
+    for (int i = 0; i < 50; ++i) {
+      const double lateral = 0.5 * (low + high);
+      const double delta = std::min(
+          std::atan(car.wheelbase * lateral / (section.speed * section.speed)), car.steering_limit);
+      const bool holds = lateral - along * std::sin(delta) < circle * std::cos(delta);
+      (holds ? low : high) = lateral;
+    }
+    // The iteration ends if the force on the front axle, which carries 0.6 of the lateral force,
+    // changes by less than 0.005 m/s^2 per mass of the car.
+    EXPECT_NEAR(section.lateral, low, Tolerance(0.005 / 0.6 + 2.0 * kHalved));
+  }
+  // At the least speed the wheels are at full lock, at which the loss is that of the cosine.
+  EXPECT_LT(steered.sections().front().lateral, 0.95 * grip);
+  EXPECT_NEAR(steered.MaxLateral({.speed = 60.0}), grip, Tolerance(0.01 * grip));
+  car.steering_limit = 0.0;
+  EXPECT_NEAR(ComputeGgv(car, {1.0}).MaxLateral({.speed = 1.0}), grip, Tolerance(2.0 * kHalved));
+}
+
 TEST(GripModel, FrictionOfParametersIsAnEllipse) {
   VehicleParams vehicle;
   vehicle.mass = 3.0;

@@ -18,11 +18,23 @@ double FastestOn(const LapLimits& limits) {
   return wanted > 0.0 && top > 0.0 ? std::min(wanted, top) : std::max(wanted, top);
 }
 
+/// Returns the largest lateral force that the car may use at any speed [m/s^2].
+double LargestLateral(const LapLimits& limits) {
+  double largest = 0.0;
+  // Between the sections, the force is linear in the squared speed.
+  for (const GgvSection& section : limits.diagram.sections()) {
+    largest =
+        std::max(largest, limits.diagram.MaxLateral({.speed = section.speed, .road = limits.road}));
+  }
+  return limits.options.share * largest;
+}
+
 }  // namespace
 
 LapModel::LapModel(const Track& track, const LapLimits& limits, std::size_t count)
     : limits_(limits),
       fastest_(FastestOn(limits)),
+      lateral_(LargestLateral(limits)),
       step_(track.length() / static_cast<double>(count)) {
   centers_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -65,10 +77,8 @@ double LapModel::SpeedOfTurn(const Lap& lap, std::size_t i) const {
   const double to = lap.curvature[After(i)];
   // Beyond the lateral grip, the brush model does not slip more, and the car cannot drive anyway.
   const double sharpest = std::max(std::abs(from), std::abs(to));
-  const double lateral =
-      limits_.options.share * limits_.diagram.MaxLateral({.speed = 0.0, .road = limits_.road});
   const double most =
-      sharpest * fastest_ * fastest_ > lateral ? std::sqrt(lateral / sharpest) : fastest_;
+      sharpest * fastest_ * fastest_ > lateral_ ? std::sqrt(lateral_ / sharpest) : fastest_;
   const auto beyond = [&](double speed) {
     const double turned = SteeringAt(to, speed) - SteeringAt(from, speed);
     return speed * std::abs(turned) / lap.lengths[i] - UsableRate();

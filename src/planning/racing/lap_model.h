@@ -65,6 +65,7 @@ class LapModel {
 
   LapLimits limits_;
   double fastest_;
+  double lateral_;  // largest lateral force at any speed [m/s^2]
   double step_;
   std::vector<PathPoint> centers_;
 };
