@@ -13,6 +13,7 @@
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/single_track_car.h"
 #include "trackbed/vehicle/steering_actuator.h"
+#include "trackbed/vehicle/steering_reach.h"
 #include "trackbed/vehicle/steering_response.h"
 
 // Compensates the delay of the steering actuator for every control law:
@@ -265,7 +266,11 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
   double SteerWithin(const ControlInput& input, const VehicleState& state) {
     ControlInput ahead = Ahead(input, state);
     const double curvature = input.reference.path.BendAt(ahead.station).curvature;
-    const SteeringRange range = AllowedSteering(vehicle_, state, curvature);
+    SteeringRange range = AllowedSteering(vehicle_, state, curvature);
+    if (knowledge_ == ActuatorKnowledge::kModel) {
+      range.lowest = std::max(range.lowest, -SteeringReach(input.vehicle, -1.0));
+      range.highest = std::min(range.highest, SteeringReach(input.vehicle, 1.0));
+    }
     vehicle_.steering_limit = std::max(-range.lowest, range.highest);
     return std::clamp(inner_->Steer(ahead), range.lowest, range.highest);
   }
