@@ -62,6 +62,81 @@ Bulge BulgeAfter(const Curve& curve, std::size_t knot, const Vec2& from, const V
   return bulge;
 }
 
+/// Returns the absolute change of direction at each point; 0 at the ends of an open path.
+std::vector<double> TurnsOf(const ChordPoints& fitted, double period) {
+  std::vector<double> turns(fitted.points.size(), 0.0);
+  ForEachTurn(fitted, period,
+              [&](std::size_t i, double angle, double /*shorter*/) { turns[i] = std::abs(angle); });
+  return turns;
+}
+
+/// Returns the length of the step after each point.
+std::vector<double> StepsOf(const ChordPoints& fitted, double period) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < fitted.u.size(); ++i) {
+    steps.push_back(fitted.u[i] - fitted.u[i - 1]);
+  }
+  if (period > 0.0) {
+    steps.push_back(period - fitted.u.back());
+  }
+  return steps;
+}
+
+/// Returns whether the points turn on a step by less than a quarter of the curvature beside it, as
+/// where the points of a straight are left out. In a gap on an arc, both curvatures are equal; at
+/// the begin of an arc, the former is half of the latter.
+bool IsStraighter(const std::vector<double>& turns, const std::vector<double>& lengths,
+                  std::size_t step, double period) {
+  const std::size_t count = lengths.size();
+  const bool closed = period > 0.0;
+  const auto length = [&](std::size_t i) { return lengths[i % count]; };
+  const auto turn = [&](std::size_t i) { return turns[i % turns.size()]; };
+  double curvature = 0.0;
+  double beside = 0.0;
+  if (closed || step > 0) {
+    beside += 0.5 * length(step + count - 1);
+  }
+  if (closed || step + 1 < count) {
+    beside += 0.5 * length(step + 1);
+  }
+  if (closed || step > 1) {
+    const double pair = length(step + count - 2) + length(step + count - 1);
+    curvature = std::max(curvature, 2.0 * turn(step + turns.size() - 1) / pair);
+  }
+  if (closed || step + 2 < count) {
+    curvature = std::max(curvature, 2.0 * turn(step + 2) / (length(step + 1) + length(step + 2)));
+  }
+  return turn(step) + turn(step + 1) < 0.25 * curvature * (length(step) + beside);
+}
+
+/// Returns shares of a step, ascending, at which points are added: their distances grow from
+/// `first` at the begin and `last` at the end [m] towards the middle. A spline of degree 5 that
+/// swings aside between knots at equal distances does so less from knot to knot, by a factor of
+/// about 0.43. The growth is much less than the inverse of the factor, so the swing in meters
+/// falls, too.
+std::vector<double> SharesOn(double length, double first, double last) {
+  constexpr double kGrowth = 1.25;
+  std::vector<double> begin;
+  std::vector<double> end;
+  double from = first;
+  double to = length - last;
+  double grown = first;
+  double shrunk = last;
+  while (from < to) {
+    if (grown <= shrunk) {
+      begin.push_back(from / length);
+      grown *= kGrowth;
+      from += grown;
+    } else {
+      end.push_back(to / length);
+      shrunk *= kGrowth;
+      to -= shrunk;
+    }
+  }
+  begin.insert(begin.end(), end.rbegin(), end.rend());
+  return begin;
+}
+
 /// Returns the length by which the polyline shrinks if a point is removed [m].
 double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
   const double before = i > 0 ? (points[i] - points[i - 1]).norm() : 0.0;
@@ -75,9 +150,7 @@ double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
 Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, double period,
                 double tolerance) {
   const std::size_t count = fitted.points.size();
-  std::vector<double> turns(count, 0.0);
-  ForEachTurn(fitted, period,
-              [&](std::size_t i, double angle, double /*shorter*/) { turns[i] = std::abs(angle); });
+  const std::vector<double> turns = TurnsOf(fitted, period);
   Bulge largest;
   for (std::size_t i = 0; i + 1 < count + (period > 0.0 ? 1 : 0); ++i) {
     const std::size_t next = (i + 1) % count;
@@ -90,6 +163,59 @@ Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, doubl
     largest = own.distance > largest.distance ? own : largest;
   }
   return largest;
+}
+
+std::vector<std::size_t> StraightSteps(const CurveBetweenKnots& curve, const ChordPoints& fitted,
+                                       double period, double tolerance) {
+  constexpr double kLong = 4.0;                // Times the median, as on tracks (TrackSteps).
+  constexpr double kLargestTurn = 0.25 * kPi;  // A larger turn at an end may be a wrong point.
+  const std::vector<double> turns = TurnsOf(fitted, period);
+  const std::vector<double> lengths = StepsOf(fitted, period);
+  std::vector<double> sorted = lengths;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const bool has_aside = FindBulge(curve, fitted, period, tolerance).IsAside(tolerance);
+  std::vector<std::size_t> straight;
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const std::size_t next = (i + 1) % fitted.points.size();
+    const bool is_long = lengths[i] > kLong * *middle && IsStraighter(turns, lengths, i, period);
+    if ((!is_long && !has_aside) || std::max(turns[i], turns[next]) > kLargestTurn) {
+      continue;
+    }
+    const Bulge own =
+        BulgeAfter([&](double share) -> Vec2 { return curve(i, share); }, i, fitted.points[i],
+                   fitted.points[next], std::max(turns[i], turns[next]));
+    if (own.IsAside(tolerance) || (is_long && own.distance > tolerance)) {
+      straight.push_back(i);
+    }
+  }
+  return straight;
+}
+
+ChordPoints WithPointsOn(const ChordPoints& fitted, double period,
+                         const std::vector<std::size_t>& steps) {
+  const std::vector<double> lengths = StepsOf(fitted, period);
+  const std::size_t count = lengths.size();
+  ChordPoints filled;
+  auto step = steps.begin();
+  for (std::size_t i = 0; i < fitted.points.size(); ++i) {
+    filled.u.push_back(fitted.u[i]);
+    filled.points.push_back(fitted.points[i]);
+    if (step == steps.end() || *step != i) {
+      continue;
+    }
+    ++step;
+    const auto length_at = [&](bool exists, std::size_t neighbor) {
+      return std::min(exists ? lengths[neighbor % count] : lengths[i], lengths[i] / 3.0);
+    };
+    const Vec2 along = fitted.points[(i + 1) % fitted.points.size()] - fitted.points[i];
+    for (const double share : SharesOn(lengths[i], length_at(period > 0.0 || i > 0, i + count - 1),
+                                       length_at(period > 0.0 || i + 1 < count, i + 1))) {
+      filled.u.push_back(fitted.u[i] + share * lengths[i]);
+      filled.points.push_back(fitted.points[i] + share * along);
+    }
+  }
+  return filled;
 }
 
 [[noreturn]] void RefuseBulge(const Bulge& bulge, const ChordPoints& fitted,

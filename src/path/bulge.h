@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 #include "src/path/points_to_fit.h"
 #include "trackbed/core/angle.h"
@@ -36,6 +37,19 @@ using CurveBetweenKnots = std::function<Vec2(std::size_t, double)>;
 /// largest distance.
 Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, double period,
                 double tolerance);
+
+/// Returns the steps between knots that are straight lines although a curve swings aside of them.
+/// The knots turn by at most 45 degrees at the ends of such a step. The curve deviates too far from
+/// the step (IsAside), or the step is more than four times as long as the median, the knots turn on
+/// it by less than a quarter of the curvature beside it, and the curve leaves it by more than the
+/// tolerance.
+std::vector<std::size_t> StraightSteps(const CurveBetweenKnots& curve, const ChordPoints& fitted,
+                                       double period, double tolerance);
+
+/// Adds points on the straight lines of steps. From each end, their distances begin with the length
+/// of the step before or after, and grow by a quarter from point to point.
+ChordPoints WithPointsOn(const ChordPoints& fitted, double period,
+                         const std::vector<std::size_t>& steps);
 
 /// Throws InputError that names the point of the stretch that is probably wrong.
 [[noreturn]] void RefuseBulge(const Bulge& bulge, const ChordPoints& fitted,

@@ -196,6 +196,7 @@ FittedPath JoinLegs(const std::vector<Leg>& legs, const std::vector<FittedPath>&
     }
     joined.repeated += fit.repeated;
     joined.merged += fit.merged;
+    joined.added += fit.added;
     joined.smoothing_length =
         i == 0 ? fit.smoothing_length : std::min(joined.smoothing_length, fit.smoothing_length);
     const std::vector<Segment> own = InDirection(fit.path.segments(), legs[i].direction);

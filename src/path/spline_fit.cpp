@@ -7,6 +7,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -358,28 +359,61 @@ std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& loc
   return std::nullopt;
 }
 
+/// A spline with the largest smoothing length that keeps the tolerance.
+struct SplineFit {
+  LocalPoints local;
+  std::unique_ptr<SmoothingSpline> spline;
+  double smoothing_length = 0.0;
+
+  [[nodiscard]] Vec2 At(std::size_t knot, double share) const {
+    return spline->At(std::lerp(spline->knots()[knot], spline->knots()[knot + 1], share));
+  }
+};
+
+SplineFit FitSplineOnly(const ChordPoints& knots, const DistinctPoints& distinct,
+                        const EndHeadings& headings, double max_curvature,
+                        const FittedPath& fitted) {
+  const Vec2 origin = knots.points.front();
+  LocalPoints local{Relative(knots, origin),
+                    Relative(distinct.chords, origin),
+                    Relative({distinct.given_u, fitted.given.points}, origin),
+                    distinct.period,
+                    headings,
+                    max_curvature};
+  auto spline = std::make_unique<SmoothingSpline>(local.knots, local.period, headings);
+  const double smoothing_length =
+      FitWithin(*spline, local.given, local.knots, fitted.options.max_deviation);
+  return {std::move(local), std::move(spline), smoothing_length};
+}
+
 }  // namespace
 
 void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct,
                const EndHeadings& headings, double max_curvature, FittedPath& fitted,
                std::vector<double>& stations) {
+  constexpr int kMaxFills = 3;
   const double tolerance = fitted.options.max_deviation;
   const Vec2 origin = knots.points.front();
-  const LocalPoints local{Relative(knots, origin),
-                          Relative(distinct.chords, origin),
-                          Relative({distinct.given_u, fitted.given.points}, origin),
-                          distinct.period,
-                          headings,
-                          max_curvature};
-  SmoothingSpline spline(local.knots, local.period, headings);
-  double smoothing_length = FitWithin(spline, local.given, local.knots, tolerance);
-  const auto curve = [&](std::size_t knot, double share) -> Vec2 {
-    return spline.At(std::lerp(spline.knots()[knot], spline.knots()[knot + 1], share));
-  };
-  const Bulge swing = FindBulge(curve, local.knots, local.period, tolerance);
-  if (swing.IsAside(tolerance)) {
-    RefuseBulge(swing, knots, distinct, fitted.given);
+  SplineFit fit = FitSplineOnly(knots, distinct, headings, max_curvature, fitted);
+  const auto curve = [&](std::size_t knot, double share) -> Vec2 { return fit.At(knot, share); };
+  ChordPoints filled = knots;
+  for (int i = 0; i < kMaxFills; ++i) {
+    const std::vector<std::size_t> straight =
+        StraightSteps(curve, fit.local.knots, distinct.period, tolerance);
+    if (straight.empty()) {
+      break;
+    }
+    filled = WithPointsOn(filled, distinct.period, straight);
+    fit = FitSplineOnly(filled, distinct, headings, max_curvature, fitted);
   }
+  fitted.added = filled.points.size() - knots.points.size();
+  const Bulge swing = FindBulge(curve, fit.local.knots, distinct.period, tolerance);
+  if (swing.IsAside(tolerance)) {
+    RefuseBulge(swing, filled, distinct, fitted.given);
+  }
+  const LocalPoints& local = fit.local;
+  SmoothingSpline& spline = *fit.spline;
+  double smoothing_length = fit.smoothing_length;
   std::optional<KnotPath> curve_path = FitCurve(spline, local, smoothing_length, tolerance);
   if (!curve_path) {
     TRACKBED_CHECK(spline.Fit(smoothing_length), "a smoothing length of {} m", smoothing_length);

@@ -98,6 +98,57 @@ TEST(PathWithAnOutlier, NamesThePoint) {
   EXPECT_EQ(ErrorOf(given, {.max_deviation = 0.5, .resample = 1.0}), "");
 }
 
+/// Returns points of a stadium: 15 m apart on half circles of radius 50 m, none on its straights.
+PathPoints StadiumWithoutStraights(double straight) {
+  constexpr double kRadius = 50.0;
+  constexpr int kSteps = 10;
+  PathPoints given;
+  for (const double side : {1.0, -1.0}) {
+    for (int i = 0; i <= kSteps; ++i) {
+      const double angle = kPi * (static_cast<double>(i) / kSteps - 0.5);
+      given.points.push_back(
+          side * Vec2(0.5 * straight + kRadius * std::cos(angle), kRadius * std::sin(angle)));
+    }
+  }
+  return given;
+}
+
+// A smooth curve leaves each chord of 15.7 m by at most its height on the circle, 15.7^2/(8 x 50 m)
+// = 0.62 m, on either side, and the deviation of 0.05 m. On a straight, the first added point is as
+// far from its end as the points of the bend are apart, so the bound is the same. Without added
+// points, the spline swings 58 m aside of a straight of 400 m.
+TEST(PathWithSparsePoints, KeepsToLongStraights) {
+  for (const double straight : {100.0, 400.0, 3000.0}) {
+    SCOPED_TRACE(straight);
+    const PathPoints given = StadiumWithoutStraights(straight);
+    for (const bool closed : {false, true}) {
+      const FittedPath fitted = FitPath(given, {.closed = closed});
+      EXPECT_GT(fitted.added, 0U);
+      for (const PathPoint& point : fitted.path.Sample(0.5)) {
+        const Vec2& at = point.pose.position();
+        const double past = std::max(0.0, std::abs(at.x()) - 0.5 * straight);
+        EXPECT_NEAR(std::hypot(past, at.y()), 50.0, 0.62 + 0.05);
+      }
+    }
+  }
+}
+
+// A gap in a bend is no straight: the curve continues the circle. It leaves the circle by less than
+// half of the height of the arc over the gap, 50 m (1 - cos(0.5 x 8 x 0.1)) = 3.9 m.
+TEST(PathWithSparsePoints, ContinuesABendInAGap) {
+  PathPoints given;
+  for (int i = 0; i < 40; ++i) {
+    if (i < 16 || i > 22) {
+      given.points.emplace_back(50.0 * std::cos(0.1 * i), 50.0 * std::sin(0.1 * i));
+    }
+  }
+  const FittedPath fitted = FitPath(given, {});
+  EXPECT_EQ(fitted.added, 0U);
+  for (const PathPoint& point : fitted.path.Sample(0.5)) {
+    EXPECT_NEAR(point.pose.position().norm(), 50.0, 0.5 * 50.0 * (1.0 - std::cos(0.4)));
+  }
+}
+
 TEST(PathWithSparsePoints, HasItsBulge) {
   // A circle through the corners of a square bulges beyond each side by (sqrt(2) - 1)/2 of the
   // side. The closed spline is close to this circle.

@@ -70,6 +70,9 @@ struct FittedPath {
   /// Number of points that were merged with their neighbors, because steps between them turn back
   /// within the largest deviation of a spline.
   std::size_t merged = 0;
+  /// Number of points that were added on straight lines between the given points, beside which a
+  /// spline would swing aside.
+  std::size_t added = 0;
   /// Corners of a polyline at which the direction changes by more than 1e-9 rad.
   std::vector<HeadingJump> jumps;
   /// Points at which the direction of travel changes by more than kMaxHeadingJump. If any point has
@@ -148,6 +151,12 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// of a spline from the straight lines (`bulge`) is at most the larger of two values. These are a
 /// fifth of the spacing, and the height of an arc that turns by the same angle as the points. The
 /// fit does not account for obstacles or the limits of a car.
+///
+/// A step that is more than four times as long as the median is a straight line if the points turn
+/// on it by less than a quarter of the curvature beside it, and so is a step on which the spline
+/// would exceed the bound of `bulge`, if the points turn by at most 45 degrees at both ends. The
+/// spline is then fitted to points that are added on the straight line (`added`), and keeps within
+/// max_deviation of them.
 ///
 /// Throws InputError if there are fewer than two different points or more than 200 000 points to be
 /// fitted, or if no spline stays within max_deviation. Throws InputError if the heading of a point

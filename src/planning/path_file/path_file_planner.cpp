@@ -325,6 +325,10 @@ std::string Describe(const FittedPath& fitted) {
   if (fitted.options.closed) {
     text += ", closed";
   }
+  if (fitted.added > 0) {
+    text += fmt::format(", {} points added on straight lines beside which it would swing aside",
+                        fitted.added);
+  }
   if (fitted.merged > 0) {
     text += fmt::format(", {} points merged whose steps turn back", fitted.merged);
   }
