@@ -216,10 +216,11 @@ const std::vector<PathColumnName>& PathColumnNames(std::string_view quantity) {
         {"yaw", "rad"},
         {"heading_rad", "rad"},
         {"heading", "rad"},
-        {"theta_rad", "rad"},
-        {"theta", "rad"},
+        // Beside psi, theta is the pitch angle.
         {"psi_rad", "rad"},
         {"psi", "rad"},
+        {"theta_rad", "rad"},
+        {"theta", "rad"},
         {"orientation", "rad"},
         {"yaw_deg", "deg"},
         {"heading_deg", "deg"},

@@ -182,7 +182,7 @@ LogListing ListCsv(const fs::path& log) {
   TakePlace(names, map);
   if (!map.position.latitude) {
     Take(AnyOf(names, UnitsOf(LogQuantity::kAngle),
-               {"yaw_rad", "yaw", "heading_rad", "theta_rad", "theta", "psi"}),
+               {"yaw_rad", "yaw", "heading_rad", "psi_rad", "psi", "theta_rad", "theta"}),
          map.yaw);
   }
   // rostopic echo -p names columns by the fields of the message.
