@@ -13,6 +13,7 @@
 #include "src/core/csv_delimiter.h"
 #include "src/core/csv_head.h"
 #include "src/core/csv_number.h"
+#include "src/core/markup.h"
 #include "src/core/vbo.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -215,6 +216,10 @@ void ReadRowsBehind(int preamble, const std::filesystem::path& file, const CsvLi
       }
       if (block.starts_with(kByteOrderMark)) {
         block.remove_prefix(kByteOrderMark.size());
+      }
+      if (std::string problem = MarkupProblem(block); !problem.empty()) {
+        reader.Stop(std::move(problem));
+        return false;
       }
     }
     return limits.comments ? comments.Take(block, parse) : parse(block);

@@ -66,6 +66,23 @@ TEST(PathCsv, FindsUsualColumns) {
   }
 }
 
+// Lines of three dimensions have psi for the heading, theta for the slope and phi for the bank.
+TEST(PathCsv, TakesPsiBesideTheta) {
+  for (const std::string header : {"x_m,y_m,theta_rad,psi_rad", "x,y,theta,psi"}) {
+    EXPECT_EQ(Read("p.csv", header + "\n1,2,0.4,0.1\n4,2.3,0.5,0.1\n").yaw,
+              (std::vector<double>{0.1, 0.1}));
+  }
+}
+
+TEST(PathCsv, NamesXmlAndWebPages) {
+  EXPECT_THAT(Error("t.tcx", "<?xml version=\"1.0\"?>\n<!-- a > b -->\n<TrainingCenterDatabase>"),
+              HasSubstr("gpsbabel -i gtrnctr"));
+  EXPECT_THAT(Error("p.txt", "\xEF\xBB\xBF <gpx version=\"1.1\"><trk/></gpx>"),
+              HasSubstr("p.txt:1: XML with the root element gpx instead of a table; GPX, KML"));
+  EXPECT_THAT(Error("p.csv", "<!DOCTYPE html>\n<HTML lang=\"en\"></HTML>"),
+              HasSubstr("a web page instead of a table"));
+}
+
 TEST(PathCsv, TakesUnitsOfNamesAndOfTheMap) {
   const PathPoints own = Read("p.csv", "x_cm,y_mm,yaw_deg,speed_kmh\n100,2000,90,36\n0,0,0,0\n");
   EXPECT_NEAR(own.points[0].x(), 1.0, Tolerance(1e-15));

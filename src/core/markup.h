@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace trackbed {
+
+/// Explains that a text is XML or HTML instead of a table, and how to convert it; "" for other
+/// texts. Needs only the begin of the text, up to the first element.
+std::string MarkupProblem(std::string_view text);
+
+}  // namespace trackbed
