@@ -44,6 +44,8 @@ PathFile ReadGeoJson(const std::filesystem::path& file, const nlohmann::json& js
 PathFile ReadPathBag(const std::filesystem::path& file, const PathMap& map);
 /// Reads GPX or KML.
 GlobeFile ReadGlobeXml(const std::filesystem::path& file, const std::string& text);
+/// Refuses a file without a line; names its single points, if any, and how to make a line of them.
+[[noreturn]] void RefuseNoLine(const std::filesystem::path& file, const GlobeFile& found);
 GlobeFile ReadGeoJsonLines(const std::filesystem::path& file, const nlohmann::json& root);
 
 /// Reads the centers of the lanelets of a route on a Lanelet2 map, with their speed limits.

@@ -44,6 +44,25 @@ const json* TimesOf(const json& feature) {
   return nullptr;
 }
 
+/// Counts the points in features and geometry collections that are no part of another geometry.
+std::size_t SinglePoints(const json& value) {
+  const std::string type = TypeOf(value);
+  if (type == "Feature" && value.contains("geometry")) {
+    return SinglePoints(value["geometry"]);
+  }
+  const char* list = type == "FeatureCollection"    ? "features"
+                     : type == "GeometryCollection" ? "geometries"
+                                                    : "coordinates";
+  if (type == "Point" || !value.is_object() || !value.contains(list) || !value[list].is_array()) {
+    return type == "Point" ? 1 : 0;
+  }
+  std::size_t count = type == "MultiPoint" ? value[list].size() : 0;
+  for (const json& part : value[list]) {
+    count += SinglePoints(part);
+  }
+  return count;
+}
+
 /// Collects all line strings in features and geometry collections, and ignores other geometries.
 void FindLines(const json& value, const std::string& key, const json* times,
                std::vector<Found>& found) {
@@ -142,7 +161,7 @@ std::vector<Found> LinesOf(const json& root) {
 }  // namespace
 
 GlobeFile ReadGeoJsonLines(const std::filesystem::path& file, const json& root) {
-  GlobeFile found{.format = "GeoJSON", .lines = {}};
+  GlobeFile found{.format = "GeoJSON", .lines = {}, .single_points = SinglePoints(root)};
   const std::optional<std::string> system = NamedSystem(root);
   if (system && !IsWgs84(*system)) {
     Refuse(file, "crs",
@@ -165,9 +184,11 @@ PathFile ReadGeoJson(const std::filesystem::path& path, const json& root, const 
   const bool in_degrees =
       map.coordinates == PathCoordinates::kWgs84 ||
       (map.coordinates == PathCoordinates::kAuto && (!system || IsWgs84(*system)));
+  if (lines.empty()) {
+    RefuseNoLine(path, {.format = "GeoJSON", .lines = {}, .single_points = SinglePoints(root)});
+  }
   const std::size_t wanted = map.line == 0 ? 1 : static_cast<std::size_t>(map.line);
-  if (lines.empty() ||
-      (!in_degrees && (wanted > lines.size() || (map.line == 0 && lines.size() > 1)))) {
+  if (!in_degrees && (wanted > lines.size() || (map.line == 0 && lines.size() > 1))) {
     Refuse(file, "",
            fmt::format("{} line strings; must be one{}", lines.size(),
                        lines.size() > 1
@@ -175,7 +196,7 @@ PathFile ReadGeoJson(const std::filesystem::path& path, const json& root, const 
                            : std::string()));
   }
   if (in_degrees) {
-    GlobeFile found{.format = "GeoJSON", .lines = {}};
+    GlobeFile found{.format = "GeoJSON", .lines = {}, .single_points = 0};
     for (const Found& line : lines) {
       found.lines.push_back(LineOf(line, file));
       found.lines.back().track = found.lines.size();

@@ -136,6 +136,7 @@ class XmlLines {
   }
 
   void ReadGpx(const XMLElement& root) {
+    EachChild(root, "wpt", [&](const XMLElement&) { ++found_.single_points; });
     std::size_t tracks = 0;
     std::size_t routes = 0;
     EachChild(root, "", [&](const XMLElement& element) {
@@ -259,6 +260,9 @@ class XmlLines {
     if (kind == "Track") {
       ReadTrack(element, line("track"));
       return;
+    }
+    if (kind == "Point") {
+      ++found_.single_points;
     }
     const bool is_multi_track = kind == "MultiTrack";
     if (is_multi_track) {

@@ -42,9 +42,7 @@ PathFile ReadAsNavPath(const fs::path& file, const PathMap& /*map*/) {
 PathFile ReadAsGlobeXml(const fs::path& file, const PathMap& map) {
   GlobeFile lines = ReadGlobeXml(file, ReadFile(file, kMaxTextBytes));
   if (lines.lines.empty()) {
-    Refuse(file, "",
-           fmt::format("has no line: no {}", lines.format == "GPX" ? "trk with trkpt, no rte"
-                                                                   : "LineString, no gx:Track"));
+    RefuseNoLine(file, lines);
   }
   return PathOfGlobeFile(file, std::move(lines), map);
 }

@@ -228,7 +228,21 @@ TEST(GlobeFiles, NameTheCauseAndTheRemedy) {
                       "</kml>"),
               HasSubstr("tuple"));
   EXPECT_THAT(ErrorOf("p.kmz", std::string("PK\x03\x04zip")), HasSubstr("unzip"));
-  EXPECT_THAT(ErrorOf("p.gpx", "<gpx><wpt lat='1' lon='2'/></gpx>"), HasSubstr("has no line"));
+  EXPECT_THAT(ErrorOf("p.gpx", "<gpx><wpt lat='1' lon='2'/></gpx>"),
+              HasSubstr("has no line: no trk with trkpt, no rte, but 1 single point,"));
+  const std::string point =
+      "<Placemark><Point><coordinates>11,48</coordinates></Point></Placemark>";
+  EXPECT_THAT(
+      ErrorOf("p.kml", "<kml><Document>" + point + point + "</Document></kml>"),
+      HasSubstr("no gx:Track, but 2 single points, whose order need not be that of driving"));
+  EXPECT_THAT(
+      ErrorOf(
+          "p.geojson",
+          R"({"type":"FeatureCollection","features":[{"type":"Feature","geometry":{"type":)"
+          R"("Point","coordinates":[11,48]}},{"type":"Feature","geometry":{"type":"MultiPoint",)"
+          R"("coordinates":[[11,48],[11,49]]}},{"type":"Feature","geometry":null}]})"),
+      HasSubstr("no LineString, but 3 single points"));
+  EXPECT_THAT(ErrorOf("p.kml", "<kml><Document/></kml>"), HasSubstr("no LineString, no gx:Track"));
   EXPECT_THAT(ErrorOf("p.gpx", "<gpx>\n<rte>\n<rtept lat='x' lon='2'/></rte></gpx>"),
               HasSubstr("p.gpx:3: lat: 'x' is not a finite number"));
 }

@@ -691,7 +691,7 @@ TEST(GeoJson, SaysWhatIsWrong) {
   EXPECT_THAT(Error("p.geojson", Line("[]")), HasSubstr("no positions"));
   EXPECT_THAT(Error("p.geojson", Line("7")), HasSubstr("list of positions"));
   EXPECT_THAT(Error("p.geojson", R"({"type": "Point", "coordinates": [1, 2]})"),
-              HasSubstr("0 line strings"));
+              HasSubstr("has no line: no LineString, but 1 single point,"));
   EXPECT_THAT(
       Error("p.geojson",
             R"({"type": "MultiLineString", "coordinates": [[[1, 2], [1, 3]], [[1, 2], [3, 4]]]})"),

@@ -30,6 +30,8 @@ struct GlobeLine {
 struct GlobeFile {
   std::string format;            ///< "GPX", "KML" or "GeoJSON".
   std::vector<GlobeLine> lines;  ///< Lines with at least one point.
+  /// Points of the file that belong to no line, such as waypoints and markers.
+  std::size_t single_points = 0;
 };
 
 /// Returns whether a file is GPX, KML, KMZ or GeoJSON by the ending of its name. Files ending with
