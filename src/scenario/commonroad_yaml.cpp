@@ -58,12 +58,17 @@ std::string GoalFormula(const CommonRoadScenario& scenario) {
                                      goal.speed->first, goal.speed->second));
   }
   if (goal.orientation) {
-    // Whole turns that bring the middle of the interval nearest to the route's heading.
+    // The interval nearest to the route's heading. A plan begins with a heading from -pi to pi, and
+    // the initial state may have another by a whole turn.
     const double middle = 0.5 * (goal.orientation->first + goal.orientation->second);
     const double half = 0.5 * (goal.orientation->second - goal.orientation->first);
     const double yaw = scenario.goal_yaw + AngleDifference(middle, scenario.goal_yaw);
-    conditions.push_back(
-        fmt::format("yaw_rad >= {:.6f} and yaw_rad <= {:.6f}", yaw - half, yaw + half));
+    std::vector<std::string> turns;
+    for (const double turn : {0.0, -2.0 * kPi, 2.0 * kPi}) {
+      turns.push_back(fmt::format("(yaw_rad >= {:.6f} and yaw_rad <= {:.6f})", yaw + turn - half,
+                                  yaw + turn + half));
+    }
+    conditions.push_back(fmt::format("({})", fmt::join(turns, " or ")));
   }
   if (conditions.empty()) {
     conditions.emplace_back("t_s >= 0");
