@@ -322,7 +322,7 @@ TEST_P(SignalToFilm, LeavesNoTemporaryFile) {
   const TempFolder folder;
   ASSERT_EQ(Trackbed(folder, "run three_turns -o r --plant kinematic -q").code, 0);
   const auto [outcome, seconds] =
-      Ended(folder, "render r -o film." + GetParam() + " --size 7680x4320", "TERM",
+      Ended(folder, "render r -o film." + GetParam() + " --size 3840x2160", "TERM",
             "until ls -A | grep -q '^[.]film'; do kill -0 $! && sleep 0.05 || break; done");
   EXPECT_EQ(outcome.code, 130) << ReadFile(folder.path() / "said");
   EXPECT_LE(seconds, 1.5);
