@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""Changes the JSON files of results, one value at a time, and lets every verb read them.
+"""Changes the files of results, one value at a time, and lets every verb read them.
 
   malformed.py PROGRAM [--seed S] [--share P] [--only FILE,...] [--part I/N]
 
 Every verb makes a small result. In each JSON file of the results, each key is removed, or its value
 is replaced by a value of another type or far out of range; the whole file is replaced in the same
-way. Then all verbs that read the file run on it. Each must succeed, or explain the problem and end
-with the exit code 2 or 3. It must not end with 1, "internal error", a message of a library or a
-signal, nor take more than 20 s.
+way. CSV and YAML files lose columns, lines or their end, and get other numbers, line ends, marks,
+quotes and bytes that are not UTF-8. Then all verbs that read the file run on it. Each must succeed,
+or explain the problem and end with the exit code 2 or 3. A message about a CSV or YAML file must name
+it. No verb may end with 1, "internal error", a message of a library or a signal, nor take more than
+20 s.
 
 --share: the share of the changes that are tried, chosen at random. Prints a table with the numbers of
 changes and faults of each file; ends with 1 if there was a fault.
@@ -18,6 +20,7 @@ import copy
 import json
 import os
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -73,12 +76,12 @@ class Results:
         self.root = tempfile.mkdtemp(prefix="trackbed_malformed_")
         self.environment = dict(os.environ, TRACKBED_DATA=SOURCE)
 
-    def run(self, *args, cwd="."):
-        return subprocess.run([self.program, *args], cwd=os.path.join(self.root, cwd), timeout=20,
+    def run(self, *args, cwd=".", timeout=20):
+        return subprocess.run([self.program, *args], cwd=os.path.join(self.root, cwd), timeout=timeout,
                               env=self.environment, capture_output=True, check=False)
 
     def make(self, *args):
-        done = self.run(*args)
+        done = self.run(*args, timeout=300)  # the bound is for changed files
         assert done.returncode in (0, 3), f"{args}: {done.stderr.decode(errors='replace')}"
 
     def write(self, name, text):
@@ -122,6 +125,7 @@ COMPARE = ["compare", "-q", "{}", "other", "-o", "again"]
 RENDER = ["render", "-q", "{}", "--at", "0.1", "--size", "64x64", "-o", "p.png"]
 MERGE = ["sweep", "merge", "-q", "{}", "-o", "merged"]
 ROW = ["run", "-q", "--from-sweep", "{}", "--row", "1", "-o", "row", "--set", "drive.time_limit=0.1"]
+AGAIN = ["run", "-q", "{}/scenario.resolved.yaml", "-o", "row", "--set", "drive.time_limit=0.1"]
 # Each file, with the verbs that read it. {} stands for the folder of the file.
 READERS = {
     "run/metrics.json": [REPORT, COMPARE, RENDER],
@@ -147,6 +151,15 @@ READERS = {
     "falsify/counterexample/metrics.json": [REPORT],
     "identify/identify.json": [REPORT],
     "identify/records/dart_ramp_02/metrics.json": [REPORT],
+    "run/kinematic.csv": [REPORT, COMPARE, RENDER],
+    "run/single_track.state.csv": [REPORT, COMPARE, RENDER],
+    "run/plan.csv": [REPORT, COMPARE, RENDER],
+    "run/schedule.csv": [REPORT, COMPARE],
+    "run/scenario.resolved.yaml": [REPORT, COMPARE, RENDER, AGAIN],
+    "run/compare.csv": [REPORT],
+    "sweep/sweep.csv": [REPORT],
+    "falsify/counterexample/scenario.resolved.yaml": [AGAIN],
+    "identify/dart_ramp_02.residuals.csv": [REPORT],
 }
 
 
@@ -164,8 +177,48 @@ def documents(text, name):
         yield f"line {number + 1} ", json.loads(lines[number][9:]), make
 
 
+def table_changes(lines):
+    """The changes of a table: without each column, and with another name for each column."""
+    names = lines[0].split(",")
+    for column, name in enumerate(names):
+        rows = [line.split(",") for line in lines]
+        yield f"no column {name}", "\n".join(
+            ",".join(row[:column] + row[column + 1:]) for row in rows)
+        for other in ("x", "", names[0], "\x1b[31m", '"'):
+            yield f"column {name}: {other!r}", "\n".join(
+                [",".join(names[:column] + [other] + names[column + 1:])] + lines[1:])
+
+
+def text_changes(text, name):
+    """As changes, for tables and YAML files."""
+    lines = text.split("\n")
+    if name.endswith(".csv"):
+        yield from table_changes(lines)
+    for number in sorted({0, 1, len(lines) // 2, len(lines) - 2}):
+        for what, body in (("removed", []), ("doubled", 2 * [lines[number]]),
+                           ("longer", [lines[number] + ",1"]), ("quote", ['"' + lines[number]]),
+                           ("NUL", [lines[number] + "\0"]), ("not UTF-8", [lines[number] + "\udcff"])):
+            yield f"line {number + 1} {what}", "\n".join(lines[:number] + body + lines[number + 1:])
+    numbers = list(re.finditer(r"(?<![\w.])-?\d+\.?\d*(?![\w.])", text))
+    for match in numbers[::max(1, len(numbers) // 10)]:
+        for value in ("", "-" + match.group(), "nan", "1e308", "-1e308", "1e-300", "1e999", "0", "x",
+                      "18446744073709551616", "[1]"):
+            yield f"byte {match.start()}: {match.group()} -> {value}", (
+                text[:match.start()] + value + text[match.end():])
+    for end in (1, len(text) // 3, len(text) - 2):
+        yield f"cut at {end}", text[:end]
+    yield "byte order mark", "\ufeff" + text
+    yield "CR LF", text.replace("\n", "\r\n")
+    yield "CR", text.replace("\n", "\r")
+    for body in WHOLE:
+        yield f"all: {body[:20]!r}", body
+
+
 def changes(text, name):
     """The name of the change, and the new text of the file."""
+    if name.endswith((".csv", ".yaml")):
+        yield from text_changes(text, name)
+        return
     for where, root, make in documents(text, name):
         for path in places(root):
             for value in VALUES:
@@ -196,7 +249,7 @@ def restore(root, pristine, folder):
             os.remove(f"{root}/{other}")
 
 
-def fault_of(done):
+def fault_of(done, name):
     said = (done.stdout + done.stderr).decode(errors="replace")
     if done.returncode not in (0, 2, 3):
         return f"exit code {done.returncode}: {said.strip()[-300:]}"
@@ -204,6 +257,9 @@ def fault_of(done):
         return f"says: {said.strip()[-300:]}"
     if done.returncode == 2 and not said.strip():
         return "says nothing"
+    is_text = name.endswith((".csv", ".yaml"))
+    if done.returncode == 2 and is_text and os.path.basename(name) not in said:
+        return f"does not name the file: {said.strip()[-300:]}"
     return ""
 
 
@@ -248,7 +304,7 @@ def main():
                     counts[name] += 1
                     folder = os.path.dirname(name)
                     try:
-                        fault = fault_of(results.run(*[word.format(folder) for word in verb]))
+                        fault = fault_of(results.run(*[word.format(folder) for word in verb]), name)
                     except subprocess.TimeoutExpired:
                         fault = "more than 20 s"
                     if fault:
