@@ -33,8 +33,9 @@ void ReadBlocks(const std::filesystem::path& file,
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view content);
 
 /// Checks that WriteFileAtomically can write the file. Call CheckCanWrite before long work whose
-/// result is written to the file. Throws RunError if a folder has the name of the file, or if the
-/// file's folder is missing or unwritable. Creates no file.
+/// result is written to the file. Throws RunError if a folder has the name of the file, if the file
+/// is a link whose target is absent, or if the file's folder is missing or unwritable. Creates no
+/// file.
 void CheckCanWrite(const std::filesystem::path& file);
 
 /// Creates the folder and its parents. Throws RunError if a folder cannot be created.
@@ -100,8 +101,8 @@ class TemporaryFile {
   /// Appends `content` to the temporary file. Throws RunError, naming `file`, if writing fails.
   void Write(std::string_view content);
   /// Renames the complete temporary file to `file`; if `file` is a link, to the target of the link.
-  /// Throws RunError if renaming fails, or if `file` exists and is not a regular file. Call Publish
-  /// only once.
+  /// Throws RunError if renaming fails, if `file` exists and is not a regular file, or if `file` is
+  /// a link whose target is absent. Call Publish only once.
   void Publish();
 
  private:
