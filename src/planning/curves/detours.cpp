@@ -246,9 +246,11 @@ class DetourPlanner {
         Stops(all), Stops(plan));
   }
 
-  /// Adds a note if the path is a detour only because of the mission's headings.
+  /// Adds a note if the path is a detour only because of the mission's headings. Around obstacles,
+  /// where another search takes time, a detour is common.
   void NoteDetourOfHeadings(Plan& best) const {
-    if (!best.ok() || request_.headings.empty() || !IsDetour(best, request_)) {
+    if (!best.ok() || request_.headings.empty() || !request_.obstacles.empty() ||
+        !IsDetour(best, request_)) {
       return;
     }
     PlanRequest request = request_;
