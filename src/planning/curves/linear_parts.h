@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "trackbed/optimize/smooth_program.h"
+
+/// Computes the ends of paths of many short clothoids, with derivatives.
+namespace trackbed {
+
+/// A path of parts with linear curvature, in radii.
+struct LinearParts {
+  Eigen::VectorXd curvatures;  // between the parts and at both ends
+  Eigen::VectorXd lengths;
+};
+
+/// The end of a path of parts that begins at the origin along x, and its derivatives by the
+/// curvatures, then by the lengths.
+struct PartsEnd {
+  Eigen::Vector3d end;  // x, y and yaw
+  SmoothValues::Rows rows;
+};
+
+/// Returns the end of a path. The displacement of each part is an integral by Gaussian quadrature.
+PartsEnd EndOf(const LinearParts& parts);
+
+}  // namespace trackbed
