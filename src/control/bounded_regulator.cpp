@@ -136,7 +136,7 @@ double BoundedRegulator::Input(const ErrorModel& model, const Regulator& regulat
     ComputeStep(model, 0.0, false);
     const double ratio = MeanProduct(StepToBound()) / product;
     ComputeStep(model, product * ratio * ratio * ratio, true);
-    // The steps stop short of the bounds, at last by little, so that the products fall quickly.
+    // Keep a part of the way to the nearest bound. The part falls with the products.
     const double part = (1.0 - std::clamp(ratio, 1e-6, 0.01)) * StepToBound();
     for (Step& step : steps_) {
       step.input += part * step.turn;
