@@ -8,7 +8,8 @@
 namespace trackbed {
 namespace {
 
-/// Returns the name of the first element, behind comments and declarations; "" if there is none.
+/// Skips comments and declarations, and returns the name of the first element; "" if no element
+/// follows.
 std::string FirstElement(std::string_view text) {
   constexpr std::string_view kSpaces = " \t\r\n";
   while (true) {
