@@ -59,5 +59,16 @@ TEST(SteeringReach, BoundsTheTurningRadius) {
               Tolerance(kReachRounding * 10.0));
 }
 
+TEST(SteeringReach, IgnoresACurveToOneSide) {
+  // The wheels are 0.02 rad left of straight ahead where they turn farthest to the right.
+  VehicleParams car = LopsidedCar();
+  for (Vec2& point : car.steering_response.curve) {
+    point.y() += 0.42;
+  }
+  for (const double side : {-1.0, 0.0, 1.0}) {
+    EXPECT_EQ(SteeringReach(car, side), car.steering_limit);
+  }
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -9,6 +9,7 @@ namespace trackbed {
 /// to the right (`side` < 0), or to both sides (`side` = 0). This angle is the steering limit, or
 /// the angle at the end of the steering curve minus half of the backlash if this is less: wheels
 /// that come from straight ahead stop at the near edge of the play. Never above the steering limit.
+/// Ignores a curve with which the wheels can turn to one side only.
 [[nodiscard]] double SteeringReach(const VehicleParams& params, double side);
 
 }  // namespace trackbed

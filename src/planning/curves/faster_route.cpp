@@ -72,7 +72,7 @@ class RouteRefiner {
 
  private:
   [[nodiscard]] static std::vector<Section> SectionsOf(const Plan& plan) {
-    const auto& curves = plan.diagnostics.planner.As<CurveDiagnostics>()->curves;
+    const auto& curves = plan.diagnostics.planner.GetIf<CurveDiagnostics>()->curves;
     std::vector<Section> sections;
     double left = 0.0;  // of the leg [m]
     std::size_t leg = 0;
@@ -182,7 +182,7 @@ class RouteRefiner {
   [[nodiscard]] Plan PlanOf(const std::vector<Section>& sections) const {
     Plan plan = best_;
     plan.caps.clear();
-    CurveDiagnostics diagnostics = *best_.diagnostics.planner.As<CurveDiagnostics>();
+    CurveDiagnostics diagnostics = *best_.diagnostics.planner.GetIf<CurveDiagnostics>();
     std::vector<Segment> segments;
     double station = 0.0;
     for (std::size_t i = 0; i < sections.size(); ++i) {
