@@ -7,8 +7,8 @@
 /// The first signal sets the variable `interrupted`, which runs, searches and films check before
 /// each step. After a signal, runs and searches end at their next step and write the results so
 /// far. A process that has not ended after the grace period kGrace removes its temporary files and
-/// is terminated. A result that was not committed before the end of the grace period is lost, but no
-/// file is half written. A second Ctrl-C ends the program without delay.
+/// is terminated. A result that was not committed before the end of the grace period is lost, but
+/// no file is half written. A second Ctrl-C ends the program without delay.
 namespace trackbed::cli {
 
 /// Whether a signal has asked the program to end. Runs check `interrupted` once per control period.

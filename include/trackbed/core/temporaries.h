@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <functional>
 
-/// The list of the temporary files and folders of this process (TemporaryFile and TemporaryFolder in
-/// file.h). When a signal ends the process, the destructors of their owners do not run, so
+/// The list of the temporary files and folders of this process (TemporaryFile and TemporaryFolder
+/// in file.h). When a signal ends the process, the destructors of their owners do not run, so
 /// RemoveTemporariesForEver removes what is in the list.
 namespace trackbed {
 

@@ -182,6 +182,7 @@ class RouteRefiner {
   [[nodiscard]] Plan PlanOf(const std::vector<Section>& sections) const {
     Plan plan = best_;
     plan.caps.clear();
+    plan.schedule_speed = {};  // the former one ends where the former path ends
     CurveDiagnostics diagnostics = *best_.diagnostics.planner.GetIf<CurveDiagnostics>();
     std::vector<Segment> segments;
     double station = 0.0;
