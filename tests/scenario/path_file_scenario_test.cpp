@@ -89,11 +89,10 @@ TEST(PathFileScenario, RefusesSpeedsThatCannotBeDriven) {
     return Error(folder, "file: v.csv, speeds: " + keys);
   };
   const std::string zeros = "x,y,v\n0,0,2\n10,0,0\n20,0,0\n30,0,2\n";
-  EXPECT_THAT(
-      error(zeros, "file"),
-      AllOf(HasSubstr("v.csv:3: speed: the speed is 0 from point 2 to point 3, which are 10 "
-                      "m apart"),
-            HasSubstr("speeds: mission")));
+  EXPECT_THAT(error(zeros, "file"),
+              AllOf(HasSubstr("v.csv:3: speed: the speed is 0 from point 2 to point 3, 10 m along "
+                              "the path"),
+                    HasSubstr("speeds: mission")));
   EXPECT_EQ(error(zeros, "mission"), "");
   EXPECT_EQ(error("x,y,v\n0,0,0\n10,0,2\n20,0,0\n30,0,2\n40,0,0\n", "file"), "");
   // The car stands, and its measured position jitters by less than max_deviation.
