@@ -29,7 +29,8 @@ struct Layout {
     // At the smallest readable size, legend and title side by side need a width of about 400 px. At
     // the smallest readable size, all panels stacked vertically need a height of 250 px.
     const double shrink = std::min({1.0, width / 400.0, height / 270.0});
-    // Limits the sizes in tall, narrow frames, such as each of two frames side by side.
+    // In tall, narrow frames, such as two frames side by side, the width limits the sizes of texts
+    // and panels.
     const double widest = width / 960.0;
     const auto size = [&](double of_height, double least) {
       return std::max(of_height * std::min(scale, widest), least * shrink);

@@ -26,8 +26,10 @@ constexpr double kShortestHalf = 2.0;    ///< Shortest half of an oscillation [s
 constexpr double kHalves = 0.9;          ///< Least correlation of the two halves.
 constexpr double kNeighbors = 0.9;       ///< Least correlation of neighboring cycles.
 constexpr double kLeastRemainder = 0.5;  ///< Least amplitude of the second half over the first.
-constexpr double kLeastShare = 0.5;      ///< Least share of the wave that is in the command.
-constexpr double kPeriodStep = 1.189207115002721;  ///< 2^(1/4), a quarter octave.
+constexpr double kLeastShare =
+    0.5;  ///< Least amplitude in the command, over that in the unexplained part.
+constexpr double kPeriodStep =
+    1.189207115002721;  ///< Ratio of neighboring periods: a quarter octave.
 
 /// Adds low-pass filters of the input with time constants in steps of a factor of 2. They range
 /// from one period to 3 s, or to the twentieth part of a short signal. A filter that runs backward
@@ -147,9 +149,9 @@ class Stretch {
   /// Returns whether the second half repeats the first one; with random inputs, also whether each
   /// cycle repeats the one before.
   [[nodiscard]] bool Repeats() const {
-    // The second half has two sign changes per cycle, of which one may be missing at its ends. An
-    // eighth more or fewer are those of a neighboring period. Periods of few samples have no whole
-    // number of samples, so their neighboring cycles are not compared.
+    // The second half has two sign changes per cycle, of which one may be missing at its ends. A
+    // neighboring period would have an eighth more or fewer sign changes. Neighboring cycles of few
+    // samples are not compared, because the period is not a whole number of samples.
     constexpr std::size_t kFewSamples = 8;
     const bool compared = random_ && cycle_ >= kFewSamples;
     const double expected = 2.0 * cycles_;
@@ -183,7 +185,7 @@ class Stretch {
 };
 
 /// Finds the largest wave of the unexplained command `x` that repeats after `lag` samples, with
-/// `cycles` cycles in each half. The wave counts samples of `x`.
+/// `cycles` cycles in each half. The indices of the wave count samples of `x`.
 std::optional<Wave> LargestWave(const Series& x, const Series& y, std::size_t lag, int cycles,
                                 bool random) {
   std::optional<Wave> largest;
@@ -270,7 +272,7 @@ std::vector<double> UnexplainedCommand(const LoopSignals& signals) {
 
 std::vector<Wave> FindWaves(const std::vector<double>& unexplained,
                             const std::vector<double>& command, double period, bool random) {
-  constexpr std::size_t kSamplesPerCycle = 16;  // Samples of a cycle that are kept, at least.
+  constexpr std::size_t kSamplesPerCycle = 16;  // Least number of samples per cycle.
   std::vector<Wave> waves;
   const double longest = static_cast<double>(unexplained.size()) / (2.0 * kCycles);
   for (double cycle = 2.0; cycle <= longest; cycle *= kPeriodStep) {
@@ -281,7 +283,7 @@ std::vector<Wave> FindWaves(const std::vector<double>& unexplained,
     const int cycles =
         std::max(kCycles, static_cast<int>(std::ceil(kShortestHalf / (cycle * period))));
     const double lag = cycles * cycle / static_cast<double>(stride);
-    const double halfway = std::sqrt(kPeriodStep);  // to the neighboring periods
+    const double halfway = std::sqrt(kPeriodStep);  // ratio to the border between two periods
     const auto most = std::min(x.size() / 2, static_cast<std::size_t>(std::ceil(lag * halfway)));
     std::optional<Wave> best;
     for (auto own = static_cast<std::size_t>(lag / halfway); own <= most; ++own) {

@@ -124,7 +124,7 @@ std::optional<double> RoadBands::Inside(const Vec2& point) const {
     constexpr double kOverlap = 1e-6;
     if (LeftOf({piece.left.first, piece.right.first}, point) < -kOverlap ||
         LeftOf({piece.right.second, piece.left.second}, point) < -kOverlap) {
-      continue;  // before the beginning or beyond the end of the piece
+      continue;  // the point is before or beyond the piece
     }
     const double distance =
         std::min(LeftOf(piece.right, point), LeftOf({piece.left.second, piece.left.first}, point));

@@ -118,7 +118,7 @@ struct SteeringSignals {
   std::size_t rows_per_sample = 1;
   LoopSignals loop;
   std::vector<double> speed;  ///< Magnitude of the speed [m/s].
-  bool random = false;        ///< Whether the measured pose has noise.
+  bool random = false;        ///< Whether the measured pose contains noise.
 };
 
 SteeringSignals MakeSignals(const RunLog& log, const Plan& plan, const VehicleParams& vehicle) {

@@ -74,7 +74,7 @@ int Watch(const WatchVerbOptions& options) {
     return kOk;
   }
   const ScenarioRun run = ReadScenarioRuns({options.what}, options.scenario, options.out, "out")[0];
-  const CarModel& car = *run.car;  // loaded, because there is one scenario
+  const CarModel& car = *run.car;  // the reader loads the car of a single scenario
   const OutputFolder folder(run.folder);
   hooks.finished = [&](const RunResult& result) {
     if (options.scenario.quiet) {

@@ -117,7 +117,7 @@ class ActuatorModel {
   /// Returns the last wanted angle [rad].
   [[nodiscard]] double wanted() const { return wanted_; }
   [[nodiscard]] const SteeringFilter& filter() const { return filter_; }
-  /// Returns the last angle before backlash, after the curve [rad].
+  /// Returns the last angle of the calibration curve, before backlash [rad].
   [[nodiscard]] double target() const { return target_; }
 
   /// Advances by a control period in which the actuator is to come to rest at `wanted` [rad], and
@@ -156,7 +156,7 @@ class ActuatorModel {
   bool crosses_ = false;        // Whether the actuator is within the play after a reversal.
   double lead_ = 1.0;           // Amplification of a step before the lag.
   double wanted_;               // Last wanted angle.
-  double target_;               // Angle before backlash, after the curve.
+  double target_;               // Angle of the calibration curve, before backlash.
   double resting_;              // Angle at which the actuator comes to rest after the last command.
   double play_ = 0.0;           // Half of the backlash on the side to which the actuator turns.
   double lagged_;               // Angle before backlash, after dead time and lag.

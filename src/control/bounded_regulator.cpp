@@ -136,7 +136,8 @@ double BoundedRegulator::Input(const ErrorModel& model, const Regulator& regulat
     ComputeStep(model, 0.0, false);
     const double ratio = MeanProduct(StepToBound()) / product;
     ComputeStep(model, product * ratio * ratio * ratio, true);
-    // Keep a part of the way to the nearest bound. The part falls with the products.
+    // Stop a fraction of the way before the nearest bound. The fraction falls with the
+    // complementarity products.
     const double part = (1.0 - std::clamp(ratio, 1e-6, 0.01)) * StepToBound();
     for (Step& step : steps_) {
       step.input += part * step.turn;

@@ -99,7 +99,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
 
   [[nodiscard]] std::unique_ptr<SteeringController> Clone() const override {
     auto copy = std::make_unique<Mppi>(*this);
-    copy->surroundings_ = nullptr;  // belong to the loop of this controller
+    copy->surroundings_ = nullptr;  // the copy belongs to another loop
     return copy;
   }
 
@@ -273,7 +273,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
   std::vector<double> change_;
   std::vector<double> costs_;
   std::vector<double> sorted_;
-  const Surroundings* surroundings_ = nullptr;  // Of the present control period.
+  const Surroundings* surroundings_ = nullptr;  // Surroundings in the present control period.
   RollOuts roll_out_;
   CommandedAngle angle_;
   TurnRound turn_round_;

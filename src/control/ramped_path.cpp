@@ -32,7 +32,8 @@ Offset OffsetFrom(double x, double ramp, double tail, double before) {
   const double d = std::abs(x);
   const double end = (x < 0.0 ? -before : 1.0 - before) * ramp * ramp / 24.0;
   if (d < half) {
-    // The bend is linear and vanishes at the end of the ramp, and so do its integrals there.
+    // The second derivative of the offset is linear in x. At the end of the ramp, this derivative
+    // and its integrals are 0.
     const double left = half - d;
     return {.e = end - side * left * left * left / (6.0 * ramp),
             .slope = left * left / (2.0 * ramp),
@@ -61,7 +62,7 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
   const double last = input.station + ahead;
   const double tightest = CurvatureForSteering(vehicle, vehicle.steering_limit);
   const std::vector<Segment>& segments = input.reference.path.segments();
-  steps_.reserve(segments.size());  // no more steps than segments
+  steps_.reserve(segments.size());  // a path has at most one step per segment
   double station = 0.0;
   double leg = 0.0;      // Station at which the present leg begins.
   std::size_t kept = 0;  // Number of steps before the present leg.
@@ -71,7 +72,7 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
       const double room = std::min(step.station - step.tail, station - step.station);
       step.ramp = std::min(step.ramp, room / (0.5 + kShortestTail));
       step.tail = std::min(kTail * step.ramp, room - 0.5 * step.ramp);
-      // The tails of two steps may add.
+      // The curvatures of the tails of two steps may add up.
       const double ramp_by_tail = step.ramp / step.tail;
       const double bend = 2.0 * kTailBend / 24.0 * ramp_by_tail * ramp_by_tail;
       const auto share = [&](double curvature) {
@@ -101,7 +102,7 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
                             .from = end,
                             .height = segment.curvature - end,
                             .ramp = ramp,
-                            .tail = leg,  // until the end of the leg is known
+                            .tail = leg,  // start of the leg, replaced when its end is known
                             .before = 0.5,
                             .direction = segment.direction});
         }

@@ -23,9 +23,9 @@ namespace trackbed {
 /// The curvature of the ramped path rises linearly at abs(x) < S/2. Such a ramp moves the path to
 /// the side by kappa S^2/24. One part of this distance lies ahead of the ramp, where e < 0 for a
 /// step to the left, and the other one behind it, where e > 0. Beyond the ramp, e returns to 0
-/// within T, along a polynomial of degree 5. The parts are equal, if the car can steer the tails of
-/// both sides. The curvature of the tails is then at most 0.03 kappa, and their steering rate at
-/// most 0.16 omega. A turn at full lock leaves no steering for its tails, so the whole distance
+/// within T, along a polynomial of degree 5. If the car can steer the tails on both sides, both
+/// parts are equal. The curvature of the tails is then at most 0.03 kappa, and their steering rate
+/// at most 0.16 omega. A turn at full lock leaves no steering for its tails, so the whole distance
 /// lies on the side of less curvature. The effects of several steps are added.
 ///
 /// A path without steps of the curvature is returned unchanged. The wheels turn at rest at cusps
@@ -52,7 +52,7 @@ class RampedPath {
   /// Returns the position of the car relative to the ramped path.
   [[nodiscard]] Tracking Track() const;
 
-  /// As CurvatureAfterLag, on the ramped path.
+  /// Returns CurvatureAfterLag (tracking.h) of the ramped path [1/m].
   [[nodiscard]] double CurvatureAfterLag() const;
 
  private:
@@ -62,7 +62,7 @@ class RampedPath {
     double height;  // kappa
     double ramp;    // S
     double tail;    // T
-    double before;  // Part of the offset ahead of the step.
+    double before;  // Fraction of the offset that lies ahead of the step.
     int direction;
   };
 

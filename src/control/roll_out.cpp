@@ -68,7 +68,8 @@ RollOuts::Stage RollOuts::StageAt(double speed, double acceleration) const {
   }
   const double hard = std::abs(acceleration);
   for (std::size_t i = 0; i < 2; ++i) {
-    constexpr double kMinShare = 0.05;  // of the load at rest, and of the friction force
+    constexpr double kMinShare =
+        0.05;  // least fraction of the load at rest, and of the friction force
     const AxleGrip& axle = limit.axles[i];
     const double load =
         std::max(kMinShare, 1.0 + direction_ * axle.transfer * hard / (kGravity * axle.weight));
@@ -241,7 +242,7 @@ double RollOuts::PlaceOf(double station) const {
 
 void RollOuts::Project(RolledCar& car) const {
   const Node& node = nodes_[static_cast<std::size_t>(PlaceOf(car.station))];
-  // The node's index times the spacing.
+  // Station of the node.
   const double base = first_ + spacing_ * static_cast<double>(&node - nodes_.data());
   const double dx = car.x - node.x;
   const double dy = car.y - node.y;

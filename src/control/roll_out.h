@@ -77,7 +77,7 @@ class RollOuts {
     double x = 0.0;
     double y = 0.0;
     double yaw = 0.0;
-    double cosine = 1.0;  // Of the direction of motion.
+    double cosine = 1.0;  // Cosine of the direction of motion.
     double sine = 0.0;
     double curvature = 0.0;  // Mean curvature to the next node, in the direction of motion [1/m].
     SteadyTurn steady{};
@@ -87,7 +87,7 @@ class RollOuts {
   struct Stage {
     double speed = 0.0;                      // Signed speed at the end of the step [m/s].
     double station = 0.0;                    // Planned station at the end of the step [m].
-    std::array<double, 2> stiffness{};       // Of the axles [N/rad].
+    std::array<double, 2> stiffness{};       // Cornering stiffness of the axles [N/rad].
     std::array<double, 2> friction_force{};  // Largest lateral force of the axles [N].
   };
 

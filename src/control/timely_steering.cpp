@@ -10,9 +10,9 @@ namespace trackbed {
 namespace {
 
 constexpr int kSteps = 40;  ///< Number of time steps in which the wheels turn from 0 to the limit.
-constexpr int kSwings = 4;  ///< Multiple of this time that is followed.
+constexpr int kSwings = 4;  ///< Longest predicted drive, in multiples of this time.
 constexpr int kBits = 40;   ///< Relative precision of the solution: 2^-40.
-constexpr double kGentle = 1e-6;  ///< Curvature of a steady turn with a linear response [1/m].
+constexpr double kGentle = 1e-6;  ///< Curvature at which the tyres respond linearly [1/m].
 
 double StepTime(const VehicleParams& vehicle) {
   return vehicle.steering_limit / (kSteps * vehicle.steering_rate);
@@ -51,7 +51,7 @@ void TimelySteering::Follow(const ControlInput& input, const RampedPath& path, b
     moments_.push_back({.tangent = tangent(curvature, speed),
                         .speed = speed,
                         .length = tangent(kGentle, speed) / kGentle});
-    // Wheels that begin at `most` have met the path's steering.
+    // Stop when wheels that start at `most` reach the steering angle of the path.
     const double first = most - std::atan(moments_.front().tangent);
     const double wheels = most - std::copysign(rate_ * step_ * (i + 1), first);
     if ((wheels - std::atan(moments_.back().tangent)) * first <= 0.0) {
@@ -104,7 +104,7 @@ double TimelySteering::Steer(const ControlInput& input, const RampedPath& path, 
   const double at_planned = untimely - planned;
   const double at_untimely = excess(untimely);
   if (at_planned * at_untimely >= 0.0) {
-    return untimely;  // the wheels return at once
+    return untimely;  // no error: the wheels reach the path's angle at once
   }
   std::uintmax_t iterations = 30;
   const bool left = at_planned > 0.0;

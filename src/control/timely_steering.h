@@ -31,7 +31,7 @@ struct GainedErrors {
 ///
 /// E(delta_p) is 0. Beside a path of constant curvature, E grows with the square of delta -
 /// delta_p, so small errors are corrected as by the law alone. The solution lies between delta_p
-/// and law(0). It does not depend on the present angle of the wheels.
+/// and law(0). The solution does not depend on the present angle of the wheels.
 class TimelySteering {
  public:
   /// Returns the steering angle [rad]. `untimely` is law(0) [rad]. `law` returns an angle within

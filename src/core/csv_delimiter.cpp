@@ -41,7 +41,8 @@ std::size_t CountCells(std::string_view line, std::size_t& numbers) {
   return count;
 }
 
-/// Whether blanks separate numbers in the line or, behind names, as many in the next line.
+/// Returns whether blanks separate the numbers in a line, or whether the line has names and blanks
+/// separate as many numbers in the next line.
 bool HasBlanks(std::string_view line, std::string_view rest) {
   std::size_t numbers = 0;
   const std::size_t count = CountCells(line, numbers);
@@ -52,7 +53,7 @@ bool HasBlanks(std::string_view line, std::string_view rest) {
   return CountCells(NextLine(rest), below) == count && below == count;
 }
 
-/// Whether all cells of a line are numbers, which may have decimal commas.
+/// Returns whether all cells of a line are numbers; the numbers may have decimal commas.
 bool AreNumbers(std::string_view line, char delimiter) {
   for (bool more = true; more;) {
     const std::size_t end = line.find(delimiter);

@@ -6,16 +6,16 @@
 
 namespace trackbed {
 
-/// Lines before the rows of numbers of a CSV table. Loggers such as those of AiM, MoTeC and
+/// The lines of a CSV table before its rows of numbers. Loggers such as those of AiM, MoTeC and
 /// RaceChrono write lines about the session before the names of the columns, and lines of units
 /// behind them.
 struct CsvHead {
   char delimiter = ',';
-  int preamble_lines = 0;  ///< Lines before the line of the names.
+  int preamble_lines = 0;  ///< Number of lines before the names.
   int first_row = 0;       ///< Line of the first row of numbers; 0 without lines of units.
-  std::vector<std::string> units{};  ///< Unit of each column, "" where it has none.
-  bool has_decimal_commas = false;   ///< Whether numbers have them (HasDecimalCommas).
-  bool is_vbo = false;               ///< Whether cells are those of a VBO file (VboCells).
+  std::vector<std::string> units{};  ///< Unit of each column; "": no unit.
+  bool has_decimal_commas = false;   ///< Whether numbers have decimal commas.
+  bool is_vbo = false;               ///< Whether the file is a VBO file.
 };
 
 /// Finds the head of a table by the first 64 KiB of the file. The names are the first of the lines

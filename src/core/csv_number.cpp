@@ -29,7 +29,7 @@ bool HasDecimalCommas(const std::vector<std::vector<std::string>>& rows) {
         }
         continue;
       }
-      // A comma before or behind a point, or several commas, are between thousands.
+      // In a number with a point or with several commas, the commas separate thousands.
       if (!is_number && std::all_of(cell.begin(), cell.end(), [](char c) {
             return IsDigit(c) || c == ',' || c == '.' || c == '-';
           })) {

@@ -5,10 +5,10 @@
 
 namespace trackbed {
 
-/// Whether the numbers of a table have commas as decimal points, as spreadsheets write them in many
-/// countries beside semicolons. `rows` are cells of the table that the delimiter separated, which
-/// is no comma. Requires a number whose comma is not before three digits, which a comma between
-/// thousands would be, and no number with a point or with several commas.
+/// Returns whether the numbers of a table have decimal commas, as spreadsheets write them in many
+/// countries, with semicolons between cells. `rows` are rows of cells; the delimiter between the
+/// cells is not a comma. Returns true if no number has a point or several commas, and if at least
+/// one comma is not followed by three digits, as a comma between thousands is.
 bool HasDecimalCommas(const std::vector<std::vector<std::string>>& rows);
 
 /// Rewrites the number in a cell so that CellNumber reads it: removes the sign +, and replaces a

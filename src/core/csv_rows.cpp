@@ -127,7 +127,7 @@ class CommentFilter {
           return true;
         }
         Finish();
-        block.remove_prefix(end);  // the end of the line is parsed as that of an empty line
+        block.remove_prefix(end);  // the parser receives the comment as an empty line
         continue;
       }
       const std::size_t size = end == std::string_view::npos ? block.size() : end + 1;
@@ -390,9 +390,9 @@ class NamedRows {
   ProblemList& problems_;
   const TakeCsvNames& take_names_;
   const TakeCsvRow& take_;
-  std::optional<VboCells> vbo_;    // converts cells of a VBO file
-  std::vector<Comment> comments_;  // the last comments before the first row
-  std::size_t columns_ = 0;        // 0: the names are not known yet
+  std::optional<VboCells> vbo_;    // Converts the cells of a VBO file.
+  std::vector<Comment> comments_;  // The last comments before the first row.
+  std::size_t columns_ = 0;        // Number of columns; 0 before the names are known.
   bool is_broken_ = false;
 };
 

@@ -53,7 +53,7 @@ struct NumberReader {
   /// Reads the names of the columns from the first row, and the numbers from all other rows.
   void TakeRow();
 
-  /// Reads the given cells, which have the same contents afterwards, by TakeRow.
+  /// Reads the given cells by TakeRow, and leaves them unchanged.
   void Take(std::vector<std::string>& row, int row_line);
 
  private:

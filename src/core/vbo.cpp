@@ -141,7 +141,7 @@ std::string VboCells::Convert(std::vector<std::string>& cells) {
     const double time = 3600.0 * hours + kMinutes * minutes + seconds;
     days_ += last_ && *last_ - time > 0.5 * kDay ? kDay : 0.0;
     last_ = time;
-    // Times have up to three decimals; the rest is rounding of hhmmss.
+    // Times have up to three decimals; further digits are rounding errors of hhmmss.
     cells[i] = fmt::format("{:.6f}", time + days_);
   }
   return problem;

@@ -33,8 +33,8 @@ class VboCells {
   enum class Kind { kPlain, kTime, kLatitude, kLongitude };
 
   std::vector<Kind> kinds_;
-  std::optional<double> last_;  // time of the previous row, without days [s]
-  double days_ = 0.0;           // seconds of the days that have passed since the first row
+  std::optional<double> last_;  // Time of day in the previous row [s].
+  double days_ = 0.0;           // Duration of the days since the first row [s].
 };
 
 }  // namespace trackbed

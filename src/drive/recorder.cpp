@@ -31,8 +31,8 @@ Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller
       configurations_(config.configuration_columns, config.world, config.state_period),
       collisions_(config.world, config.vehicle, config.trailer) {
   if (keeps_rows_) {
-    // A vector that grows holds its rows twice while they move. Reserved rows only take addresses
-    // until they are written.
+    // Without reservation, a growing vector would copy all rows, and need twice the memory
+    // meanwhile. Reserved rows take memory only when they are written.
     log_.rows.reserve(MostRows(config));
   }
 }

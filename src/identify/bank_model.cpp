@@ -156,7 +156,7 @@ CenterPoints TrackOfRecords(const Identification& study) {
         const double offset = OffsetFrom(line, at);
         left = std::max(left, offset);
         right = std::max(right, -offset);
-        constexpr double kWidest = 30.0;  // of a road to either side [m]
+        constexpr double kWidest = 30.0;  // largest width of a road to either side [m]
         if (!line.closed && std::abs(offset) > kWidest) {
           throw InputError(Problem{
               .file = study.file.string(),
@@ -169,7 +169,7 @@ CenterPoints TrackOfRecords(const Identification& study) {
     }
   }
   const double half = 0.5 * LoadCar(first).params().width;
-  constexpr double kFold = 0.9;  // of the radius, to which the ground reaches
+  constexpr double kFold = 0.9;  // width of the ground over the smallest radius
   const double widest = kFold * SmallestRadius(line);
   for (TrackPoint& point : line.points) {
     point.width_left = std::min(left + half, widest);
@@ -181,7 +181,7 @@ CenterPoints TrackOfRecords(const Identification& study) {
 /// Returns the number of knots. The study must have room for as many parameters.
 std::size_t KnotsOf(const Identification& study, double length, bool closed) {
   const std::size_t room = kMostParameters - std::min(kMostParameters, study.parameters.size());
-  // An open line has knots at both ends, and those inside again in its mirror image.
+  // An open line has knots at both ends; its mirror image repeats the knots between the ends.
   const std::size_t more = closed ? 0 : 1;
   const std::size_t least =
       closed ? ClosedSplineBasis::kMinFunctions : ClosedSplineBasis::kMinFunctions / 2 + more;

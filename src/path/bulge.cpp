@@ -110,10 +110,9 @@ bool IsStraighter(const std::vector<double>& turns, const std::vector<double>& l
 }
 
 /// Returns shares of a step, ascending, at which points are added: their distances grow from
-/// `first` at the begin and `last` at the end [m] towards the middle. A spline of degree 5 that
-/// swings aside between knots at equal distances does so less from knot to knot, by a factor of
-/// about 0.43. The growth is much less than the inverse of the factor, so the swing in meters
-/// falls, too.
+/// `first` at the begin and `last` at the end [m] towards the middle. Between equidistant knots,
+/// the sideways swing of a spline of degree 5 shrinks from knot to knot by a factor of about 0.43.
+/// The distances grow by much less than 1/0.43, so the swing in meters shrinks, too.
 std::vector<double> SharesOn(double length, double first, double last) {
   constexpr double kGrowth = 1.25;
   std::vector<double> begin;
@@ -167,7 +166,7 @@ Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, doubl
 
 std::vector<std::size_t> StraightSteps(const CurveBetweenKnots& curve, const ChordPoints& fitted,
                                        double period, double tolerance) {
-  constexpr double kLong = 4.0;                // Times the median, as on tracks (TrackSteps).
+  constexpr double kLong = 4.0;                // A step of this many medians is long, as on tracks.
   constexpr double kLargestTurn = 0.25 * kPi;  // A larger turn at an end may be a wrong point.
   const std::vector<double> turns = TurnsOf(fitted, period);
   const std::vector<double> lengths = StepsOf(fitted, period);

@@ -42,13 +42,13 @@ struct CurveNode {
 /// of (|kappa| - max_curvature)^2. The integral covers the parts of the curve on which |kappa|
 /// exceeds max_curvature, and is evaluated at the nodes; the factor k is large. At the nodes, the
 /// curve then exceeds max_curvature by less than a thousandth of the excess of the curve without
-/// this term. Where the curvature jumps, as between a line and an arc, a curve without the term has
-/// a larger curvature than the arc.
+/// this term. Where the curvature jumps, as between a line and an arc, a curve without this term
+/// has a larger curvature than the arc.
 ///
-/// `nodes` are the initial values, at least three; a first and last node of an open curve have
-/// points. `headings` must be empty for a closed curve. Newton's method converges if the initial
-/// curve is near the points compared with its radii. Returns nullopt if the method does not
-/// converge. Costs about 20 us per node.
+/// `nodes` are the initial values, at least three. In an open curve, the first and the last node
+/// must have a point to fit. `headings` must be empty for a closed curve. Newton's method converges
+/// if the initial curve is near the points compared with its radii. Returns nullopt if the method
+/// does not converge. Costs about 20 us per node.
 std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode> nodes,
                                                           double smoothing_length, bool closed,
                                                           const EndHeadings& headings = {},

@@ -329,7 +329,8 @@ std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& loc
   // Number of smoothing lengths to try, and the factor from one to the next. The other factors lead
   // from the curve's smoothing length to that of the spline from which the curve starts.
   constexpr int kLengths = 16;
-  constexpr int kMaxFailures = 2;  // The search ends after so many lengths without convergence.
+  constexpr int kMaxFailures =
+      2;  // Number of smoothing lengths without convergence after which the search ends.
   constexpr double kShorter = 0.8;
   constexpr std::array<double, 2> kStarts{1.0, 2.0};
   const bool closed = local.period > 0.0;

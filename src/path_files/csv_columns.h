@@ -20,20 +20,21 @@ struct UsualColumn {
 std::optional<UsualColumn> FindUsualColumn(const std::vector<std::string>& names,
                                            std::string_view quantity);
 
-/// Columns of a pose whose names consist of the same words for a pose and a usual name, such as
+/// Columns of a pose. Their names consist of a usual name and words that describe a pose, such as
 /// "pose_x", "pose_y" and "pose_theta", "odom.pose.position.x", "posX", "X (m)" or "utm_x_cm".
 struct PoseColumns {
   std::optional<UsualColumn> x;
   std::optional<UsualColumn> y;
   std::optional<UsualColumn> yaw;
-  /// Names of the columns of x, if the file has several such poses. The columns are not set then.
+  /// If the columns of several poses match, the names of their x columns; `x`, `y` and `yaw` are
+  /// then empty.
   std::vector<std::string> choices;
 };
 
 /// Finds the columns of a pose. Yaw is only set together with x and y.
 PoseColumns FindPoseColumns(const std::vector<std::string>& names);
 
-/// Whether the columns have numbers instead of names (CsvLimits::numbers_columns).
+/// Returns whether the names of the columns are numbers (CsvLimits::numbers_columns).
 bool AreNumbered(const std::vector<std::string>& names);
 
 /// Explains which numbers to give for the columns of a file without names, by the cells of its

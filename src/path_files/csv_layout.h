@@ -30,8 +30,9 @@ struct CsvLayout {
   /// Columns of the local origin, x and y.
   std::array<std::optional<std::size_t>, 2> origin;
   DirectionColumn direction = DirectionColumn::kSigned;
-  bool is_globe = false;    ///< Whether kX and kY are longitudes and latitudes [deg].
-  bool is_unnamed = false;  ///< Whether the columns have numbers that nobody has given.
+  bool is_globe = false;  ///< Whether kX and kY are longitudes and latitudes [deg].
+  bool is_unnamed =
+      false;  ///< Whether the file has no column names, and the caller names no columns.
   /// Problems of the header, each with the name of its column. A table with problems has no layout.
   std::vector<std::pair<std::string, std::string>> problems;
 

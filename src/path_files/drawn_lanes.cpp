@@ -106,7 +106,7 @@ class LaneRows {
 }  // namespace
 
 DrawnLanes LanesNear(const DrawnLanes& lanes, const std::vector<Vec2>& path, double reach) {
-  // Thin the path; the points that are left out are within kStep of one that is not.
+  // Thin the path: each omitted point is within kStep of a kept point.
   constexpr double kStep = 5.0;  // [m]
   std::vector<Vec2> places;
   for (const Vec2& point : path) {

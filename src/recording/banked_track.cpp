@@ -27,7 +27,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kSampleSpacing = 1.0;  // of the center line [m]
+constexpr double kSampleSpacing = 1.0;  // Distance between samples of the center line [m].
 constexpr double kSurfaceMargin = 1.5;  // Width by which the road extends beyond its edges [m].
 constexpr double kBlendWidth = 8.0;     // Width of the transition to the coarse ground [m].
 constexpr double kMargin = 128.0;       // Width of the terrain around the track [m].
@@ -267,7 +267,8 @@ bool IsClosedLine(const std::vector<TrackPoint>& points) {
   if (points.size() < Track::kMinPoints) {
     return false;
   }
-  constexpr double kLargestGap = 2.0;  // in distances of neighboring points
+  constexpr double kLargestGap =
+      2.0;  // largest gap over the largest distance of neighboring points
   constexpr double kSameDirection = kPi / 6.0;
   const auto chord = [&](std::size_t i) -> Vec2 {
     return points[(i + 1) % points.size()].position - points[i].position;

@@ -98,7 +98,8 @@ std::optional<double> Misfit(const std::vector<Moment>& moments) {
   return UpperQuartile(apart) / UpperQuartile(course);
 }
 
-/// Returns the half-widths of the polynomials with which rates are compared [s].
+/// Returns the half-widths [s] of the windows to which polynomials are fitted for the comparison of
+/// rates.
 std::vector<double> HalfWidths(const LogMap& map) {
   constexpr double kWidest = 0.8;  // [s]
   std::vector<double> widths{map.resample.half_width};
@@ -113,7 +114,7 @@ std::vector<double> HalfWidths(const LogMap& map) {
 /// course turns much more than the yaw.
 std::optional<double> LeastMisfit(const LogRows& rows, const LogMap& map, double scale,
                                   double enough) {
-  constexpr double kLikeNoise = 0.3;  // largest distance of such a misfit from 1
+  constexpr double kLikeNoise = 0.3;  // a misfit this close to 1 may be noise
   std::optional<double> least;
   for (const double width : HalfWidths(map)) {
     const std::optional<double> misfit = Misfit(Moments(rows, map, scale, width));
@@ -292,7 +293,7 @@ void CheckYawRate(const LogRows& rows, const LogMap& map, Found& found) {
 }
 
 void CheckSteering(const LogRows& rows, const LogMap& map, LogSignal signal, Found& found) {
-  constexpr double kCertain = 0.7;  // smallest magnitude of a correlation that decides
+  constexpr double kCertain = 0.7;  // least magnitude of a correlation that settles the sign
   for (const double width : HalfWidths(map)) {
     // Compare tan(delta) of the steering angle delta with the curvature of the path, because
     // tan(delta) is proportional to the curvature, whatever the wheelbase is.

@@ -128,7 +128,7 @@ std::optional<FoundColumn> AnyOf(const std::vector<std::string>& names, const Na
   return std::nullopt;
 }
 
-/// Takes a found column, with its unit if it states one; without, its unit stays the default.
+/// Takes a found column with the unit that its name states; otherwise, keeps the default unit.
 template <typename Column>
 void Take(const std::optional<FoundColumn>& found, std::optional<Column>& column) {
   if (found) {

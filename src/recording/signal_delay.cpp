@@ -309,7 +309,7 @@ bool IsSignificant(const Scan& scan, int best, const Line& line, int stride) {
 /// The best delay, and how much of the signal it explains.
 struct Estimate {
   std::optional<SignalDelay> found{};
-  double explained = 0.0;  // share of the signal's variance
+  double explained = 0.0;  // explained share of the signal's variance
 };
 
 Estimate EstimateDelay(const std::vector<double>& reference, const std::vector<double>& signal,
@@ -359,7 +359,7 @@ std::vector<double> Smoothed(const std::vector<double>& values, std::size_t reac
   return means;
 }
 
-/// Returns which samples have only valid ones within `reach` samples to either side.
+/// Returns for each sample whether all samples within `reach` to either side are valid.
 std::vector<bool> Inside(const std::vector<bool>& valid, std::size_t reach) {
   std::vector<double> values;
   for (const bool own : valid) {
@@ -385,9 +385,9 @@ std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
   if (static_cast<double>(signal.size()) < 4.0 * std::ceil(kMaxSignalDelay / period)) {
     return std::nullopt;
   }
-  // Largest reach of the moving averages. Wider ones would average the motion itself.
+  // Largest reach of the moving averages [s]. A larger reach would smooth the motion itself.
   constexpr double kWidest = 0.5 * kMaxSignalDelay;
-  constexpr double kMost = 0.8;  // share of the signal that needs no more smoothing
+  constexpr double kMost = 0.8;  // explained share above which the signals need no smoothing
   Estimate estimate = EstimateDelay(reference, signal, valid, period);
   for (double reach = 0.125 * kWidest; estimate.explained < kMost && reach <= kWidest;
        reach *= 2.0) {

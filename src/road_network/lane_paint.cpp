@@ -49,7 +49,7 @@ void AddDashes(const std::vector<Vec2>& line, std::vector<PaintedLine>& lines) {
       } else {
         finish();
       }
-      s = next > s ? next : length;  // rounding must not hold the loop
+      s = next > s ? next : length;  // rounding must not stop the progress of the loop
     }
     from += length;
   }
@@ -70,7 +70,7 @@ RoadPaint PaintLanes(const DrawnLanes& lanes) {
     for (const std::vector<Vec2>* bound : {&lane.left, &lane.right}) {
       const BoundEnds ends = EndsOf(bound->front(), bound->back());
       if (bounds.count(EndsOf(bound->back(), bound->front())) > 0) {
-        continue;  // a bound of a lane of the other direction
+        continue;  // a lane of the opposite direction has already added this bound
       }
       const auto [own, is_new] = bounds.emplace(ends, Bound{bound, false});
       own->second.is_broken = !is_new;

@@ -95,7 +95,8 @@ std::string DescribeFold(const TrackFold& fold, double given) {
                    fold.radius, given, kMaxRadiusFraction);
 }
 
-/// Points with half their widths: an edge is narrowed to no less than half.
+/// Returns the points with half of their widths, the narrowest widths to which an edge may be
+/// narrowed.
 std::vector<TrackPoint> Halved(std::vector<TrackPoint> points) {
   for (TrackPoint& point : points) {
     point.width_left *= 0.5;
@@ -176,9 +177,9 @@ bool Zigzags(const std::vector<TrackPoint>& points, std::size_t at) {
 }
 
 /// Reads points that the default of Track does not fit: fills long steps between them, and takes
-/// the nearest default times a power of 2 that does (FittingTrack). Points on the grid of a
-/// picture, which turn to both sides in turn, take a longer wavelength; points with long straights
-/// between them take a shorter one. Returns nullopt if no wavelength fits.
+/// the nearest default times a power of 2 that does (FittingTrack). Points on the grid of a picture
+/// turn to the left and to the right alternately, and take a longer wavelength. Points with long
+/// straights between them take a shorter wavelength. Returns nullopt if no wavelength fits.
 std::optional<Track> FitOtherwise(TrackRows& rows) {
   FillLongSteps(rows);
   if (std::optional<Track> track = FittingTrack(rows, std::nullopt)) {
@@ -191,7 +192,7 @@ std::optional<Track> FitOtherwise(TrackRows& rows) {
   const double usual = kDefaultSmoothing * length / static_cast<double>(rows.points.size());
   const std::optional<TrackFold> fold = FindFold(Halved(rows.points), std::nullopt);
   if (fold && !Zigzags(rows.points, fold->point)) {
-    return std::nullopt;  // a bend of the track, and not of its points
+    return std::nullopt;  // the track itself bends too tightly, not only its points
   }
   constexpr int kMostDoublings = 6;
   for (int i = 1; i <= kMostDoublings; ++i) {

@@ -54,7 +54,7 @@ class TrackRows {
 
   std::string name_;
   const TrackReading& reading_;
-  std::optional<LogReading> log_;  // Reset if the file has widths.
+  std::optional<LogReading> log_;  // How to read the log; reset if the file has widths.
   std::vector<std::string> names_;
   std::array<std::optional<std::size_t>, kTrackQuantities> columns_;
   bool is_broken_ = false;

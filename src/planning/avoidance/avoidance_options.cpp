@@ -35,8 +35,8 @@ void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options) {
               "fraction of the steering rate up to which curves are preferred"},
              options.comfortable_steering_rate_fraction, Need::kOptional,
              Range{.max = 1.0, .above = 0.0});
-  // One tree for each side of an obstacle: twice this number is the bound of a detour
-  // (kMaxDetourSamples).
+  // A detour grows one tree for each side of the obstacle, with up to kMaxDetourSamples samples in
+  // both trees together.
   keys.Field({"rrt_iterations", "", "number of RRT* samples"}, options.rrt_iterations,
              Need::kOptional, Range{.min = 0, .max = 1e5});
   keys.Field({"rrt_step", "m", "maximum distance from a node toward a sample"}, options.rrt_step,

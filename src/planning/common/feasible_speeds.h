@@ -39,9 +39,8 @@ double LateralOver(const RoadHold& road, const Path& path, const Stations& piece
 
 /// Returns the combined longitudinal and lateral acceleration that a plan requires on a piece of
 /// its path, together with the limit. `v_from` and `v_to` are the speeds at both ends of the piece
-/// [m/s].
-/// Returns zeros where the check of one direction suffices: on a flat road, where the path is
-/// straight or the speed is constant.
+/// [m/s]. Returns zeros on a flat road where the path is straight or the speed is constant, because
+/// the checks of the single directions suffice there.
 RoadHold::Combined CombinedOver(const RoadHold& road, const Path& path, const PathPiece& piece,
                                 double v_from, double v_to);
 

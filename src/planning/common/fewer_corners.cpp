@@ -75,8 +75,8 @@ struct Cost {
 /// The cheapest polyline that ends with a leg.
 struct Leg {
   bool exists = false;
-  Cost cost;               // of the whole polyline
-  std::size_t before = 0;  // point at which the leg before it begins
+  Cost cost;               // cost of the whole polyline
+  std::size_t before = 0;  // index of the point at which the previous leg begins
 };
 
 class CornerChoice {
@@ -119,7 +119,7 @@ class CornerChoice {
       return std::nullopt;
     }
     for (std::size_t i = from + 1; i < to; ++i) {
-      // If the first leg is not replaced, a point on it is passed there.
+      // If the first leg is kept, the path passes a point on this leg.
       const double distance =
           std::min(DistanceFromLeg(points_[i], points_[from], points_[to]),
                    is_waypoint_[i] || from > 0 ? DistanceFromLeg(points_[i], points_[0], points_[1])
@@ -205,7 +205,8 @@ class CornerChoice {
   const std::vector<Vec2>& points_;
   const WaypointChoice& limits_;
   std::vector<bool> is_waypoint_;
-  std::vector<std::vector<Leg>> legs_;  // by end, then by number of points from the beginning
+  std::vector<std::vector<Leg>>
+      legs_;  // indexed by the end of the leg, then by the number of points before it
 };
 
 }  // namespace

@@ -57,8 +57,8 @@ double BrakingLength(const PlanRequest& request, const Pose2& from, double speed
   while (left > 0.0 && s < kLongest * shortest) {
     const double after = braking(s + feasible_speeds::kCheckSpacing);
     const double least = std::min(before, after);
-    // The last step ends the loop. If it were subtracted as the others are, rounding would leave
-    // ever smaller rests, in the end one that no step makes smaller.
+    // End the loop after the last step: subtracting this step, too, could leave a tiny rest due to
+    // rounding, and the loop might not end.
     if (const double rest = left / (2.0 * least); rest <= feasible_speeds::kCheckSpacing) {
       return s + rest;
     }

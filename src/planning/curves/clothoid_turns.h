@@ -63,10 +63,10 @@ TurnEnd LeaveAfter(const TurnCircle& circle, const CurveState& state, double beg
 
 /// A turn with two ends.
 struct ClothoidTurn {
-  double length = kNoCurve;  // of the clothoids and the arc
+  double length = kNoCurve;  // length of the clothoids and the arc
   double arc = 0.0;          // length of the arc, negative against the turn's direction
   double peak = 1.0;         // magnitude of the curvature of the arc
-  double sharpness = 1.0;    // of the clothoids; 0: the turn is a straight
+  double sharpness = 1.0;    // sharpness of the clothoids; 0: the turn is a straight
 };
 
 /// Which ends of a turn have the curvature 0; an end without it has the full curvature.

@@ -48,16 +48,16 @@ constexpr double kCoarseSpeedRatio = 0.6;
 struct Leg {
   std::vector<Segment> segments;
   CurveFindings findings;
-  double speed = 0.0;    // on its turns [m/s]
-  std::size_t lead = 0;  // number of segments before its turns, on which a rolling car slows down
+  double speed = 0.0;    // speed on the turns [m/s]
+  std::size_t lead = 0;  // number of segments before the turns, on which a rolling car slows down
   double cost = kNoCurve;
 };
 
 /// The place where the turns of a leg begin.
 struct LegStart {
   CurveState state;
-  double speed = 0.0;  // on the turns [m/s]
-  LeadIn lead{};       // on which a rolling car slows down to this speed
+  double speed = 0.0;  // speed on the turns [m/s]
+  LeadIn lead{};       // straight on which a rolling car slows down to this speed
 };
 
 /// The legs of a route with their total cost.

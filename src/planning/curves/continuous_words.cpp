@@ -62,7 +62,8 @@ double ChainLength(const TurnCircle& circle, const TurnChain& chain, bool both_w
   for (std::size_t i = 0; i < last; ++i) {
     straights += chain.junctions[i].straight;
   }
-  // Lower bounds first, which spare most chains the clothoids of small turns.
+  // Check lower bounds first, because they reject most chains without solving the clothoids of
+  // small turns.
   double least = straights + chain.first->Least() + chain.last->Least();
   for (std::size_t i = 1; i < last && least < limit; ++i) {
     const MiddleTurn turn(chain, i);

@@ -108,7 +108,7 @@ class ChainFinder {
 
   TurnCircle circle_;
   CurveMotion motion_;
-  double radius_;     // of the circle
+  double radius_;     // radius of the circle on which turns end
   double mu_;         // angle between the heading and the circle's tangent
   double cusp_link_;  // distance of the centers of two turns at a cusp
 };

@@ -31,12 +31,12 @@ constexpr int kDirections = 16;
 
 /// A heading at a stop with the shortest route to it.
 struct HeadingChoice {
-  double yaw = 0.0;        // [rad]
-  double length = 0.0;     // of the route [m]
-  std::size_t before = 0;  // index of the choice at the stop before
+  double yaw = 0.0;        // Heading [rad].
+  double length = 0.0;     // Length of the route up to the stop [m].
+  std::size_t before = 0;  // Index of the heading at the previous stop.
 };
 
-/// The choices of headings at stop `i`, the given one first.
+/// Returns the headings to try at stop `i`, beginning with the heading of the stop.
 std::vector<HeadingChoice> HeadingsAt(const std::vector<Pose2>& stops, std::size_t i) {
   std::vector<HeadingChoice> choices{{.yaw = stops[i].yaw}};
   if (i > 0 && i + 1 < stops.size()) {
@@ -124,15 +124,15 @@ class DetourPlanner {
     return IsDetour(plan, request_) || Stops(plan) > 0 || !IsDrivable(plan);
   }
 
-  /// Whether the car can drive a plan from its start speed. Slowing down later is allowed.
+  /// Returns whether the car can drive a plan from its start speed. The plan may slow down later.
   [[nodiscard]] bool IsDrivable(const Plan& plan) const {
     PlanRequest request = request_;
     request.infeasible = InfeasiblePolicy::kSlowDown;
     return plan.ok() && MakeFeasible(plan, request).ok();
   }
 
-  /// Whether only this plan is drivable; if both are, whether it is shorter by the smallest turning
-  /// radius, or stops less often, and takes no longer to drive.
+  /// Returns true if only `plan` is drivable. If both plans are, returns whether `plan` takes no
+  /// longer to drive, and is shorter by the smallest turning radius or stops less often.
   [[nodiscard]] bool IsBetter(const Plan& plan, const Plan& best) const {
     if (const bool drivable = IsDrivable(plan); drivable != IsDrivable(best)) {
       return drivable;

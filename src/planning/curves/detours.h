@@ -11,10 +11,11 @@ namespace trackbed {
 /// Returns the length of the shortest curve between two poses for a turning radius [m].
 using CurveLength = std::function<double(const Pose2&, const Pose2&, double)>;
 
-/// Returns the plan of `plan` for the request, or a plan without detours. A detour is a path that
-/// is longer than the straight lines between the waypoints by the car's smallest turning radius or
-/// more, that stops between start and goal, or that the car cannot drive from its start speed. If
-/// the request has no headings, the function tries these remedies against a detour or a refusal:
+/// Returns the plan that `plan` makes for the request, or a plan without detours. A detour is a
+/// path that is longer than the straight lines between the waypoints by the car's smallest turning
+/// radius or more, that stops between start and goal, or that the car cannot drive from its start
+/// speed. If the request has no headings, the function tries these remedies against a detour or a
+/// refusal:
 /// * other headings at the waypoints between start and goal: those of the shortest curves among
 ///   sixteen directions at each waypoint, for one to three turning radii;
 /// * fewer waypoints: those within a quarter of the car's width from the lines between the others

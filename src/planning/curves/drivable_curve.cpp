@@ -38,12 +38,12 @@ double SharpRamp(const VehicleParams& vehicle, double curvature, double speed, d
 
 /// One end of a word.
 struct WordEnd {
-  double sweep = 0.0;        // of its arc [rad], positive to the left
-  double curvature = 0.0;    // of its arc [1/m]
+  double sweep = 0.0;        // angle of the arc [rad], positive to the left
+  double curvature = 0.0;    // curvature of the arc [1/m]
   double beyond = 0.0;       // curvature of the path outside [1/m]
-  double start_speed = 0.0;  // of a car that slows down on the straight outside [m/s]
-  bool continues = false;    // the arc of the path outside
-  bool is_gentle = false;    // turns on an arc of another radius
+  double start_speed = 0.0;  // speed of a car that slows down on the straight outside [m/s]
+  bool continues = false;    // whether the arc continues the arc of the path outside
+  bool is_gentle = false;    // whether the arc may have another radius
 
   [[nodiscard]] bool IsShort() const { return is_gentle && std::abs(sweep) > kNoTurn; }
 };

@@ -27,7 +27,7 @@ constexpr double kLowestSpeed = 0.1;
 struct Section {
   std::vector<Segment> segments;
   std::size_t leg = 0;
-  bool is_faster = false;  // than the words of the plan
+  bool is_faster = false;  // whether the section is faster than in the given plan
 
   [[nodiscard]] double Length() const {
     double length = 0.0;
@@ -182,7 +182,7 @@ class RouteRefiner {
   [[nodiscard]] Plan PlanOf(const std::vector<Section>& sections) const {
     Plan plan = best_;
     plan.caps.clear();
-    plan.schedule_speed = {};  // the former one ends where the former path ends
+    plan.schedule_speed = {};  // the schedule of the given plan fits only the given path
     CurveDiagnostics diagnostics = *best_.diagnostics.planner.GetIf<CurveDiagnostics>();
     std::vector<Segment> segments;
     double station = 0.0;

@@ -30,18 +30,19 @@ namespace {
 /// Tolerance of the program, relative to the radius and to the time from lock to straight wheels.
 /// The end is corrected, and the speeds follow from the path.
 constexpr double kTolerance = 1e-3;
-constexpr double kLeastTime = 1e-3;      // of a piece, in the same units
-constexpr double kInputGrid = 0x1p-20;   // of lengths, speeds and angles, in the same units
-constexpr Eigen::Index kPathParts = 16;  // of a piece, on which the curvature is linear
+constexpr double kLeastTime = 1e-3;  // least duration of a piece, in units of the program
+constexpr double kInputGrid =
+    0x1p-20;  // inputs are rounded to multiples of this, in units of the program
+constexpr Eigen::Index kPathParts = 16;  // parts of a piece; the curvature is linear on each part
 
 double RoundedInput(double value) {
   return std::round(value / kInputGrid) * kInputGrid;
 }
 
-/// The program. Units are the smallest radius, the mission's speed, the largest steering angle, and
-/// the time in which the wheels turn by it. The variables are the steering angles and the speeds
-/// between the pieces, and the times of the pieces. The car does not steer on a piece that begins
-/// or ends at rest.
+/// The smooth program of a leg. Its units are the smallest radius, the mission's speed, the largest
+/// steering angle, and the time in which the wheels turn by this angle. The variables are the
+/// steering angles and the speeds between the pieces, and the times of the pieces. The car does not
+/// steer on a piece that begins or ends at rest.
 class LegProgram {
  public:
   explicit LegProgram(const FastestLeg& leg)
@@ -56,7 +57,8 @@ class LegProgram {
         direction_(leg.start.front().direction) {
     const Path path({}, leg.start);
     const Pose2 end = path.At(path.length()).pose;
-    // Forwards: mirrored if the car drives backwards. The heading counts full turns.
+    // A leg that is driven backwards is mirrored to a forward leg. The heading of the goal counts
+    // full turns.
     goal_ = {direction_ * end.x / radius_, end.y / radius_, 0.0};
     for (const Segment& segment : leg.start) {
       goal_.z() += segment.length * segment.CurvatureAt(0.5 * segment.length);
@@ -109,7 +111,7 @@ class LegProgram {
       if (miss.norm() <= kGoalRounding * (1.0 + goal_.norm())) {
         return Segments(parts);
       }
-      // The curvatures at both ends stay, and so do those at the limit.
+      // The curvatures at both ends of the leg, and curvatures at the limit, do not change.
       for (Eigen::Index k = 0; k <= count; ++k) {
         if (k <= held_at_start || k >= count - held_at_end ||
             std::abs(parts.curvatures[k]) >= 1.0) {
@@ -230,7 +232,8 @@ class LegProgram {
     return segments;
   }
 
-  /// Adds the derivative by the steering or the speed at a knot, unless these are fixed.
+  /// Adds the derivative with respect to the steering or the speed at a knot, unless these are
+  /// fixed.
   template <typename Row>
   void AddSteering(Row&& row, Eigen::Index knot, double value) const {
     if (IsSteered(knot)) {
@@ -308,16 +311,16 @@ class LegProgram {
 
   const FastestLeg& leg_;
   Eigen::Index n_;
-  Eigen::Index held_at_start_;  // number of pieces without steering at the start
+  Eigen::Index held_at_start_;  // number of pieces without steering at the start of the leg
   Eigen::Index held_at_end_;
   double radius_;    // [m]
   double speed_;     // [m/s]
   double steering_;  // [rad]
   double time_;      // [s]
   int direction_;
-  double first_curvature_ = 0.0;  // of the leg at both ends, in 1/radius
+  double first_curvature_ = 0.0;  // curvature at the start of the leg, in 1/radius
   double last_curvature_ = 0.0;
-  double first_ = 0.0;  // steering angles at both ends, rounded
+  double first_ = 0.0;  // steering angle at the start of the leg, rounded
   double last_ = 0.0;
   Eigen::Vector3d goal_;  // x, y and yaw
 };

@@ -22,7 +22,7 @@ struct LegLimits {
 
 /// A piece of a leg with one speed limit.
 struct LegPiece {
-  double length = 0.0;  // [m]
+  double length = 0.0;  // length of the piece [m]
   double speed = 0.0;   // largest speed [m/s], at most LegLimits::speed
   bool stops = false;   // the car changes its direction of motion before the piece
 };

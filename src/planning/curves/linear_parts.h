@@ -7,9 +7,9 @@
 /// Computes the ends of paths of many short clothoids, with derivatives.
 namespace trackbed {
 
-/// A path of parts with linear curvature, in radii.
+/// A path of clothoids, with the smallest radius as the unit of length.
 struct LinearParts {
-  Eigen::VectorXd curvatures;  // between the parts and at both ends
+  Eigen::VectorXd curvatures;  // curvature between the parts and at both ends
   Eigen::VectorXd lengths;
 };
 

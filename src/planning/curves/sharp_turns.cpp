@@ -27,8 +27,8 @@ Vec2 DoubleAngle(const Vec2& half) {
 
 /// A turn between curvatures of 0.
 struct ZeroTurn {
-  double along = 0.0;   // from its start to its end, along the heading of the end
-  double across = 0.0;  // the same across this heading, positive outside of the turn
+  double along = 0.0;   // distance from start to end along the heading of the end
+  double across = 0.0;  // distance across this heading, positive to the outside
   double length = 0.0;
   double slope = 0.0;  // along minus the derivative of across by the angle, exact for full turns
 };
@@ -164,7 +164,7 @@ class SharpWords {
     Vec2 half{1, 0};                // direction of alpha/2
     double across = 0.0;            // f
     double straight = 0.0;          // u, length of the straight
-    double length = 0.0;            // of the word
+    double length = 0.0;            // length of the word
     double slope = 0.0;             // -f' = u + g, for small turns approximately
     Vec2 apart{0, 0};               // from the first turn to the last, seen along alpha
     std::array<double, 2> along{};  // extents of the turns along alpha
@@ -173,7 +173,7 @@ class SharpWords {
 
   [[nodiscard]] Word At(double alpha) const { return At(alpha, Direction(0.5 * alpha)); }
 
-  /// As above, with the direction of alpha/2.
+  /// Returns the word for `alpha`; `half` is the direction of alpha/2.
   [[nodiscard]] Word At(double alpha, const Vec2& half) const {
     const ZeroTurn before = first_.Turn(first_side_, alpha, half);
     const ZeroTurn after = last_.Turn(last_side_, alpha, half);
@@ -223,7 +223,7 @@ class SharpWords {
     return distance_ + 2.0 + radius(first_.circle()) + radius(last_.circle());
   }
 
-  /// Returns the magnitude of f that is rounding.
+  /// Returns the magnitude below which f is a rounding error.
   [[nodiscard]] double rounding() const {
     return 4.0 * std::numeric_limits<double>::epsilon() * (1.0 + distance_);
   }
@@ -322,9 +322,9 @@ class AlphaSearch {
     return words_.At(0.5 * (zero.first + zero.second));
   }
 
-  /// Solves f = 0 between two words by Newton steps, then secants, and by bisection where these
-  /// leave the bracket or halve it too slowly. Returns false if the root has no straight. Gives up
-  /// words that are longer than the limit.
+  /// Solves f = 0 between two words by Newton steps, then secants, and by bisection where a step
+  /// leaves the bracket or shrinks it too slowly. Returns false if the root has no straight. Stops
+  /// early for words that are longer than the limit.
   bool Solve(const Word& a, const Word& b) {
     double low = a.alpha;
     double high = b.alpha;

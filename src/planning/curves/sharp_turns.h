@@ -20,7 +20,8 @@ namespace trackbed {
 ShortestCurve SharpWord(const TurnCircle& circle, double start, const CurveState& goal,
                         double limit);
 
-/// As above, with one circle for the first turn and another for the last turn.
+/// Same as ShortestSharpTurns above, but with one circle for the first turn and another for the
+/// last turn.
 ShortestCurve SharpWord(const TurnCircle& at_start, const TurnCircle& at_goal, double start,
                         const CurveState& goal, double limit);
 

@@ -6,8 +6,8 @@
 #include "trackbed/planning/fillet/fillet.h"
 
 /// The first and the last step of PlanFillets: find the turns, and lay out path and steering
-/// schedule. Between them, fillet_radius.h limits the radii; fillet_search.h and fillet_driven.h
-/// choose them.
+/// schedule. Between these two steps, fillet_radius.h limits the radii, and fillet_search.h and
+/// fillet_driven.h choose the radii.
 namespace trackbed::fillet {
 
 /// Thrown at the first failure of a fillet plan; PlanFillets turns the exception into a status.

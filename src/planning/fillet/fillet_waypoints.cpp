@@ -145,7 +145,7 @@ Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, do
   std::vector<Vec2> points = route.waypoints;
   double lowest = speed;
   if (options.without_room == InfeasibleTurnPolicy::kSlowDown) {
-    // About the rounding of coordinates to a decimeter.
+    // About as large as the rounding error of coordinates in decimeters.
     constexpr double kRounding = 0.25 * kUnnoticedShareOfWidth;
     points = WithFewestTightCorners(vehicle, route, points, choice_at(speed, kRounding));
     lowest = 0.5 * std::min(options.min_speed, speed);

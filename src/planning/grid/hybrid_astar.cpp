@@ -151,8 +151,8 @@ class Searches {
   }
 
   /// Advances a search from the start until it ends, or until it has expanded `most` poses. Stops
-  /// earlier and returns true if the goal is in a gap. At the requested resolution, a search from
-  /// the goal has then expanded all its poses before the search from the start has found a path.
+  /// and returns true if the goal is in a gap: if, at the requested resolution, a search from the
+  /// goal has expanded all its poses before the search from the start has found a path.
   [[nodiscard]] bool SearchWhileGoalIsOpen(PoseSearch& search,
                                            const std::shared_ptr<const OccupancyGrid>& grid,
                                            int most) const {

@@ -39,9 +39,9 @@ class PoseTree : public PoseSearch {
   /// A pose that the search has reached.
   struct Node {
     Pose2 pose;
-    double curvature = 0.0;  // of the path at the pose, if it is continuous [1/m]
+    double curvature = 0.0;  // Curvature at the pose, for paths of continuous curvature [1/m].
     double cost = 0.0;
-    double length = 0.0;  // of the path from the root of the tree [m]
+    double length = 0.0;  // Length of the path from the root of the tree [m].
     int parent = -1;
     Segment step;  // Segment that ends at this pose; empty for the root.
     /// Index of the curve that leads to the target if this node is at the target; otherwise -1.
@@ -51,7 +51,7 @@ class PoseTree : public PoseSearch {
   /// A step from a node.
   struct Step {
     Segment segment;
-    double end_curvature = 0.0;  // of the path at the end of the step, if it is continuous [1/m]
+    double end_curvature = 0.0;  // Curvature at the end, for paths of continuous curvature [1/m].
   };
 
   /// Returns the steps from a node that the car may drive.

@@ -19,8 +19,8 @@ namespace {
 // Lower bound of the speed caps [m/s]. Next to a stop, the mean of the file's speeds may be lower.
 constexpr double kMinSpeed = 0.1;
 
-// Length of a path among points over their distance, above which the points go to and fro. Noise
-// does so; a car that drives with missing speeds does not.
+// Ratio of the length of the path through some points to the distance between the first and the
+// last of them. Above this ratio, the points move back and forth, as noise does.
 constexpr double kToAndFro = 2.0;
 
 std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
@@ -93,8 +93,8 @@ std::vector<Standstill> SlowPlaces(const FittedPath& fitted) {
     return s[i + 1] - s[i] > kMinSpeed * (t[i + 1] - t[i]);
   };
   std::vector<Standstill> found;
-  Standstill joined{0, 0};   // the present window and all earlier windows that overlap it
-  Standstill longest{0, 0};  // the window of the longest duration among these
+  Standstill joined{0, 0};   // union of the present window with all earlier windows that overlap it
+  Standstill longest{0, 0};  // the longest of these windows
   const auto finish = [&] {
     const bool creeps = (joined.first > 0 && !is_fast(joined.first - 1)) ||
                         (joined.last + 1 < t.size() && !is_fast(joined.last));

@@ -104,7 +104,7 @@ bool CornersFit(const std::vector<Vec2>& way, const PruningProblem& problem) {
 /// A corner that may replace some successive points of a path.
 struct OuterCorner {
   Vec2 at;
-  /// Index of the point of the path that the corner is; none for a new corner.
+  /// Index of the corner among the points of the path; none for a new corner.
   std::optional<std::size_t> point{};
 };
 
@@ -114,8 +114,12 @@ std::optional<Vec2> Meeting(const Vec2& a, const Vec2& b, const Vec2& c, const V
   const Vec2 in = b - a;
   const Vec2 out = d - c;
   const double area = Cross(in, out);
-  const double ahead = Cross(c - b, out) / area;  // in lengths of the first line
-  const double behind = Cross(c - b, in) / area;  // in lengths of the second line, forward
+  const double ahead =
+      Cross(c - b, out) /
+      area;  // distance of the corner beyond `b`, over the length of the first line
+  const double behind =
+      Cross(c - b, in) /
+      area;  // position of the corner after `c` along the second line, over its length
   if (!std::isfinite(ahead) || !std::isfinite(behind) || ahead < 0.0 || behind > 0.0) {
     return std::nullopt;
   }
