@@ -18,9 +18,9 @@ namespace trackbed {
 /// If a w*(k) exceeds w_max, BoundedRegulator minimizes J subject to the bounds of w. This strictly
 /// convex quadratic program is solved by a primal-dual interior-point method, whose Newton steps
 /// are Riccati recursions (Rao et al. 1998; Mehrotra 1992). The start keeps all bounds, and its
-/// multipliers meet the stationarity of the Lagrangian. Both remain so, because the steps of inputs
-/// and multipliers have the same length. The duality gap therefore bounds how much J exceeds its
-/// minimum.
+/// multipliers make the Lagrangian stationary. Each iteration keeps the bounds and the
+/// stationarity, because the steps of inputs and multipliers have the same length. The duality gap
+/// therefore bounds how much J exceeds its minimum.
 ///
 /// Guarantees: w(0) is within the bounds; J is within kGap w_max^2 of its minimum, unless the
 /// method needs more than kMaxIterations. With a preview of 100 steps, 8 to 14 iterations are

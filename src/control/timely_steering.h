@@ -25,9 +25,9 @@ struct GainedErrors {
 /// car gains while its wheels turn from delta at the full rate, until they meet delta_p(s):
 ///   d psi/ds = (tan(delta) - tan(delta_p))/L',   de/ds = psi,   d delta/dt = -+omega,
 /// with L' the ratio of tan(delta) to the curvature in a steady turn [m]: the wheelbase L, and L +
-/// K v^2 for a car with the understeer gradient K. The law adds E to the present errors. This is
-/// the rule of time-optimal control: begin to turn back at the last moment from which full rate
-/// suffices (Athans and Falb 1966, ch. 7).
+/// K v^2 for a car with the understeer gradient K. The law adds E to the present errors. The law
+/// thus follows the rule of time-optimal control: begin to turn back at the last moment from which
+/// the full rate suffices (Athans and Falb 1966, ch. 7).
 ///
 /// E(delta_p) is 0. Beside a path of constant curvature, E grows with the square of delta -
 /// delta_p, so small errors are corrected as by the law alone. The solution lies between delta_p

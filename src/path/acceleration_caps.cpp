@@ -123,10 +123,10 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
 }
 
 /// Returns the constant deceleration at which a car slows down if it starts faster than the profile
-/// [m/s^2]. This is the deceleration of the first stretch, or `deceleration` without stretches. It
-/// is more if the car would otherwise be too fast at one of three places: the start of a strict
-/// cap, the start of a section of less grip, or the end of the path. `squared` are the largest
-/// squared speeds at the ends of the stretches.
+/// [m/s^2]. The result is the deceleration of the first stretch, or `deceleration` if there is no
+/// stretch. It is more if the car would otherwise be too fast at one of three places: the start of
+/// a strict cap, the start of a section of less grip, or the end of the path. `squared` are the
+/// largest squared speeds at the ends of the stretches.
 double BrakingFromStart(double length, double start_squared, double deceleration,
                         const std::vector<SpeedCap>& caps, const std::vector<Stretch>& stretches,
                         const std::vector<double>& squared) {

@@ -43,9 +43,9 @@ struct MppiOptions {
   int samples = 1000;  ///< Number of roll-outs, from 8 to 100000; rounded up to be even.
   int steps = 50;      ///< Number of steps of a roll-out, from 10 to 500.
   /// Duration of a roll-out [s], from 0.1 to 10. Default: the time in which the car can move aside
-  /// by twice its width w at the speed v, but at least 1 s and at most 5 s. This is the larger one
-  /// of cbrt(64 w L/(v^2 omega)), at the full steering rate omega, and sqrt(8 w/a), at the lateral
-  /// grip a.
+  /// by twice its width w at the speed v, but at least 1 s and at most 5 s. This time is
+  /// the larger one of cbrt(64 w L/(v^2 omega)), at the full steering rate omega, and sqrt(8 w/a),
+  /// at the lateral grip a.
   std::optional<double> horizon;
   std::uint64_t seed = 0;    ///< Seed of the deviations.
   double temperature = 0.1;  ///< lambda divided by the spread of the costs [1], > 0.

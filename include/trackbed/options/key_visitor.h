@@ -138,8 +138,8 @@ class KeyVisitor {
   void Method(const Key& key, std::optional<Options>& value, const std::vector<Entry>& table,
               Need need, const Inside& rest = {});
 
-  /// Lists a key that has no declaration besides a description; does nothing in modes other than
-  /// kList.
+  /// Adds a key to the list of keys; the key has only a description, and is not read or written.
+  /// Does nothing in modes other than kList.
   virtual void Mention(const Key&, const char* /*type*/) {}
 
   /// Returns true in mode kRead if `key` is a section that has a key of `inner` but no key

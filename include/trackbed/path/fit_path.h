@@ -78,9 +78,8 @@ struct FittedPath {
   /// Points at which the direction of travel changes by more than kMaxHeadingJump. If any point has
   /// such a change, no path is fitted.
   std::vector<HeadingJump> reversals;
-  /// If `reversals` is not empty: a value of max_deviation with which a spline can be fitted, of
-  /// about the smallest size [m]. Nullopt if this value would exceed a tenth of the length of the
-  /// points.
+  /// If `reversals` is not empty: about the smallest max_deviation with which a spline can be
+  /// fitted [m]. Nullopt if this value would exceed a tenth of the length of the points.
   std::optional<double> noise_deviation{};
   /// Smoothing length l of the fitted spline [m]; 0 for a polyline, and for a path that follows the
   /// given headings and curvatures.
@@ -139,7 +138,8 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 ///
 /// Steps that turn back by more than a right angle within max_deviation are noise, as of a recorder
 /// in a car that stands. A spline is fitted to the centers of these points. Successive points with
-/// the speed 0 are one place if they lie within max_deviation of it; `given` then has this place.
+/// the speed 0 are fitted as one point if they lie within max_deviation of one place; `given` then
+/// contains this place.
 ///
 /// Guarantees: an open path, and each of its legs, begins at the first point and ends at the last
 /// point, to 1e-9 m. At coordinates of 1e6 m and more, it does so to their rounding. If all points

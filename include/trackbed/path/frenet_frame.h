@@ -56,9 +56,9 @@ struct MotionState {
 /// Returns the path coordinates of a car, relative to the point of the path nearest to the car,
 /// within the given stations. Returns nullopt if the Frenet frame is undefined at the car's pose.
 /// The Frenet frame is undefined if the car is at or beyond the path's center of curvature (1 -
-/// kappa_r d <= 0). It is also undefined if the car faces across or against the path (|Dtheta| >=
-/// 90 degrees). The Frenet frame is also undefined if the car drives backwards at the nearest point
-/// of the path. The cost is the same as that of Path::Project.
+/// kappa_r d <= 0). The frame is also undefined if the car faces across or against the path
+/// (|Dtheta| >= 90 degrees). The Frenet frame is also undefined if the car drives backwards at the
+/// nearest point of the path. The cost is the same as that of Path::Project.
 std::optional<FrenetState> ToFrenet(const Path& path, const MotionState& motion,
                                     Stations within = {});
 

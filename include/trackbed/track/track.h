@@ -132,7 +132,7 @@ class Track {
 struct TrackFold {
   std::size_t point = 0;  ///< Index of the surveyed point before the tightest place of the bend.
   double radius = 0.0;    ///< Radius of the center line at the tightest place of the bend [m].
-  /// Distance from the center line to the inner edge at the tightest place of the bend [m]. This
+  /// Distance from the center line to the inner edge at the tightest place of the bend [m]. The
   /// distance exceeds 95 % of the radius unless `turn` is set.
   double width = 0.0;
   /// Lower bound on the angle by which the center line turns within a quarter of the mean distance

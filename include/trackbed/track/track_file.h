@@ -38,10 +38,11 @@ struct TrackFile {
 /// track.
 ///
 /// Without `reading.smoothing`, the wavelength of the smoothing is the default of Track. Another
-/// one is taken if an edge folds over then, or if a point is moved by more than a tenth of the
-/// narrowest width. For such a file, points are added on straight lines between points that are
-/// more than four times the median distance apart. The default is then multiplied by the power of 2
-/// nearest to 1 (1/64 to 64) at which neither happens, if one exists.
+/// wavelength is taken if an edge folds over with the default, or if a point is moved by more than
+/// a tenth of the narrowest width. For a file that needs another wavelength, points are added on
+/// straight lines between points that are more than four times the median distance apart. The
+/// default is then multiplied by the power of 2 nearest to 1 (1/64 to 64) at which neither happens,
+/// if one exists.
 ///
 /// The inner edge may fold over in a bend (TrackFold). It is then narrowed to 95 % of the bend's
 /// radius, to no less than half of its width in the file.

@@ -40,7 +40,7 @@ struct MagicFormula {
   double p_dx1 = 0.0;  ///< Longitudinal friction coefficient mu_x at nominal load, > 0.
   double p_dx2 = 0.0;  ///< Change of the friction coefficient mu_x with the load.
   double p_dx3 = 0.0;  ///< Change of the friction coefficient mu_x with the camber.
-  double p_ex1 = 0.0;  ///< Curvature factor E of the formula, held at 1 above 1.
+  double p_ex1 = 0.0;  ///< Curvature factor E of the formula; values above 1 count as 1.
   double p_ex2 = 0.0;  ///< Change of E with the load; E is at most 1.
   double p_ex3 = 0.0;  ///< Change of E with the square of the load change.
   double p_ex4 = 0.0;  ///< Change of E with the sign of the slip ratio.
@@ -62,7 +62,7 @@ struct MagicFormula {
   double p_dy1 = 0.0;  ///< Lateral friction coefficient mu_y at nominal load, > 0.
   double p_dy2 = 0.0;  ///< Change of the friction coefficient mu_y with the load.
   double p_dy3 = 0.0;  ///< Change of the friction coefficient mu_y with the camber.
-  double p_ey1 = 0.0;  ///< Curvature factor E of the formula, held at 1 above 1.
+  double p_ey1 = 0.0;  ///< Curvature factor E of the formula; values above 1 count as 1.
   double p_ey2 = 0.0;  ///< Change of E with the load; E is at most 1.
   double p_ey3 = 0.0;  ///< Change of E with the sign of the slip angle.
   double p_ey4 = 0.0;  ///< Change of E with the camber and the sign of the slip angle.

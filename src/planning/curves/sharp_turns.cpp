@@ -15,7 +15,7 @@
 // 2. The words are the roots of f where the length of the straight is not negative.
 // 3. The interval of alpha is divided at the values at which a turn changes its side, and then into
 //    cells of 0.3 rad. TOMS 748 finds the root in each cell in which f changes its sign.
-// 4. This is repeated for the goal's heading and one full turn more and less.
+// 4. Steps 1 to 3 are repeated for the goal's heading plus and minus a full turn.
 // Source: Fraichard and Scheuer 2004.
 namespace trackbed {
 namespace {
@@ -385,8 +385,8 @@ ShortestCurve SharpWord(const TurnCircle& at_start, const TurnCircle& at_goal, d
   const Pose2 wrapped{goal.pose.x, goal.pose.y, WrapAngle(goal.pose.yaw)};
   const SharpEnd unwound(at_goal, {wrapped, goal.curvature}, -1);
   for (const int circles : {0, 1, -1}) {
-    // Neither turn makes a loop between the first and the last of these values of alpha. At those
-    // between, a turn changes its side.
+    // Neither turn makes a loop between the first and the last of these values of alpha. At the
+    // values of alpha between these two, a turn changes its side.
     const double neutral = unwound.neutral() + circles * 2.0 * kPi;
     const double low = std::min(first.neutral(), neutral);
     const double high = std::max(first.neutral(), neutral);

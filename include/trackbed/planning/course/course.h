@@ -30,7 +30,7 @@ struct CoursePiece {
 void Visit(KeyVisitor& keys, CoursePiece& piece);
 
 struct CourseOptions {
-  /// Pieces of the course, in order from the car's start; at least one. Together at most
+  /// Pieces of the course, in order from the car's start; at least one piece, and together at most
   /// kMaxPathLength long.
   std::vector<CoursePiece> segments;
 };

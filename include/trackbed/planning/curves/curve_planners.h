@@ -43,7 +43,8 @@ struct DubinsOptions {
   double max_lateral_acceleration = 3.0;
   /// Fraction of the car's steering rate that curves of continuous curvature use, in (0, 1].
   double max_steering_rate_fraction = 0.9;
-  CurveObjective objective = CurveObjective::kTime;  ///< Of curves of continuous curvature.
+  CurveObjective objective =
+      CurveObjective::kTime;  ///< What curves of continuous curvature minimize.
 };
 void Visit(KeyVisitor& keys, DubinsOptions& options);
 

@@ -78,8 +78,8 @@ struct ClothoidDrive {
   double min_speed = 0.3;             ///< Lowest speed on clothoids [m/s], > 0.
   double steering_rate = 1.0;         ///< Largest rate of the steering angle [rad/s], > 0.
   double lateral_acceleration = 3.0;  ///< Largest lateral acceleration [m/s^2], > 0.
-  double acceleration = 1.0;          ///< Of the speed profile [m/s^2], > 0.
-  double deceleration = 1.0;          ///< Of the speed profile [m/s^2], > 0.
+  double acceleration = 1.0;          ///< Acceleration of the speed profile [m/s^2], > 0.
+  double deceleration = 1.0;          ///< Deceleration of the speed profile [m/s^2], > 0.
   double start_speed = 0.0;           ///< Speed at the start, forwards [m/s], >= 0.
   double start_curvature = 0.0;       ///< Curvature of the path at the start [1/m].
   bool rests_at_start = false;        ///< Whether the car may turn its wheels at rest at the start.
@@ -122,9 +122,9 @@ struct HybridAStarResult {
 /// function returns the best path found so far. Half of the budget is reserved for the series of
 /// resolutions, unless the search at the requested resolution finds a path with the other half. The
 /// status is kNoPath if obstacles enclose the start or the goal, or if there is no path with steps
-/// of 0.016 r. In both cases, the searches have expanded all poses around the start or around the
-/// goal. Throws InternalError if an option is out of range. Computing time: about 10 us per
-/// expanded pose, 100 us with clothoids.
+/// of 0.016 r. Before they return kNoPath, the searches have expanded all poses around the start or
+/// around the goal. Throws InternalError if an option is out of range. Computing time: about 10 us
+/// per expanded pose, 100 us with clothoids.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 
