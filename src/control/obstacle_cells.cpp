@@ -1,5 +1,6 @@
 #include "src/control/obstacle_cells.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
