@@ -34,9 +34,9 @@ namespace trackbed {
 ///   command
 ///      would cross the play for ever, because errors decay but never vanish. The half-width is a
 ///      quarter of the backlash, or 0.08 (L/R)^2 if that is less, where R is ShortestPreview: a law
-///      that steers to a point at the distance R then stays within 0.04 L of its path. Reversals
-///      below a quarter of the half-width are not commanded, because noise would cross the play,
-///      too.
+///      that steers to a point at the distance R then stays within 0.04 L of its path. Reversals of
+///      the wanted angle below a quarter of the half-width are ignored, because with noise, the
+///      command would cross the play, too.
 ///   2. Half of the backlash is added on the side to which the actuator turns.
 ///   3. A lead that divides the lag by 3. The lead amplifies noise by the same factor. Within the
 ///      play, the amplification is up to 6.

@@ -16,8 +16,8 @@ namespace trackbed {
 bool IsBankParameter(const std::string& name);
 
 /// The bank of a study's track as a function of parameters: the coefficients of a spline over the
-/// station, one per knot. The spline of a closed track is closed. That of an open track is
-/// continued as an even function beyond both ends, so its slope is zero there.
+/// station, one per knot. The spline of a closed track is closed. The spline of an open track is
+/// continued as an even function beyond both ends, so its slope is zero at the ends.
 class BankModel {
  public:
   /// Makes the track of the study: that of `bank.track`, or the path of the first fitted record, as

@@ -135,7 +135,8 @@ class Splitter {
       }
       entry.text = WithoutBlanks(value.substr(1, end - 1));
     } else {
-      // Text after a number is a comment without its $. A second number is an error.
+      // Text after a number counts as a comment whose $ is missing. Two numbers in one entry are an
+      // error.
       const std::size_t end = value.find_first_of(kBlanks);
       entry.text = value.substr(0, end);
       entry.number = NumberIn(entry.text);

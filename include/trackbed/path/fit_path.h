@@ -142,15 +142,16 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// contains this place.
 ///
 /// Guarantees: an open path, and each of its legs, begins at the first point and ends at the last
-/// point, to 1e-9 m. At coordinates of 1e6 m and more, it does so to their rounding. If all points
-/// lie on one line, arc or clothoid, the path deviates from it by at most 1e-9 m. No point lies
-/// further than max_deviation from the path's point at the same station, as measured on the fitted
-/// path. With `resample`, the deviation is measured from the resampled points on the straight lines
-/// between the given points. Between widely spaced points, a spline deviates from the straight
-/// lines (`bulge`); next to corners, the deviation is a tenth of the spacing or more. The deviation
-/// of a spline from the straight lines (`bulge`) is at most the larger of two values. These are a
-/// fifth of the spacing, and the height of an arc that turns by the same angle as the points. The
-/// fit does not account for obstacles or the limits of a car.
+/// point, to 1e-9 m. At coordinates of 1e6 m and more, the path begins and ends there to the
+/// rounding error of the coordinates. If all points lie on one line, arc or clothoid, the path
+/// deviates from it by at most 1e-9 m. No point lies further than max_deviation from the path's
+/// point at the same station, as measured on the fitted path. With `resample`, the deviation is
+/// measured from the resampled points on the straight lines between the given points. Between
+/// widely spaced points, a spline deviates from the straight lines (`bulge`); next to corners, the
+/// deviation is a tenth of the spacing or more. The deviation of a spline from the straight lines
+/// (`bulge`) is at most the larger of two values. These are a fifth of the spacing, and the height
+/// of an arc that turns by the same angle as the points. The fit does not account for obstacles or
+/// the limits of a car.
 ///
 /// A step that is more than four times as long as the median is a straight line if the points turn
 /// on it by less than a quarter of the curvature beside it, and so is a step on which the spline

@@ -143,8 +143,8 @@ class DetourPlanner {
   }
 
   /// Replaces `best` by a shorter plan for the request with other headings: those of the shortest
-  /// route of arcs with a radius. Ramps of the steering need more room than arcs, so larger radii
-  /// follow if a detour is left.
+  /// route of arcs with a radius. Tries larger radii, too, if the plan is still a detour, because
+  /// ramps of the steering need more room than arcs.
   void TryOtherHeadings(Plan& best, const PlanRequest& request) const {
     const std::vector<Pose2> stops = PlannedStops(request);
     std::vector<double> tried;
