@@ -42,8 +42,7 @@ struct VehicleSpec {
   /// Tyre property file (*.tir) of the tyres of both axles, relative to the scenario file; replaces
   /// the tyre coefficients in the car model.
   std::optional<std::string> tyre_file{};
-  /// Tyre property file of the rear tyres; default: `tyre_file`.
-  std::optional<std::string> tyre_file_rear{};
+  std::optional<std::string> tyre_file_rear{};  ///< For the rear tyres; default: tyre_file.
   /// Maximum steering rate of the road wheels [rad/s]; overrides the limit in the car model.
   std::optional<double> steering_rate;
   std::optional<AidOptions> aids{};         ///< Driver aids of the plant `mujoco`; nullopt: none.
