@@ -87,6 +87,13 @@ double SlidingSlip(double friction, double load, double stiffness) {
   return 3.0 * friction * load / stiffness;
 }
 
+/// Returns the contact of a wheel at the point of the road below the lowest point of the tyre.
+WheelContact ContactOf(const mjModel& model, const mjData& data, const TyreWheel& wheel,
+                       const TyreTouch& touch) {
+  const Eigen::Vector3d on_road = touch.lowest_W - touch.gap * touch.normal_W;
+  return ContactAt(model, data, wheel.body, wheel.radius, on_road, touch.normal_W);
+}
+
 }  // namespace
 
 std::vector<TyreWheel> TyreWheelsOfCar(const CarModel& car, const mjModel& model) {
@@ -218,9 +225,7 @@ void MagicFormulaTyres::TakeLateralSlip(const mjModel& model, const mjData& data
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     const TyreWheel& wheel = wheels_[w];
     const TyreTouch touch = Touch(data, w);
-    const Eigen::Vector3d on_road = touch.lowest_W - touch.gap * touch.normal_W;
-    const WheelContact contact =
-        ContactAt(model, data, wheel.body, wheel.radius, on_road, touch.normal_W);
+    const WheelContact contact = ContactOf(model, data, wheel, touch);
     const double speed = std::abs(contact.rolling_speed);
     slips_[w].y = speed > kAtRestSpeed ? contact.slip_speed_y / speed : 0.0;
   }
@@ -230,9 +235,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data, std::span<cons
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     const TyreWheel& wheel = wheels_[w];
     const TyreTouch touch = Touch(data, w);
-    const Eigen::Vector3d on_road = touch.lowest_W - touch.gap * touch.normal_W;
-    const WheelContact contact =
-        ContactAt(model, data, wheel.body, wheel.radius, on_road, touch.normal_W);
+    const WheelContact contact = ContactOf(model, data, wheel, touch);
     const double radius = wheel.radius;
     const Eigen::Map<const Eigen::Vector3d> hub(data.xipos + 3 * wheel.body);
     const double opening = touch.normal_W.dot(contact.hub_velocity +
