@@ -18,8 +18,8 @@
 // 2. UnexplainedCommand (oscillation.h) removes what these signals explain, and WaveSearch looks
 //    for waves in the rest, in each stretch in which the car moves.
 // 3. The largest wave above ToleratedAmplitude counts. The tolerated steering uses a fifth of the
-//    steering rate, or moves the car by 5 % of its width, whichever is less. It is at least half of
-//    the backlash.
+//    steering rate, or moves the car by 5 % of its width, whichever is less. At least half of the
+//    backlash is tolerated.
 // docs/verdict.md#calm-steering explains the limits.
 namespace trackbed {
 namespace {

@@ -12,8 +12,9 @@ using ControllerOptions = MethodOptions<SteeringController>;
 
 /// Selects what a path-following controller assumes about the car's steering actuator.
 enum class ActuatorKnowledge {
-  kModel,   ///< The actuator of the vehicle's parameters.
-  kIgnore,  ///< An actuator without dead time, lag, backlash and curve, to study the mismatch.
+  kModel,   ///< The controller knows the actuator that the vehicle's parameters describe.
+  kIgnore,  ///< The controller assumes an ideal actuator, without dead time, lag, backlash and
+            ///< curve.
 };
 
 }  // namespace trackbed

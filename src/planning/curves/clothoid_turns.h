@@ -77,8 +77,8 @@ struct ZeroEnds {
 
 /// Returns the turn from a state to the heading `yaw`, with curvature 0 or the full curvature. If
 /// `both_ways`, the arc may be driven against the direction of the clothoids where it is shorter.
-/// The arc of a turn that ends with the full curvature is never driven so, because the next piece
-/// continues this arc.
+/// The arc keeps the direction of the clothoids if the turn ends with the full curvature, because
+/// the next piece continues this arc.
 ClothoidTurn TurnFrom(const TurnCircle& circle, const TurnEnd& end, double yaw, bool to_zero,
                       bool both_ways);
 

@@ -54,7 +54,8 @@ double SteeringRateOn(const VehicleParams& vehicle, std::span<const Bend> bends,
 /// Returns a speed of at most `at.speed` with which the car needs at most the steering rate `rate`
 /// [rad/s] in all of the bends; infinite if `at.speed` needs no more. For a car that understeers,
 /// the result is the largest such speed, to nine digits, because the steering rate increases with
-/// the speed. The acceleration and the road are those of `at`. A rate of 0 means no limit.
+/// the speed. Takes the acceleration of the car and the friction of the road from `at`. A rate of 0
+/// means no limit.
 double SpeedForSteeringRate(const VehicleParams& vehicle, std::span<const Bend> bends, double rate,
                             const PieceSpeed& at);
 
