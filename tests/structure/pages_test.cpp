@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -69,6 +72,44 @@ TEST(Pages, NameFilesThatExist) {
     }
   }
   EXPECT_GT(seen, 100U);  // the scan found paths
+}
+
+/// Returns the functions that a struct of a header holds as pointers, such as `check`.
+std::set<std::string> FunctionsOf(const std::string& name, const fs::path& header) {
+  static const std::regex pointer("\\(\\*(\\w+)\\)\\(");
+  std::ostringstream read;
+  read << std::ifstream(kFolder / header).rdbuf();
+  const std::string text = read.str();
+  const std::size_t begin = text.find("struct " + name + " {");
+  EXPECT_NE(begin, std::string::npos) << name;
+  const std::string body = text.substr(begin, text.find("\n};", begin) - begin);
+  std::set<std::string> functions;
+  for (std::sregex_iterator match(body.begin(), body.end(), pointer), end; match != end; ++match) {
+    functions.insert((*match)[1]);
+  }
+  return functions;
+}
+
+TEST(Pages, DescribeTheFunctionsOfEntries) {
+  struct Entry {
+    const char* name;
+    const char* header;
+    const char* page;
+  };
+  for (const Entry& entry :
+       {Entry{"PlannerEntry", "include/trackbed/planning/common/planner.h", "add-a-planner.md"},
+        Entry{"ControllerEntry", "include/trackbed/control/steering_controller.h",
+              "add-a-controller.md"}}) {
+    std::ostringstream page;
+    page << std::ifstream(kFolder / "docs/how-to" / entry.page).rdbuf();
+    const std::set<std::string> functions = FunctionsOf(entry.name, entry.header);
+    EXPECT_GT(functions.size(), 5U) << entry.name;
+    for (const std::string& function : functions) {
+      EXPECT_THAT(page.str(), testing::AnyOf(testing::HasSubstr("`" + function + "`"),
+                                             testing::HasSubstr("." + function + " = ")))
+          << entry.page;
+    }
+  }
 }
 
 }  // namespace
