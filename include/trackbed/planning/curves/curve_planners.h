@@ -44,7 +44,7 @@ struct DubinsOptions {
   /// Fraction of the car's steering rate that curves of continuous curvature use, in (0, 1].
   double max_steering_rate_fraction = 0.9;
   CurveObjective objective =
-      CurveObjective::kTime;  ///< What curves of continuous curvature minimize.
+      CurveObjective::kTime;  ///< Minimized by curves of continuous curvature.
 };
 void Visit(KeyVisitor& keys, DubinsOptions& options);
 
