@@ -22,6 +22,7 @@
 
 #include "src/planning/curves/continuous_or_steps.h"
 #include "src/planning/curves/leg_speeds.h"
+#include "src/planning/curves/sharp_turns.h"
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/driving_time.h"
 #include "trackbed/planning/common/feasibility.h"
