@@ -21,6 +21,7 @@
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/fewer_corners.h"
 #include "trackbed/planning/common/plan_comparison.h"
+#include "trackbed/planning/common/route.h"
 #include "trackbed/planning/common/waypoint_miss.h"
 
 namespace trackbed {
