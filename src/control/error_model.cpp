@@ -49,14 +49,23 @@ double TangentExcess(double steering) {
 
 ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, double period,
                           TyreForces tyre_forces) {
-  const VehicleParams& vehicle = input.vehicle;
   const int direction = tracking.foot.direction;
+  const double speed = std::max(direction * input.state.speed, SlowestSpeed(input.vehicle));
+  return MakeErrorModelFor(input.vehicle,
+                           {.curvature = tracking.foot.curvature,
+                            .speed = direction * speed,
+                            .acceleration = input.reference.speed.AccelerationAt(input.station)},
+                           period, tyre_forces);
+}
+
+ErrorModel MakeErrorModelFor(const VehicleParams& vehicle, const Motion& motion, double period,
+                             TyreForces tyre_forces) {
   const bool tyres = HasTyres(vehicle) && tyre_forces != TyreForces::kNone;
   const int n = tyres ? kYawRate + 1 : kWheels + 1;
   ErrorModel model;
   model.period = period;
   model.tyres = tyre_forces;
-  model.speed = direction * std::max(direction * input.state.speed, SlowestSpeed(vehicle));
+  model.speed = motion.speed;
   const double u = model.speed;
 
   // The augmented matrix maps (x, w, kappa, c) to the derivatives of (x, w, kappa, c), assuming
@@ -78,9 +87,6 @@ ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, d
     rates(kOffset, kLateral) = 1.0;
     rates(kOffset, kYawRate) = -vehicle.cg_to_rear;
     rates(kHeading, kYawRate) = 1.0;
-    const Motion motion{.curvature = tracking.foot.curvature,
-                        .speed = u,
-                        .acceleration = input.reference.speed.AccelerationAt(input.station)};
     const Eigen::Matrix<double, 2, 3> lateral =
         LateralRates(vehicle, OperateOn(vehicle, tyre_forces, motion).stiffness, u);
     rates.block<2, 2>(kLateral, kLateral) = lateral.leftCols<2>();
@@ -166,10 +172,11 @@ Regulator SolveRegulator(const ErrorModel& model, const ErrorWeights& weights) {
 }
 
 Ahead::Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model,
-             const RampedPath* path)
+             SpeedAhead speed, const RampedPath* path)
     : input_(input),
       model_(model),
       path_(path),
+      speed_(speed),
       station_(input.station),
       excess_speed_(std::abs(model.speed) - input.reference.speed.SpeedAt(input.station)),
       direction_(tracking.foot.direction),
@@ -178,7 +185,7 @@ Ahead::Ahead(const ControlInput& input, const Tracking& tracking, const ErrorMod
       yaw_(tracking.foot.pose.yaw) {}
 
 Motion Ahead::MotionOn(double curvature) const {
-  if (model_.tyres == TyreForces::kLinear) {
+  if (speed_ == SpeedAhead::kPresent) {
     return {.curvature = curvature, .speed = model_.speed};
   }
   const SpeedProfile& planned = input_.reference.speed;
@@ -189,9 +196,9 @@ Motion Ahead::MotionOn(double curvature) const {
           .acceleration = planned.AccelerationAt(station_)};
 }
 
-Vector Ahead::Next() {
+Vector Ahead::Next(const ErrorModel& model) {
   const Motion from = MotionOn(curvature_);
-  const double stride = std::abs(from.speed) * model_.period;
+  const double stride = std::abs(from.speed) * model.period;
   station_ += stride;
   const PathPoint next = path_ ? path_->At(station_) : input_.reference.path.At(station_);
   // Mean curvature over the step, computed from the heading change so that it includes curvature
@@ -200,12 +207,12 @@ Vector Ahead::Next() {
   const auto steering = [&](double curvature) {
     Motion motion = from;
     motion.curvature = curvature;
-    return OperateOn(input_.vehicle, model_.tyres, motion).turn.steering;
+    return OperateOn(input_.vehicle, model.tyres, motion).turn.steering;
   };
   // A car in the steady turn x_0 leaves this turn only if the curvature changes.
   const Vector after =
-      steady_ + model_.d * (mean - curvature_) +
-      model_.c * (TangentExcess(steering(mean)) - TangentExcess(steering(curvature_)));
+      steady_ + model.d * (mean - curvature_) +
+      model.c * (TangentExcess(steering(mean)) - TangentExcess(steering(curvature_)));
   yaw_ = next.pose.yaw;
   curvature_ = next.curvature;
   steady_ = SteadyState(input_.vehicle, MotionOn(curvature_), model_);

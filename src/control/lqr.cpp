@@ -27,7 +27,9 @@ class Lqr final : public SteeringController {
     path_.Update(input, previewed);
     const Tracking tracking = path_.Track();
     const ErrorModel model = MakeErrorModel(input, tracking, input.period, options_.tyres);
-    Ahead ahead(input, tracking, model, &path_);
+    const SpeedAhead speed =
+        options_.tyres == TyreForces::kLinear ? SpeedAhead::kPresent : SpeedAhead::kPlanned;
+    Ahead ahead(input, tracking, model, speed, &path_);
     ErrorModel::Vector z = ErrorState(input, tracking, options_.tyres) - ahead.steady();
     ErrorWeights weights = WeightsFor(vehicle, options_, model.speed, input.period);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z);

@@ -32,24 +32,32 @@ class Mpc final : public SteeringController {
     }
     const VehicleParams& vehicle = input.vehicle;
     const Tracking tracking = ProjectOntoPath(input);
-    const double step = std::max(options_.step, input.period);
-    const ErrorModel model = MakeErrorModel(input, tracking, step, options_.tyres);
-    Ahead ahead(input, tracking, model);
+    const double step = Step(input);
+    ErrorModel model = MakeErrorModel(input, tracking, step, options_.tyres);
+    Ahead ahead(input, tracking, model, SpeedAhead::kPlanned);
     Prediction z{ErrorState(input, tracking, options_.tyres) - ahead.steady(), {}};
     ErrorWeights weights = WeightsFor(vehicle, options_, model.speed, input.period);
-    const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z.free);
+    Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z.free);
     z.reach.setZero(model.a.rows(), options_.horizon);
 
+    const double present = model.speed;
     QuadraticProgram program;
     program.hessian.setZero(options_.horizon, options_.horizon);
     program.hessian.diagonal().setConstant(weights.steering_rate);
     program.linear.setZero(options_.horizon);
     const ErrorModel::Matrix cost = StateCost(model, weights).asDiagonal();
     for (int k = 0; k < options_.horizon; ++k) {
-      z.free = (model.a * z.free + ahead.Next()).eval();
+      if (const Motion motion = ahead.Now(); k > 0 && !Describes(model, motion)) {
+        model = MakeErrorModelFor(vehicle, motion, step, options_.tyres);
+      }
+      z.free = (model.a * z.free + ahead.Next(model)).eval();
       z.reach = (model.a * z.reach).eval();
       z.reach.col(k) += model.b;
-      const ErrorModel::Matrix& of_step = k + 1 < options_.horizon ? cost : regulator.cost;
+      const bool last = k + 1 == options_.horizon;
+      if (last && model.speed != present) {
+        regulator = SolveRegulator(model, weights);
+      }
+      const ErrorModel::Matrix& of_step = last ? regulator.cost : cost;
       program.hessian += z.reach.transpose() * of_step * z.reach;
       program.linear += z.reach.transpose() * (of_step * z.free);
     }
@@ -58,6 +66,20 @@ class Mpc final : public SteeringController {
   }
 
  private:
+  /// Returns the duration of a prediction step [s].
+  [[nodiscard]] double Step(const ControlInput& input) const {
+    constexpr double kStep = 0.1;
+    const VehicleParams& vehicle = input.vehicle;
+    const double swing = vehicle.steering_limit / vehicle.steering_rate;
+    return std::max(options_.step.value_or(std::max(kStep, swing / options_.horizon)),
+                    input.period);
+  }
+
+  /// Returns whether the linear model, which was made for another motion, holds for `motion`.
+  static bool Describes(const ErrorModel& model, const Motion& motion) {
+    return model.speed == motion.speed;
+  }
+
   /// Adds lower and upper bounds of the steering rates and of the steering angles, which are sums
   /// of the steering rates.
   static void Limit(const VehicleParams& vehicle, double start, double step,
@@ -100,8 +122,10 @@ void Visit(KeyVisitor& keys, MpcOptions& options) {
   Visit(keys, options.tyres);
   keys.Field({"horizon", "", "number of prediction steps"}, options.horizon, Need::kOptional,
              Range{.min = 1, .max = MpcOptions::kMaxHorizon});
-  keys.Field({"step", "s", "prediction step; at least the control period"}, options.step,
-             Need::kOptional, Range{.min = 1e-3, .max = 1.0});
+  keys.Field(
+      {"step", "s",
+       "prediction step; at least the control period; default: 0.1 s, or more for slow wheels"},
+      options.step, Range{.min = 1e-3, .max = 1.0});
 }
 
 }  // namespace trackbed

@@ -85,7 +85,7 @@ TEST(ErrorModel, StaysInASteadyTurn) {
         const ControlInput input = situation.input();
         const Tracking tracking = ProjectOntoPath(input);
         const ErrorModel model = MakeErrorModel(input, tracking, 0.1);
-        Ahead ahead(input, tracking, model);
+        Ahead ahead(input, tracking, model, SpeedAhead::kPresent);
         // Headings on a path of 500 m are rounded by about 1e-13 rad. Divided by a stride of at
         // least 0.1 m, this causes an error of 1e-12 1/m in the curvature.
         EXPECT_LT((ErrorState(input, tracking) - ahead.steady()).norm(), Tolerance(1e-12));
@@ -190,7 +190,7 @@ TEST(Ahead, MovesTheSteadyTurnToTheCurvatureAhead) {
                            .period = 0.1};
   const Tracking tracking = ProjectOntoPath(input);
   const ErrorModel model = MakeErrorModel(input, tracking, 0.1);
-  Ahead ahead(input, tracking, model);
+  Ahead ahead(input, tracking, model, SpeedAhead::kPresent);
   // At 1 m per step, the tenth step ends on the arc.
   for (int k = 0; k < 9; ++k) {
     EXPECT_EQ(ahead.Next().norm(), 0.0);
@@ -279,7 +279,7 @@ TEST(Ahead, BrushTyresTurnAtThePlannedSpeed) {
                            .period = 0.1};
   const Tracking tracking = ProjectOntoPath(input);
   const ErrorModel model = MakeErrorModel(input, tracking, 0.1, TyreForces::kBrush);
-  Ahead ahead(input, tracking, model);
+  Ahead ahead(input, tracking, model, SpeedAhead::kPlanned);
   // At a mean speed of 20 m/s, the car reaches the arc after 5 s. The path adds no input to earlier
   // steps.
   for (int k = 0; k < 45; ++k) {
@@ -294,6 +294,35 @@ TEST(Ahead, BrushTyresTurnAtThePlannedSpeed) {
   EXPECT_NEAR(ahead.steady()[5], 0.5, Tolerance(1e-12));
   // With constant curvature and speed the input is zero.
   EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
+}
+
+TEST(ErrorModel, TheModelOfEachStepStaysInTheTurnAtAChangingSpeed) {
+  // On a circle, a car whose wheels hold the steady turn at every speed leaves the turn only
+  // because its steady turn changes with the speed: g(k) is x_0(k) - x_0(k+1).
+  const VehicleParams car = ReferenceCarWithTyres();
+  const Reference reference{Path({}, {{200.0, 0.02, 1}}),
+                            SpeedProfile({{0.0, 15.0}, {100.0, 5.0}, {200.0, 5.0}})};
+  const SteeringSchedule schedule;
+  VehicleState state;
+  state.speed = 15.0;
+  const ControlInput input{.vehicle = car,
+                           .reference = reference,
+                           .schedule = schedule,
+                           .state = state,
+                           .station = 0.0,
+                           .period = 0.1};
+  const Tracking tracking = ProjectOntoPath(input);
+  ErrorModel model = MakeErrorModel(input, tracking, 0.1);
+  Ahead ahead(input, tracking, model, SpeedAhead::kPlanned);
+  for (int k = 0; k < 40; ++k) {
+    SCOPED_TRACE(k);
+    model = MakeErrorModelFor(car, ahead.Now(), 0.1, TyreForces::kLinear);
+    EXPECT_EQ(model.speed, ahead.Now().speed);
+    const ErrorModel::Vector before = ahead.steady();
+    const ErrorModel::Vector push = ahead.Next(model);
+    // As in StaysInASteadyTurn.
+    EXPECT_LT((push - (before - ahead.steady())).norm(), Tolerance(1e-11));
+  }
 }
 
 }  // namespace

@@ -79,6 +79,32 @@ TEST(Mpc, TurnsTheWheelsAsEarlyAsTheirRateNeeds) {
   EXPECT_LT(mpc, 0.8 * lqr);
 }
 
+/// Returns the angle that mpc commands to a car on a straight path, `way` [m] before a circle.
+double SteerBeforeCircle(const MpcOptions& options, const SpeedProfile& planned, double way) {
+  const VehicleParams car = ReferenceCarWithTyres();
+  const Reference reference{Path({}, {{way, 0.0, 1}, {100.0, 0.05, 1}}), planned};
+  VehicleState state;
+  state.speed = planned.SpeedAt(0.0);
+  return Steer(options, car, reference, state, 0.0, 0.02);
+}
+
+TEST(Mpc, PredictsWithThePlannedSpeed) {
+  // From 12 to 2 m/s over 28 m, the car drives for 4 s. The circle begins 10 m later, after 9 s,
+  // but after 3.2 s at the present speed. Within 4 s, no deviation needs a command.
+  const SpeedProfile braking({{0.0, 12.0}, {28.0, 2.0}, {100.0, 2.0}});
+  const MpcOptions options{.horizon = 40, .step = 0.1};
+  EXPECT_EQ(SteerBeforeCircle(options, braking, 38.0), 0.0);
+  EXPECT_NE(SteerBeforeCircle(options, SpeedProfile({{0.0, 12.0}}), 38.0), 0.0);
+}
+
+TEST(Mpc, LooksAheadForTheTimeOfTheWheelsToTheirLimit) {
+  // The wheels turn to their limit in 0.487 rad / (0.1506 rad/s) = 3.2 s; the circle begins after
+  // 3 s. Twenty steps of 0.1 s end before the circle.
+  const SpeedProfile speed({{0.0, 4.0}});
+  EXPECT_EQ(SteerBeforeCircle({.step = 0.1}, speed, 12.0), 0.0);
+  EXPECT_NE(SteerBeforeCircle({}, speed, 12.0), 0.0);
+}
+
 TEST(Mpc, ComesBackFromFarAway) {
   LoopSetup setup;
   setup.path = Path({}, {{300.0, 0.0, 1}});

@@ -22,10 +22,11 @@ namespace trackbed {
 ///
 /// Guarantees: the actuator can turn from the last commanded angle to the new commanded angle
 /// within one control period, and the new angle is within the steering limit. While no limit is
-/// active, the commands equal those of the LQR controller with the same step and a preview of N
-/// steps. Far from the path, the weight of the steering rate grows in the same way as for the LQR
-/// controller. The model has linear tyres without saturation and ignores speed changes. On paths
-/// that are driven in reverse, the controller uses the same model with a negative speed u. Cost:
+/// active and the speed is constant, the commands equal those of the LQR controller with the same
+/// step and a preview of N steps. Far from the path, the weight of the steering rate grows in the
+/// same way as for the LQR controller. Each step of the prediction has the model of the planned
+/// speed there, plus the amount by which the car now exceeds the planned speed. On paths that are
+/// driven in reverse, the controller uses the same model with a negative speed u. Cost:
 /// about 80 us per control period with 20 steps, and 160 us if a limit is active. The MPC
 /// controller allocates heap memory (in NLopt) only if a limit is active.
 struct MpcOptions {
@@ -36,8 +37,10 @@ struct MpcOptions {
   double heading = 1.0;  ///< Weight of the heading error [1/rad^2], >= 0.
   /// Weight of the steering rate [s^2/rad^2], > 0; same default as in LqrOptions.
   std::optional<double> steering_rate;
-  int horizon = 20;   ///< Number N of steps in the prediction horizon, from 1 to kMaxHorizon.
-  double step = 0.1;  ///< Duration of a prediction step [s], > 0; at least the control period.
+  int horizon = 20;  ///< Number N of steps in the prediction horizon, from 1 to kMaxHorizon.
+  /// Duration of a prediction step [s], > 0; at least the control period. Default: 0.1 s, or more
+  /// if the wheels turn from straight ahead to their limit in more than `horizon` such steps.
+  std::optional<double> step;
   TyreForces tyres = TyreForces::kLinear;
 };
 void Visit(KeyVisitor& keys, MpcOptions& options);
