@@ -297,8 +297,9 @@ TEST(Ahead, BrushTyresTurnAtThePlannedSpeed) {
 }
 
 TEST(ErrorModel, TheModelOfEachStepStaysInTheTurnAtAChangingSpeed) {
-  // On a circle, a car whose wheels hold the steady turn at every speed leaves the turn only
-  // because its steady turn changes with the speed: g(k) is x_0(k) - x_0(k+1).
+  // On a circle, the steady turn of each step is a fixed point of the model of its speed: x_0 = a
+  // x_0
+  // + d kappa + c (tan(delta_0) - delta_0). The model of the present speed has other fixed points.
   const VehicleParams car = ReferenceCarWithTyres();
   const Reference reference{Path({}, {{200.0, 0.02, 1}}),
                             SpeedProfile({{0.0, 15.0}, {100.0, 5.0}, {200.0, 5.0}})};
@@ -312,17 +313,20 @@ TEST(ErrorModel, TheModelOfEachStepStaysInTheTurnAtAChangingSpeed) {
                            .station = 0.0,
                            .period = 0.1};
   const Tracking tracking = ProjectOntoPath(input);
-  ErrorModel model = MakeErrorModel(input, tracking, 0.1);
-  Ahead ahead(input, tracking, model, SpeedAhead::kPlanned);
+  const ErrorModel present = MakeErrorModel(input, tracking, 0.1);
+  Ahead ahead(input, tracking, present, SpeedAhead::kPlanned);
   for (int k = 0; k < 40; ++k) {
     SCOPED_TRACE(k);
-    model = MakeErrorModelFor(car, ahead.Now(), 0.1, TyreForces::kLinear);
+    const ErrorModel model = MakeErrorModelFor(car, ahead.Now(), 0.1, TyreForces::kLinear);
     EXPECT_EQ(model.speed, ahead.Now().speed);
-    const ErrorModel::Vector before = ahead.steady();
-    const ErrorModel::Vector push = ahead.Next(model);
+    const ErrorModel::Vector turn = ahead.steady();
+    const ErrorModel::Vector after =
+        model.a * turn + model.d * 0.02 + model.c * (std::tan(turn[2]) - turn[2]);
     // As in StaysInASteadyTurn.
-    EXPECT_LT((push - (before - ahead.steady())).norm(), Tolerance(1e-11));
+    EXPECT_LT((after - turn).norm(), Tolerance(1e-11));
+    ahead.Next(model);
   }
+  EXPECT_LT(ahead.Now().speed, 10.0);  // the car has braked
 }
 
 }  // namespace
