@@ -112,7 +112,7 @@ class DetourPlanner {
       return best;
     }
     if (request_.headings.empty() && request_.waypoints.size() > 2) {
-      TryOtherHeadings(best, request_);
+      TryOtherHeadings(best, request_, best);
       TryFewerWaypoints(best);
     }
     NoteDetourOfHeadings(best);
@@ -143,29 +143,37 @@ class DetourPlanner {
             DrivingTime(plan, request_.vehicle) <= DrivingTime(best, request_.vehicle));
   }
 
-  /// Replaces `best` by a shorter plan for the request with other headings: those of the shortest
-  /// route of arcs with a radius. Tries larger radii, too, if the plan is still a detour, because
-  /// ramps of the steering need more room than arcs.
-  void TryOtherHeadings(Plan& best, const PlanRequest& request) const {
+  /// Whether a plan through these stops may be better than `best`. No path is shorter than the
+  /// shortest curves of the smallest radius, so a plan is made only if these are short enough.
+  [[nodiscard]] bool MayBeBetter(const std::vector<Pose2>& stops, const Plan& best) const {
+    return !IsDrivable(best) || Stops(best) > 0 ||
+           RouteLength(stops, radius_, length_) + radius_ <= PlanLength(best);
+  }
+
+  /// Replaces `own` by a shorter plan for the request with other headings, if these may be better
+  /// than `best`, too. The headings are those of the shortest route of arcs with a radius. Ramps of
+  /// the steering need more room than arcs, so larger radii follow if a detour is left.
+  void TryOtherHeadings(Plan& own, const PlanRequest& request, const Plan& best) const {
     const std::vector<Pose2> stops = PlannedStops(request);
     std::vector<double> tried;
     for (const double share : {1.0, 1.5, 2.25}) {
       const double radius = share * radius_;
       const std::vector<Pose2> shortest = WithShortestHeadings(stops, radius, length_);
-      PlanRequest own = request;
+      PlanRequest turned = request;
       for (const Pose2& stop : shortest) {
-        own.headings.push_back(stop.yaw);
+        turned.headings.push_back(stop.yaw);
       }
-      if (own.headings == tried ||
-          RouteLength(shortest, radius, length_) + radius_ > RouteLength(stops, radius, length_)) {
+      if (turned.headings == tried ||
+          RouteLength(shortest, radius, length_) + radius_ > RouteLength(stops, radius, length_) ||
+          !MayBeBetter(shortest, own) || !MayBeBetter(shortest, best)) {
         continue;
       }
-      tried = own.headings;
-      Plan other = plan_(own);
-      if (IsBetter(other, best)) {
-        best = std::move(other);
+      tried = turned.headings;
+      Plan other = plan_(turned);
+      if (IsBetter(other, own)) {
+        own = std::move(other);
       }
-      if (!HasDetour(best)) {
+      if (!HasDetour(own)) {
         return;
       }
     }
@@ -190,8 +198,10 @@ class DetourPlanner {
       tried = fewer;
       PlanRequest request = request_;
       request.waypoints = std::move(fewer);
-      Plan plan = plan_(request);
-      TryOtherHeadings(plan, request);
+      Plan plan = MayBeBetter(PlannedStops(request), best)
+                      ? plan_(request)
+                      : route::Refused(PlanStatus::kNoPath, "longer than another path");
+      TryOtherHeadings(plan, request, best);
       const auto miss =
           plan.ok() ? LargestWaypointMiss(plan.reference.path, request_.waypoints) : std::nullopt;
       if (miss && miss->distance <= near && IsBetter(plan, best) &&
