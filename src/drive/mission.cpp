@@ -15,6 +15,7 @@
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/long_leg.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/waypoint_miss.h"
 #include "trackbed/planning/registry/planners.h"
@@ -97,6 +98,28 @@ void NoteMissedWaypoint(FeasiblePlan& plan, const VehicleParams& vehicle) {
     plan.AddNote(fmt::format(
         "{} is missed by {:.4g} m, at s = {:.4g} m; plan.max_waypoint_miss bounds this distance",
         DescribeWaypoint(miss->waypoint, miss->at), miss->distance, miss->station));
+  }
+}
+
+/// Adds a note to the plan if the path takes a way from one waypoint to the next that is longer
+/// than the straight line by a whole circle of the car's smallest turning radius or more. Around
+/// obstacles, such a way is common.
+void NoteLongLeg(FeasiblePlan& plan, const VehicleParams& vehicle, const Scenario& scenario,
+                 const std::vector<OrientedBox>& known) {
+  if (vehicle.kind != VehicleKind::kSteered || !known.empty() || !plan->blocked.empty() ||
+      !plan->partial.empty()) {
+    return;
+  }
+  const double circle = 2.0 * kPi * vehicle.min_turning_radius();
+  if (const auto leg = LongestLeg(plan->reference.path, plan->waypoints, circle)) {
+    const auto describe = [&](std::size_t i) { return DescribeWaypoint(i, plan->waypoints[i]); };
+    plan.AddNote(fmt::format(
+        "the path from {} to {} is about {:.3g} m long instead of {:.3g} m: the car turns on a "
+        "radius of at least {:.3g} m, and its wheels need time to turn; move these waypoints "
+        "apart, or leave one of them out{}",
+        describe(leg->to - 1), describe(leg->to), leg->length, leg->straight,
+        vehicle.min_turning_radius(),
+        scenario.mission.headings.empty() ? "" : ", or change mission.headings"));
   }
 }
 
@@ -278,6 +301,7 @@ FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle,
       NoteObstacle(plan, vehicle, known);
     }
     NoteMissedWaypoint(plan, vehicle);
+    NoteLongLeg(plan, vehicle, scenario, known);
     NoteTimeLimit(plan, scenario.drive.time_limit);
     NoteInputs(plan, scenario);
     return plan;
