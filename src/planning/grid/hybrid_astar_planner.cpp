@@ -10,7 +10,10 @@
 #include "src/planning/curves/detours.h"
 #include "src/planning/grid/clothoid_costs.h"
 #include "trackbed/planning/common/curvature_steps.h"
+#include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/plan_comparison.h"
 #include "trackbed/planning/common/route.h"
+#include "trackbed/planning/curves/curve_planners.h"
 #include "trackbed/planning/curves/drivable_curve.h"
 #include "trackbed/planning/curves/dubins.h"
 #include "trackbed/planning/curves/reeds_shepp.h"
@@ -23,6 +26,7 @@
 //    where the car has slowed down. The planner takes the shorter path.
 // 4. With curvature `auto`, both paths are planned, and ContinuousOrSteps chooses one. The search
 //    with clothoids then has a budget, because it is about ten times as slow.
+// 5. If a rolling car would drive a detour, the curves of `dubins` are tried, too.
 // Source: Dolgov et al. 2010.
 namespace trackbed {
 namespace {
@@ -265,12 +269,37 @@ Plan PlanOnce(const HybridAStarOptions& options, const PlanRequest& request) {
   return ContinuousOrSteps(PlanClothoids(own, request), std::move(steps), request);
 }
 
+/// Plans the shortest forward curves through the stops. They may be curved at waypoints, where a
+/// leg of the search is straight.
+Plan PlanForwards(const HybridAStarOptions& options, const PlanRequest& request) {
+  DubinsOptions curves{.radius = options.radius,
+                       .safe_distance = options.safe_distance,
+                       .min_speed = options.min_speed,
+                       .max_lateral_acceleration = options.max_lateral_acceleration,
+                       .max_steering_rate_fraction = options.max_steering_rate_fraction};
+  curves.curvature = options.curvature == CurveCurvature::kCuspSteps ? CurveCurvature::kContinuous
+                                                                     : options.curvature;
+  return DubinsPlanner().plan(request, curves);
+}
+
 Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
-  const auto forwards = [](const Pose2& from, const Pose2& to, double radius) {
+  const CurveLength forwards = [](const Pose2& from, const Pose2& to, double radius) {
     return Dubins(from, to, radius).length;
   };
-  return WithoutDetours(request, options.reverse ? CurveLength(ReedsSheppLength) : forwards,
-                        [&](const PlanRequest& own) { return PlanOnce(options, own); });
+  Plan found = WithoutDetours(request, options.reverse ? CurveLength(ReedsSheppLength) : forwards,
+                              [&](const PlanRequest& own) { return PlanOnce(options, own); });
+  // The search turns a rolling car one leg at a time.
+  if (request.start_speed > 0.0 && IsDetour(found, request)) {
+    Plan curves = PlanForwards(options, request);
+    PlanRequest slow_wheels = request;
+    slow_wheels.vehicle.steering_rate *= options.max_steering_rate_fraction;
+    slow_wheels.infeasible = InfeasiblePolicy::kRefuse;
+    if (MakeFeasible(curves, slow_wheels).ok() &&
+        IsShorterAndNotSlower(curves, found, request.vehicle)) {
+      return curves;
+    }
+  }
+  return found;
 }
 
 bool MayReverse(const PlannerOptions& options) {

@@ -56,6 +56,21 @@ double PolylineLength(const std::vector<Vec2>& points) {
   return sum;
 }
 
+TEST(Detours, AreNotNeededForALaneChangeOfARollingCar) {
+  // From 12 m/s, a car with a steering rate of 0.15 rad/s changes to a lane 3.5 m beside it within
+  // 20 m: the curve is shorter than the lines and one turning radius.
+  for (const DetourPlannerCase& planner : DetourPlanners()) {
+    PlanRequest request = DetourRequest({{0, 0}, {20, 0}, {40, 3.5}, {80, 3.5}}, 12.0);
+    request.speed = {.speed = 12.0, .acceleration = 1.0, .deceleration = 3.0};
+    request.vehicle.steering_rate = 0.15;
+    const Plan plan = planner.entry.plan(request, planner.entry.defaults);
+    ASSERT_TRUE(plan.ok()) << planner.name << ": " << plan.reason;
+    EXPECT_LT(plan.reference.path.length(),
+              PolylineLength(request.waypoints) + request.vehicle.min_turning_radius())
+        << planner.name;
+  }
+}
+
 TEST(Detours, LeaveOutAPointThatWasClickedTwice) {
   // A second click 0.1 to 0.4 m from the first, in all directions: before, between and behind other
   // waypoints. The path must be shorter than the lines through all waypoints and one turning
