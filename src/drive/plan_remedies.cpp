@@ -76,6 +76,14 @@ std::vector<std::string> PlanRemedies(PlanStatus status, const PlanRequest& requ
       remedies.push_back(std::move(remedy));
     }
   }
+  if (status == PlanStatus::kInfeasible && entry.has_headings && !request.headings.empty() &&
+      request.obstacles.empty()) {
+    PlanRequest free = request;
+    free.headings.clear();
+    if (Succeeds(free, spec.global)) {
+      remedies.emplace_back("there is a path without mission.headings");
+    }
+  }
   if ((spec.avoid || spec.replan) && request.obstacles.size() != walls.size()) {
     PlanRequest without = request;
     without.obstacles = walls;

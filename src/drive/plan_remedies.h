@@ -16,7 +16,10 @@ namespace trackbed {
 /// its paths may reverse. If there is such a layer, tries to leave the obstacles to this layer: the
 /// request with only the `walls` of the map.
 ///
-/// `status` and `request` are those of the refused plan. Cost: up to one plan without obstacles,
+/// If the car cannot drive a path with given headings and no obstacle is known, tries the request
+/// without headings.
+///
+/// `status` and `request` are those of the refused plan. Cost: up to two plans without obstacles,
 /// one plan with at most 100 000 random samples, and two searches of at most 20 000 poses.
 [[nodiscard]] std::vector<std::string> PlanRemedies(PlanStatus status, const PlanRequest& request,
                                                     const PlanSpec& spec,

@@ -98,6 +98,22 @@ TEST(PlanScenario, NamesRemediesThatWork) {
   }
 }
 
+// Headings that are rounded to milliradians turn a car of 9.65 m/s on a leg of 2.1 m faster than
+// its wheels can.
+TEST(PlanScenario, NamesHeadingsThatRefuseAPath) {
+  Scenario scenario = ParseScenario(
+      "schema: 1\nname: rounded\nvehicle: {model: prius}\nmission: {speed: 9.65, waypoints: "
+      "[[0, 0], [3.03868, -2.174974], [4.735436, -3.389448], [17.055513, -12.2068]], headings: "
+      "[-0.622, -0.62, -0.62, -0.621]}\nplan: {method: dubins}\n",
+      "rounded.yaml", "");
+  const FeasiblePlan refused = PlanScenario(scenario, LoadCar(scenario));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused->reason.find("; there is a path without mission.headings"), std::string::npos)
+      << refused->reason;
+  scenario.mission.headings.clear();
+  EXPECT_TRUE(PlanScenario(scenario, LoadCar(scenario)).ok());
+}
+
 // The remedy of a small car scales the cells of its search, but not below the smallest cell that
 // the search allows: 0.5 m times 0.27 m / 4 m is 0.034 m for `dart`. The car stands in a closed
 // box, so no planner has a plan.
