@@ -14,6 +14,7 @@
 #include "trackbed/bag/mcap_format.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/foreign_content.h"
 
 // Reads MCAP files (https://mcap.dev/spec) from the first record to the last. Each record has an
 // opcode of one byte, the length of its content and the content; numbers are little endian. Chunks
@@ -72,8 +73,11 @@ class McapReader {
   }
 
   void Read() {
-    if (ReadAt(0, mcap::kMagic.size()) != mcap::kMagic) {
-      RefuseBag(file_, "no MCAP file: its first bytes are not those of MCAP");
+    constexpr std::size_t kBegin = 256;
+    const std::string begin = ReadAt(0, kBegin);
+    if (!begin.starts_with(mcap::kMagic)) {
+      RefuseBag(file_, ParseProblem(begin, "a bag",
+                                    "its first bytes are neither those of MCAP nor of SQLite"));
     }
     std::uint64_t at = mcap::kMagic.size();
     while (!at_end_) {

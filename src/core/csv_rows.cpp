@@ -17,6 +17,7 @@
 #include "src/core/vbo.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/foreign_content.h"
 #include "trackbed/core/text_table.h"
 
 // Reads rows of CSV files with libcsv, within limits of cells, columns and cell lengths.
@@ -210,8 +211,8 @@ void ReadRowsBehind(int preamble, const std::filesystem::path& file, const CsvLi
   CommentFilter comments(reader, parser, preamble);
   const auto take_block = [&](std::string_view block) {
     if (std::exchange(at_begin, false)) {
-      if (block.starts_with("\xFF\xFE") || block.starts_with("\xFE\xFF")) {
-        reader.Stop("text in UTF-16; save it as UTF-8, as by: iconv -f UTF-16 -t UTF-8");
+      if (std::string problem = block.empty() ? "" : ForeignBytes(block); !problem.empty()) {
+        reader.Stop(std::move(problem));
         return false;
       }
       if (block.starts_with(kByteOrderMark)) {

@@ -29,12 +29,16 @@ std::string FirstElement(std::string_view text) {
 
 }  // namespace
 
+bool IsWebPage(std::string_view text) {
+  return boost::iequals(FirstElement(text), "html");
+}
+
 std::string MarkupProblem(std::string_view text) {
   const std::string element = FirstElement(text);
   if (element.empty()) {
     return "";
   }
-  if (boost::iequals(element, "html")) {
+  if (IsWebPage(text)) {
     return "a web page instead of a table; download the file itself";
   }
   return fmt::format("XML with the root element {} instead of a table; {}", element,

@@ -9,4 +9,7 @@ namespace trackbed {
 /// texts. Needs only the begin of the text, up to the first element.
 std::string MarkupProblem(std::string_view text);
 
+/// Whether a text is a web page: its first element is html.
+bool IsWebPage(std::string_view text);
+
 }  // namespace trackbed

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "src/path_files/formats.h"
+#include "trackbed/core/foreign_content.h"
 #include "trackbed/core/text_table.h"
 
 namespace trackbed {
@@ -15,7 +16,7 @@ using tinyxml2::XMLElement;
 const XMLElement& ParseCommonRoadXml(tinyxml2::XMLDocument& document, const std::string& text,
                                      const std::filesystem::path& file) {
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    Refuse(file, "", fmt::format("not XML: {}", document.ErrorName()), document.ErrorLineNum());
+    Refuse(file, "", ParseProblem(text, "XML", document.ErrorName()), document.ErrorLineNum());
   }
   const XMLElement* root = document.RootElement();
   if (root == nullptr) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "src/path_files/formats.h"
+#include "trackbed/core/foreign_content.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/core/timestamp.h"
 #include "trackbed/path_files/globe_names.h"
@@ -58,8 +59,7 @@ class XmlLines {
  public:
   XmlLines(const std::filesystem::path& path, const std::string& text) : file_(path) {
     if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-      Refuse(file_, "", fmt::format("not XML: {}", document_.ErrorName()),
-             document_.ErrorLineNum());
+      Refuse(file_, "", ParseProblem(text, "XML", document_.ErrorName()), document_.ErrorLineNum());
     }
   }
 

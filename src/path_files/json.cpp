@@ -12,6 +12,7 @@
 #include "src/path_files/reading.h"
 #include "trackbed/core/classic_locale.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/foreign_content.h"
 #include "trackbed/core/text_table.h"
 
 // Parses JSON texts, and YAML texts that are converted to JSON values.
@@ -114,10 +115,11 @@ json ParseJsonText(const std::string& text, const std::string& file) {
     }
     const std::string what = error.what();
     const std::size_t colon = what.find(": ");
-    throw InputError(Problem{
-        .file = file,
-        .line = line,
-        .message = "not JSON: " + (colon == std::string::npos ? what : what.substr(colon + 2))});
+    throw InputError(
+        Problem{.file = file,
+                .line = line,
+                .message = ParseProblem(
+                    text, "JSON", colon == std::string::npos ? what : what.substr(colon + 2))});
   } catch (const json::out_of_range& error) {
     throw InputError(Problem{.file = file, .message = "not JSON: a number is too large"});
   }

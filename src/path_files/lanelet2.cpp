@@ -13,6 +13,7 @@
 #include "src/path_files/formats.h"
 #include "src/path_files/lanelet2_map.h"
 #include "src/path_files/lanelet_path.h"
+#include "trackbed/core/foreign_content.h"
 
 // Reads a route along the lanelets of a Lanelet2 map as a path.
 namespace trackbed {
@@ -162,7 +163,7 @@ std::vector<double> LimitsOf(const Lanelet2Map& map, const Lanelet2Route& route,
 PathFile ReadLanelet2(const fs::path& file, const std::string& text, const PathMap& map) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    Refuse(file, "", fmt::format("not XML: {}", document.ErrorName()), document.ErrorLineNum());
+    Refuse(file, "", ParseProblem(text, "XML", document.ErrorName()), document.ErrorLineNum());
   }
   const XMLElement* root = document.RootElement();
   if (root == nullptr || std::string_view(root->Name()) != "osm") {

@@ -12,6 +12,7 @@
 #include "src/road_network/xml_fields.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/foreign_content.h"
 
 namespace trackbed {
 namespace {
@@ -183,10 +184,9 @@ OpenDriveFile ParseOpenDriveFile(std::string text, const std::string& name, cons
   tinyxml2::XMLDocument document;
   if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) {
     const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
-    Refuse(name, document.ErrorLineNum(),
-           deep ? "elements are nested too deeply"
-           : document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT ? "the file is empty"
-                                                                      : "not XML");
+    Refuse(
+        name, document.ErrorLineNum(),
+        deep ? "elements are nested too deeply" : ParseProblem(xml, "XML", document.ErrorName()));
   }
   CheckDeclarations(document, name);
   const XMLElement* root = document.RootElement();

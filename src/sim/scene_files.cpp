@@ -14,6 +14,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/file_name.h"
+#include "trackbed/core/foreign_content.h"
 #include "trackbed/core/hash.h"
 
 namespace trackbed::scene_files {
@@ -129,7 +130,7 @@ void Load(const fs::path& file, XMLDocument& document, bool& shipped) {
     // If the text is truncated, tinyxml2 reports a line number after the last line.
     const auto lines = std::count(text.begin(), text.end(), '\n') + (text.ends_with('\n') ? 0 : 1);
     const int line = std::min(document.ErrorLineNum(), static_cast<int>(lines));
-    Fail(file, line, "not XML: " + XmlErrorText(document));
+    Fail(file, line, ParseProblem(text, "XML", XmlErrorText(document)));
   }
   if (document.RootElement() == nullptr) {
     Fail(file, 1, "no root element");

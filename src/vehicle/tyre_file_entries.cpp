@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "trackbed/core/error.h"
+#include "trackbed/core/foreign_content.h"
 #include "trackbed/vehicle/tyre_file.h"
 
 namespace trackbed {
@@ -173,10 +174,10 @@ std::vector<TyreFileEntry> SplitTyreFile(std::string_view text, const std::strin
   if (text.starts_with("\xEF\xBB\xBF")) {
     text.remove_prefix(3);
   }
-  if (text.find('\0') != std::string_view::npos) {
-    problems.Add({.file = name,
-                  .message = "has bytes that are 0, so it is not a text file; a tyre property file "
-                             "is a text of lines such as PCX1 = 1.6"});
+  if (const std::string foreign = text.empty() ? "" : ForeignContent(text); !foreign.empty()) {
+    problems.Add(
+        {.file = name,
+         .message = foreign + "; a tyre property file is a text of lines such as PCX1 = 1.6"});
     return {};
   }
   Splitter splitter(name, problems);

@@ -156,7 +156,10 @@ TEST(Bag, SurvivesChangedBytesOfSqlite) {
 
 TEST(Bag, SaysWhatAFileIs) {
   const TempFolder folder;
-  EXPECT_THAT(ErrorOf(folder.Write("a.mcap", "x,y\n1,2\n")), HasSubstr("no MCAP file"));
+  EXPECT_THAT(ErrorOf(folder.Write("a.mcap", "x,y\n1,2\n")),
+              HasSubstr("not a bag: its first bytes are neither those of MCAP nor of SQLite"));
+  EXPECT_THAT(ErrorOf(folder.Write("a.mcap", "")), HasSubstr("the file is empty"));
+  EXPECT_THAT(ErrorOf(folder.Write("a.db3", "\x1F\x8B....")), HasSubstr("gunzip"));
   EXPECT_THAT(ErrorOf(folder.Write("a.db3", "#ROSBAG V2.0\n")), HasSubstr("ROS 1"));
   EXPECT_THAT(ErrorOf(folder.Write("a.db3.zstd", "\x28\xB5\x2F\xFD....")), HasSubstr("zstd -d"));
   EXPECT_THAT(ErrorOf(folder.Write("a.db3", "SQLite format 3\0 and no more")),

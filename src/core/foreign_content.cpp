@@ -1,0 +1,75 @@
+#include "trackbed/core/foreign_content.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "src/core/markup.h"
+
+// Recognizes the kinds of files by their first bytes ("magic numbers"), as the program `file` does.
+namespace trackbed {
+namespace {
+
+using std::string_view_literals::operator""sv;
+
+struct Kind {
+  std::string_view begin;
+  std::string_view explanation;
+};
+
+constexpr std::array kKinds{
+    Kind{"\x1F\x8B"sv, "compressed by gzip; decompress it first: gunzip FILE"},
+    Kind{"BZh"sv, "compressed by bzip2; decompress it first: bunzip2 FILE"},
+    Kind{"\xFD"
+         "7zXZ"sv,
+         "compressed by xz; decompress it first: unxz FILE"},
+    Kind{"\x28\xB5\x2F\xFD"sv, "compressed by zstd; decompress it first: zstd -d FILE"},
+    Kind{"\x04\x22\x4D\x18"sv, "compressed by lz4; decompress it first: lz4 -d FILE"},
+    Kind{"PK\x03\x04"sv,
+         "a ZIP archive, as spreadsheets (.xlsx, .ods) and .kmz are; export the table as CSV, or "
+         "unpack the archive: unzip FILE"},
+    Kind{"7z\xBC\xAF\x27\x1C"sv, "a 7-Zip archive; unpack it first: 7z x FILE"},
+    Kind{"\xD0\xCF\x11\xE0"sv, "a file of Microsoft Office; export the table as CSV"},
+    Kind{"\x89HDF"sv, "HDF5 (also MATLAB 7.3); export the table as CSV"},
+    Kind{"MATLAB 5.0 MAT-file"sv, "a MAT-file of MATLAB; export the table as CSV, by writetable"},
+    Kind{"PAR1"sv, "Parquet; export the table as CSV"},
+    Kind{"\x93NUMPY"sv, "an array of NumPy; export it as CSV, by numpy.savetxt"},
+    Kind{"SQLite format 3"sv, "an SQLite database; bags need a name that ends with .db3"},
+    Kind{"\x89MCAP0"sv, "MCAP; bags need a name that ends with .mcap"},
+    Kind{"#ROSBAG V2"sv,
+         "a bag of ROS 1; convert it first: rosbags-convert --src FILE --dst FOLDER"},
+    Kind{"%PDF-"sv, "a PDF document"},
+    Kind{"\x89PNG"sv, "a picture (PNG)"},
+    Kind{"\xFF\xD8\xFF"sv, "a picture (JPEG)"},
+    Kind{"\xFF\xFE"sv, "text in UTF-16; save it as UTF-8, as by: iconv -f UTF-16 -t UTF-8"},
+    Kind{"\xFE\xFF"sv, "text in UTF-16; save it as UTF-8, as by: iconv -f UTF-16 -t UTF-8"},
+};
+
+}  // namespace
+
+std::string ForeignBytes(std::string_view content) {
+  for (const Kind& kind : kKinds) {
+    if (content.starts_with(kind.begin)) {
+      return std::string(kind.explanation);
+    }
+  }
+  if (const std::size_t at = content.find('\0'); at != std::string_view::npos) {
+    return fmt::format("binary data, not text: byte {} is 0", at);
+  }
+  return "";
+}
+
+std::string ForeignContent(std::string_view content) {
+  if (content.empty()) {
+    return "the file is empty";
+  }
+  return IsWebPage(content) ? "a web page; download the file itself" : ForeignBytes(content);
+}
+
+std::string ParseProblem(std::string_view content, std::string_view format,
+                         std::string_view error) {
+  const std::string foreign = ForeignContent(content);
+  return foreign.empty() ? fmt::format("not {}: {}", format, error) : foreign;
+}
+
+}  // namespace trackbed
