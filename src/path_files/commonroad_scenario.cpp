@@ -10,15 +10,15 @@
 #include <string_view>
 
 #include "src/path_files/commonroad_obstacles.h"
+#include "src/path_files/commonroad_problem.h"
 #include "src/path_files/commonroad_xml.h"
 #include "src/path_files/formats.h"
 #include "src/path_files/lanelet_path.h"
-#include "src/path_files/lanelets.h"
 #include "trackbed/core/angle.h"
 
-// Reads a CommonRoad scenario. ReadProblem reads the planning problem, FindLaneletRoute finds
-// lanelets from its start to its goal, and LaneletPath makes a path from them. ChooseSpeed then
-// finds the speed at which a car meets the goal in time. The path ends where a car that brakes
+// Reads a CommonRoad scenario. ReadPlanningProblem reads the planning problem, FindLaneletRoute
+// finds lanelets from its start to its goal, and LaneletPath makes a path from them. ChooseSpeed
+// then finds the speed at which a car meets the goal in time. The path ends where a car that brakes
 // after the goal has stopped.
 namespace trackbed {
 namespace {
@@ -29,131 +29,6 @@ constexpr double kAcceleration = kCommonRoadAcceleration;
 constexpr double kMinSpeed = 0.1;   // [m/s]
 constexpr double kMaxSpeed = 60.0;  // [m/s]
 constexpr double kMaxLength = 5e4;  // Largest length of a route [m].
-
-std::pair<double, double> PairOf(const CommonRoadInterval& interval, double factor = 1.0) {
-  return {factor * interval.from, factor * interval.to};
-}
-
-/// A planning problem.
-struct PlanningProblem {
-  Pose2 start;
-  double speed = 0.0;
-  double start_step = 0.0;  // Time step at which the problem begins.
-  CommonRoadGoal goal;
-  std::vector<std::string> goal_lanelets;
-};
-
-/// Reads the region of a goal; returns its lanelets separately.
-void ReadGoalPosition(const XMLElement& position, const Lanelets& lanelets,
-                      const CommonRoadReading& reading, PlanningProblem& problem) {
-  // Number of convex pieces in which a lanelet is a goal.
-  constexpr std::size_t kPieces = 6;
-  for (const XMLElement* child = position.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement()) {
-    if (std::string_view(child->Name()) == "lanelet") {
-      const char* id = child->Attribute("ref");
-      const auto found = id == nullptr ? lanelets.end() : lanelets.find(id);
-      if (found == lanelets.end()) {
-        Refuse(reading.file, "lanelet",
-               fmt::format("the goal is in the lanelet {}, which is not in the file",
-                           id == nullptr ? "without a number" : id),
-               child->GetLineNum());
-      }
-      problem.goal_lanelets.push_back(found->first);
-      for (CommonRoadRegion& region : RegionsOf(found->second, kPieces)) {
-        problem.goal.regions.push_back(std::move(region));
-      }
-    } else {
-      problem.goal.regions.push_back(ReadRegion(*child, reading));
-    }
-  }
-}
-
-PlanningProblem ReadProblem(const XMLElement& root, const Lanelets& lanelets, double timestep,
-                            const CommonRoadReading& reading, std::vector<std::string>& notes) {
-  const XMLElement* element = root.FirstChildElement("planningProblem");
-  if (element == nullptr) {
-    Refuse(
-        reading.file, "planningProblem",
-        "missing: the file describes a road and traffic, but neither start nor goal of a car; add "
-        "a planningProblem with an initialState and a goalState",
-        root.GetLineNum());
-  }
-  if (element->NextSiblingElement("planningProblem") != nullptr) {
-    notes.emplace_back("several planning problems: the first is driven");
-  }
-  PlanningProblem problem;
-  const XMLElement& initial = RequiredChild(*element, "initialState", reading);
-  problem.start = ReadPlace(initial, reading);
-  const auto middle = [&](const char* name, double missing) {
-    const auto interval = IntervalOfChild(initial, name, reading);
-    return interval ? interval->middle() : missing;
-  };
-  problem.start.yaw = middle("orientation", 0.0);
-  problem.speed = std::abs(middle("velocity", 0.0));
-  if (problem.speed > kMaxPathSpeed) {
-    Refuse(reading.file, "velocity",
-           fmt::format("{} m/s; must be at most {} m/s", problem.speed, kMaxPathSpeed),
-           initial.GetLineNum());
-  }
-  problem.start_step = middle("time", 0.0);
-  const XMLElement& goal = RequiredChild(*element, "goalState", reading);
-  if (goal.NextSiblingElement("goalState") != nullptr) {
-    notes.emplace_back("several goal states: the first is the goal");
-  }
-  if (const XMLElement* position = goal.FirstChildElement("position")) {
-    ReadGoalPosition(*position, lanelets, reading, problem);
-  }
-  const auto time = IntervalOfChild(goal, "time", reading);
-  if (!time) {
-    Refuse(reading.file, "time", "missing in goalState", goal.GetLineNum());
-  }
-  problem.goal.time = {std::max(0.0, timestep * (time->from - problem.start_step)),
-                       timestep * (time->to - problem.start_step)};
-  if (problem.goal.time.second <= 0.0) {
-    Refuse(reading.file, "time", "the goal must be reached before the start", goal.GetLineNum());
-  }
-  if (const auto speed = IntervalOfChild(goal, "velocity", reading)) {
-    problem.goal.speed = PairOf(*speed);
-  }
-  if (const auto yaw = IntervalOfChild(goal, "orientation", reading)) {
-    problem.goal.orientation = PairOf(*yaw);
-  }
-  return problem;
-}
-
-/// Returns the middle of a region.
-Vec2 MiddleOf(const CommonRoadRegion& region) {
-  Vec2 middle = region.center;
-  if (!region.corners.empty()) {
-    middle = Vec2::Zero();
-    for (const Vec2& corner : region.corners) {
-      middle += corner / static_cast<double>(region.corners.size());
-    }
-  }
-  return middle;
-}
-
-/// Returns the lanelets in which the goal's regions lie.
-std::vector<std::string> GoalLanelets(const PlanningProblem& problem, const Lanelets& lanelets) {
-  std::vector<std::string> found = problem.goal_lanelets;
-  if (!found.empty()) {
-    return found;
-  }
-  for (const CommonRoadRegion& region : problem.goal.regions) {
-    const Vec2 middle = MiddleOf(region);
-    for (const auto& [id, lanelet] : lanelets) {
-      const auto& yaw = problem.goal.orientation;
-      const bool may_lead_there =
-          !yaw || std::abs(AngleDifference(PlaceOn(lanelet.center, middle).yaw,
-                                           0.5 * (yaw->first + yaw->second))) < 0.5 * kPi;
-      if (may_lead_there && lanelet.Contains(middle)) {
-        found.push_back(id);
-      }
-    }
-  }
-  return found;
-}
 
 /// Stations at which a path enters and leaves a region.
 struct Passage {
@@ -277,7 +152,7 @@ std::vector<LaneletLane> LanesOf(const PlanningProblem& problem, const Lanelets&
   }
   const std::vector<std::string> goals = GoalLanelets(problem, lanelets);
   if (goals.empty()) {
-    Refuse(reading.file, "goalState", "the center of the goal's region is in no lanelet", line);
+    Refuse(reading.file, "goalState", "the goal's region is in no lanelet", line);
   }
   auto lanes = FindLaneletRoute(lanelets, starts, goals);
   if (!lanes) {
@@ -328,20 +203,6 @@ void LeaveOutOwnCar(CommonRoadScenario& scenario) {
 
 }  // namespace
 
-bool CommonRoadRegion::Contains(const Vec2& point) const {
-  if (corners.empty()) {
-    return (point - center).norm() <= radius;
-  }
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec2& from = corners[i];
-    const Vec2& to = corners[(i + 1) % corners.size()];
-    if (Cross(to - from, point - from) < 0.0) {
-      return false;
-    }
-  }
-  return true;
-}
-
 bool IsCommonRoadScenario(const std::string& text) {
   if (text.find('<') == std::string::npos || text.find("<commonRoad") == std::string::npos) {
     return false;
@@ -375,7 +236,8 @@ CommonRoadScenario ReadCommonRoadScenario(const std::filesystem::path& file,
   if (lanelets.empty()) {
     Refuse(file, "lanelet", "missing: the file has no roads", root.GetLineNum());
   }
-  const PlanningProblem problem = ReadProblem(root, lanelets, timestep, reading, scenario.notes);
+  const PlanningProblem problem =
+      ReadPlanningProblem(root, lanelets, timestep, reading, scenario.notes);
   scenario.start = problem.start;
   scenario.start_speed = problem.speed;
   scenario.goal = problem.goal;

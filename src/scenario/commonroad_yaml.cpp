@@ -73,8 +73,13 @@ std::string GoalFormula(const CommonRoadScenario& scenario) {
   if (conditions.empty()) {
     conditions.emplace_back("t_s >= 0");
   }
-  return fmt::format("eventually[{:.6g}, {:.6g}] ({})", goal.time.first, goal.time.second,
-                     fmt::join(conditions, " and "));
+  // A formula refuses later times. No run takes as long, so that the goal has no latest time then.
+  constexpr double kMaxTimeBound = 1e6;  // [s]
+  const std::string interval =
+      goal.time.second <= kMaxTimeBound
+          ? fmt::format("[{:.6g}, {:.6g}]", goal.time.first, goal.time.second)
+          : "";
+  return fmt::format("eventually{} ({})", interval, fmt::join(conditions, " and "));
 }
 
 void EmitPose(YAML::Emitter& out, const Pose2& pose) {

@@ -166,6 +166,45 @@ TEST(CommonRoadScenario, PassesThroughASmallGoalBesideTheCenter) {
   EXPECT_FALSE(scenario.goal.regions.front().Contains({151.1, 1.5}));
 }
 
+// The middle of the goal is on the edge of the lane at y = -2, or beside it. The route passes
+// through the goal's middle, as through goals on the lane. A disc of 1 m about (150, -3.5) ends at
+// y = -2.5.
+TEST(CommonRoadScenario, PassesThroughAGoalOnTheEdgeOfTheLane) {
+  for (const double y : {-2.0, -2.5}) {
+    const CommonRoadScenario scenario = Read(
+        Roads() + PlanningProblem({5.0, 0.0, 0.0}, 10.0, Rectangle({150.0, y}, 2.0, 2.0), 0, 300));
+    EXPECT_NEAR(HeightAt(scenario, 150.0), y, Tolerance(1e-6));
+  }
+  // The middle is on the end of the last lanelet.
+  EXPECT_NEAR(HeightAt(Read(Roads() + PlanningProblem({5.0, 0.0, 0.0}, 10.0,
+                                                      Rectangle({200.0, 0.0}, 2.0, 2.0), 0, 300)),
+                       199.5),
+              0.0, Tolerance(1e-6));
+  EXPECT_THAT(Refusal(Roads() + PlanningProblem({5.0, 0.0, 0.0}, 10.0,
+                                                Rectangle({150.0, -3.5}, 2.0, 2.0), 0, 300)),
+              HasSubstr("the goal's region is in no lanelet"));
+}
+
+TEST(CommonRoadScenario, AGoalWithAPlaceNeedsNoTime) {
+  const std::string start = State("initialState", {5.0, 0.0, 0.0}, 0, 10.0);
+  const auto problem = [&](const std::string& goal) {
+    return "<planningProblem id=\"9\">" + start + "<goalState>" + goal +
+           "</goalState></planningProblem>\n";
+  };
+  const std::string place = "<position><lanelet ref=\"3\"/></position>";
+  const CommonRoadScenario any = Read(Roads() + problem(place));
+  EXPECT_EQ(any.goal.time.first, 0.0);
+  EXPECT_FALSE(std::isfinite(any.goal.time.second));
+  EXPECT_EQ(any.speed, 10.0);
+  EXPECT_THAT(any.notes, Contains(HasSubstr("at any time")));
+  // Some files give a time step that no car reaches instead.
+  const CommonRoadScenario late =
+      Read(Roads() + PlanningProblem({5.0, 0.0, 0.0}, 10.0, "<lanelet ref=\"3\"/>", 0, 100000000));
+  EXPECT_EQ(late.goal.time.second, 1e7);
+  EXPECT_EQ(late.route, any.route);
+  EXPECT_THAT(Refusal(Roads() + problem("")), HasSubstr("neither a position nor a time"));
+}
+
 TEST(CommonRoadScenario, ReadsMotions) {
   const std::string obstacle =
       "<dynamicObstacle id=\"7\"><shape><rectangle><length>4</length><width>2</width></rectangle>"

@@ -58,6 +58,24 @@ TEST(CommonRoad, MeetsItsGoalAfterWholeTurns) {
   }
 }
 
+// A goal without a time, or with a time that no run takes, may be reached at any time.
+TEST(CommonRoad, MeetsItsGoalAtAnyTime) {
+  const std::string text = ReadFile(kCommonRoadFile);
+  const std::size_t goal = text.find("<goalState>");
+  const std::size_t begin = text.find("<time>", goal);
+  const std::size_t end = text.find("</time>", begin) + std::string("</time>").size();
+  ASSERT_LT(end, text.size());
+  for (const std::string time :
+       {"", "<time><intervalStart>0</intervalStart><intervalEnd>100000000</intervalEnd></time>"}) {
+    SCOPED_TRACE(time);
+    const TempFolder folder;
+    const Scenario scenario =
+        ReadScenario(folder.Write("s.xml", std::string(text).replace(begin, end - begin, time)));
+    EXPECT_THAT(scenario.expect.all.requirements.front().formula,
+                testing::StartsWith("eventually ("));
+  }
+}
+
 TEST(CommonRoad, KeepsTheMotionsInTheResolvedScenario) {
   const std::string resolved = ResolvedYaml(ReadScenario(kCommonRoadFile));
   EXPECT_THAT(resolved, testing::HasSubstr("until: 12"));
