@@ -112,9 +112,11 @@ void NoteMasses(const FoundVehicle& vehicle, const Proposal& proposal, const std
                              total.center.x(), is_car ? "rear" : "driven", total.center.z()));
   if (density > 1500.0 || density < 10.0) {
     findings.notes.push_back(fmt::format(
-        "the mass is {:.3g} kg/m^3 of the vehicle's box, which is unusual; bodies without "
-        "<inertial> get 1000 kg/m^3 by MuJoCo",
-        density));
+        "the mass is {:.3g} kg/m^3 of the vehicle's box, which is unusual; {}; correct the "
+        "masses in the file",
+        density,
+        total.mass < 0.01 ? "links without <inertial> have almost no mass"
+                          : "bodies of MJCF without <inertial> get 1000 kg/m^3 by MuJoCo"));
   }
 }
 
