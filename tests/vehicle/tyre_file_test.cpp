@@ -229,7 +229,7 @@ TEST(TyreFile, IsRefusedWithLineAndKey) {
   EXPECT_THAT(ErrorWith("[VERTICAL]", "[VERTICAL"), HasSubstr("has no closing bracket"));
   EXPECT_THAT(ErrorWith("[VERTICAL]", "VERTICAL"), HasSubstr("is neither [SECTION] nor KEY"));
   EXPECT_THAT(ErrorWith("PCX1 = 1.61", "PC X1 = 1.61"), HasSubstr("'PC X1' is no key"));
-  EXPECT_THAT(ErrorOf(std::string("PCX1 = 1\0", 9)), HasSubstr("is not a text file"));
+  EXPECT_THAT(ErrorOf(std::string("PCX1 = 1\0", 9)), HasSubstr("binary data, not text"));
   EXPECT_THAT(ErrorOf(""), HasSubstr("has no entries"));
   EXPECT_THAT(ErrorOf("[MODEL]\n"), HasSubstr("has no entries"));
 }
