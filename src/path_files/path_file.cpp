@@ -207,6 +207,11 @@ PathFile ReadPathFile(const fs::path& file, const PathMap& map) {
     Refuse(file, "",
            fmt::format("{} point{}; a path has at least 2", count, count == 1 ? "" : "s"));
   }
+  // Where a line of the file has several points, messages give the numbers of points instead.
+  std::vector<int>& lines = found.points.lines;
+  if (std::adjacent_find(lines.begin(), lines.end()) != lines.end()) {
+    lines.clear();
+  }
   return found;
 }
 

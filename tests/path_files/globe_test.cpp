@@ -247,6 +247,14 @@ TEST(GlobeFiles, NameTheCauseAndTheRemedy) {
               HasSubstr("p.gpx:3: lat: 'x' is not a finite number"));
 }
 
+// Programs write GPX in one line, too. Then the number of the line tells nothing about a point.
+TEST(GlobeFiles, KnowTheLinesOfPointsUnlessPointsShareALine) {
+  const std::string first = "<gpx><trk><trkseg><trkpt lat=\"50\" lon=\"8\"/>";
+  const std::string rest = "<trkpt lat=\"50.001\" lon=\"8\"/></trkseg></trk></gpx>";
+  EXPECT_EQ(ReadText("p.gpx", first + "\n" + rest).points.lines, (std::vector<int>{1, 2}));
+  EXPECT_TRUE(ReadText("p.gpx", first + rest).points.lines.empty());
+}
+
 TEST(GlobeFiles, SkipPositionsWithoutAFix) {
   const PathFile found =
       ReadText("p.csv", "lat,lon,v\n0,0,0\n48.1,11.5,2\n0,0,0\n48.1001,11.5,3\n");
