@@ -197,6 +197,7 @@ class CsvPath {
       AddError(line, "", fmt::format("more than {} points", kMaxPathPoints));
       return;
     }
+    LookForCones(cells, line);
     std::array<double, kQuantities> values{};
     for (std::size_t i = 0; i < kQuantities; ++i) {
       if (!layout_.columns[i] || i == kMotion) {
@@ -241,6 +242,25 @@ class CsvPath {
     TakeDirection(cells, line);
   }
 
+  /// Refuses cones of two colors, unless the caller says which columns are the points of a path.
+  void LookForCones(const std::vector<std::string>& cells, int line) {
+    if (requested_.x || requested_.y) {
+      return;
+    }
+    cone_column_ = cone_column_.value_or(ConeCell(cells));
+    if (*cone_column_ == cells.size()) {
+      return;
+    }
+    const std::string& color = cells[*cone_column_];
+    if (first_color_.empty()) {
+      first_color_ = color;
+    } else if (color != first_color_ && ConeCell({color}) == 0) {
+      is_broken_ = true;
+      AddError(line, layout_.names[*cone_column_],
+               fmt::format("{} after {}: {}", color, first_color_, ConesInsteadOfPath()));
+    }
+  }
+
   void TakeDirection(const std::vector<std::string>& cells, int line) {
     if (!layout_.columns[kMotion]) {
       return;
@@ -265,6 +285,9 @@ class CsvPath {
   CsvLayout layout_;
   std::array<InvalidCells, kQuantities> invalid_;
   std::vector<double> times_;
+  std::optional<std::size_t>
+      cone_column_;  // column of cones' colors; the number of columns if none
+  std::string first_color_;
   bool has_words_ = false;  // whether a cell of the direction column is no number
   PathFile found_;
 };

@@ -1,121 +1,12 @@
 #include "src/path_files/csv_columns.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <boost/algorithm/string/predicate.hpp>
-#include <cctype>
-#include <map>
+#include <boost/algorithm/string.hpp>
 #include <set>
-#include <utility>
 
-#include "trackbed/path_files/path_map.h"
-
-// A name is compared by its words: they are separated by other characters than letters and digits,
-// and by a capital letter behind a small one ("positionX").
 namespace trackbed {
-namespace {
-
-/// Words before a usual name that do not change its meaning.
-const std::set<std::string>& PoseWords() {
-  static const std::set<std::string> words{
-      "pose",  "poses",   "position", "pos",   "odom",    "odometry",  "point", "points",
-      "utm",   "map",     "location", "world", "local",   "global",    "ego",   "car",
-      "robot", "vehicle", "state",    "field", "msg",     "waypoint",  "wp",    "waypoints",
-      "path",  "traj",    "data",     "gt",    "current", "trajectory"};
-  return words;
-}
-
-bool IsWordCharacter(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0;
-}
-
-std::vector<std::string> Words(std::string_view name) {
-  std::vector<std::string> words(1);
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const char c = name[i];
-    const bool is_new = i > 0 && std::isupper(static_cast<unsigned char>(c)) != 0 &&
-                        std::islower(static_cast<unsigned char>(name[i - 1])) != 0;
-    if ((is_new || !IsWordCharacter(c)) && !words.back().empty()) {
-      words.emplace_back();
-    }
-    if (IsWordCharacter(c)) {
-      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-  }
-  if (words.back().empty()) {
-    words.pop_back();
-  }
-  return words;
-}
-
-/// A name without the words for a pose at its beginning.
-struct ReducedName {
-  std::string prefix;  // The words for a pose.
-  std::string rest;    // The other words.
-};
-
-ReducedName Reduce(std::string_view name) {
-  const std::vector<std::string> words = Words(name);
-  const auto first = std::find_if(words.begin(), words.end(), [](const std::string& word) {
-    return PoseWords().count(word) == 0;
-  });
-  return {fmt::format("{}", fmt::join(words.begin(), first, "_")),
-          fmt::format("{}", fmt::join(first, words.end(), "_"))};
-}
-
-/// Columns of a quantity by the words for a pose before the usual name. A header may repeat a
-/// name; the reader refuses this.
-std::map<std::string, UsualColumn> ColumnsByPrefix(const std::vector<std::string>& names,
-                                                   std::string_view quantity) {
-  std::map<std::string, UsualColumn> columns;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const ReducedName reduced = Reduce(names[i]);
-    for (const PathColumnName& own : PathColumnNames(quantity)) {
-      if (reduced.rest == fmt::format("{}", fmt::join(Words(own.name), "_"))) {
-        columns.emplace(reduced.prefix, UsualColumn{i, own.unit});
-      }
-    }
-  }
-  return columns;
-}
-
-}  // namespace
-
-std::optional<UsualColumn> FindUsualColumn(const std::vector<std::string>& names,
-                                           std::string_view quantity) {
-  for (const PathColumnName& own : PathColumnNames(quantity)) {
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (boost::iequals(names[i], own.name)) {
-        return UsualColumn{i, own.unit};
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-PoseColumns FindPoseColumns(const std::vector<std::string>& names) {
-  PoseColumns found;
-  const auto ys = ColumnsByPrefix(names, "y");
-  const auto yaws = ColumnsByPrefix(names, "yaw");
-  for (const auto& [prefix, x] : ColumnsByPrefix(names, "x")) {
-    const auto y = ys.find(prefix);
-    if (y == ys.end()) {
-      continue;
-    }
-    found.choices.push_back(names[x.index]);
-    found.x = x;
-    found.y = y->second;
-    const auto yaw = yaws.find(prefix);
-    found.yaw = yaw == yaws.end() ? std::nullopt : std::optional(yaw->second);
-  }
-  if (found.choices.size() > 1) {
-    return {.x = {}, .y = {}, .yaw = {}, .choices = std::move(found.choices)};
-  }
-  found.choices.clear();
-  return found;
-}
 
 bool AreNumbered(const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -124,6 +15,23 @@ bool AreNumbered(const std::vector<std::string>& names) {
     }
   }
   return !names.empty();
+}
+
+std::size_t ConeCell(const std::vector<std::string>& row) {
+  static const std::set<std::string> kColors{
+      "blue",        "yellow",      "orange",      "bigorange", "orangebig",  "smallorange",
+      "orangesmall", "largeorange", "orangelarge", "bluecone",  "yellowcone", "orangecone"};
+  const auto found = std::find_if(row.begin(), row.end(), [&](const std::string& cell) {
+    std::string letters = boost::to_lower_copy(cell);
+    std::erase_if(letters, [](char c) { return c == '_' || c == '-' || c == ' '; });
+    return kColors.contains(letters);
+  });
+  return static_cast<std::size_t>(found - row.begin());
+}
+
+std::string ConesInsteadOfPath() {
+  return "the rows are cones beside a track, not the points of a path in order; write the middle "
+         "between the cones as x_m,y_m,w_tr_right_m,w_tr_left_m, or give a file of one line";
 }
 
 std::string UnnamedColumns(const std::vector<std::string>& row) {

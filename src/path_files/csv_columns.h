@@ -1,41 +1,21 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-/// Finds the columns of a CSV file by their names.
+/// Rows of CSV files that are no points of a path with names of columns.
 namespace trackbed {
-
-/// A column, and the unit that its name implies.
-struct UsualColumn {
-  std::size_t index = 0;
-  std::string unit;
-};
-
-/// Returns the column that has one of the usual names of a quantity (PathColumnNames), ignoring
-/// case.
-std::optional<UsualColumn> FindUsualColumn(const std::vector<std::string>& names,
-                                           std::string_view quantity);
-
-/// Columns of a pose. Their names consist of a usual name and words that describe a pose, such as
-/// "pose_x", "pose_y" and "pose_theta", "odom.pose.position.x", "posX", "X (m)" or "utm_x_cm".
-struct PoseColumns {
-  std::optional<UsualColumn> x;
-  std::optional<UsualColumn> y;
-  std::optional<UsualColumn> yaw;
-  /// If the columns of several poses match, the names of their x columns; `x`, `y` and `yaw` are
-  /// then empty.
-  std::vector<std::string> choices;
-};
-
-/// Finds the columns of a pose. Yaw is only set together with x and y.
-PoseColumns FindPoseColumns(const std::vector<std::string>& names);
 
 /// Returns whether the names of the columns are numbers (CsvLimits::numbers_columns).
 bool AreNumbered(const std::vector<std::string>& names);
+
+/// Returns the first cell that names the color of a cone beside a track of Formula Student, such as
+/// big_orange. Returns the number of cells if no cell does.
+std::size_t ConeCell(const std::vector<std::string>& row);
+
+/// Explains that a table lists cones instead of points of a path.
+std::string ConesInsteadOfPath();
 
 /// Explains which numbers to give for the columns of a file without names, by the cells of its
 /// first row.

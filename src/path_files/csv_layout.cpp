@@ -13,7 +13,9 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/core/text_table.h"
 #include "trackbed/path_files/globe_names.h"
+#include "trackbed/path_files/pose_columns.h"
 
 namespace trackbed {
 namespace {
@@ -38,10 +40,22 @@ class LayoutFinder {
   }
 
   CsvLayout Find() {
+    const auto number = std::find_if(layout_.names.begin(), layout_.names.end(),
+                                     [](const std::string& name) { return CellNumber(name); });
+    const bool has_number = number != layout_.names.end() && !AreNumbered(layout_.names);
+    if (has_number && ConeCell(layout_.names) < layout_.names.size()) {
+      AddProblem("", ConesInsteadOfPath());
+      return std::move(layout_);
+    }
     std::set<std::string> seen;
     for (const std::string& name : layout_.names) {
       if (!name.empty() && !seen.insert(name).second) {
-        AddProblem(name, "repeated column");
+        AddProblem(name, has_number ? "repeated column; this row has numbers instead of the names "
+                                      "of columns: add a line of names above, such as x_m,y_m"
+                                    : "repeated column");
+        if (has_number) {
+          return std::move(layout_);
+        }
       }
     }
     const std::array<std::pair<const char*, const std::optional<std::string>*>, kQuantities>

@@ -18,9 +18,9 @@ namespace trackbed {
 namespace {
 
 /// The places of a pose's numbers among the columns of a message.
-class PoseColumns {
+class BagPoseColumns {
  public:
-  explicit PoseColumns(const std::vector<std::string>& columns) {
+  explicit BagPoseColumns(const std::vector<std::string>& columns) {
     for (const char* prefix : {"pose.pose.", "pose.", ""}) {
       const auto place = [&](const std::string& name) -> std::optional<std::size_t> {
         const auto found = std::find(columns.begin(), columns.end(), prefix + name);
@@ -126,10 +126,10 @@ BagTopic TopicOfPath(const std::filesystem::path& file, const PathMap& map) {
 PathFile ReadPathBag(const std::filesystem::path& file, const PathMap& map) {
   const BagTopic topic = TopicOfPath(file, map);
   const BagMessage message(topic.type, topic.definition);
-  PoseColumns own(message.columns());
-  PoseColumns of_elements(message.element_columns());
+  BagPoseColumns own(message.columns());
+  BagPoseColumns of_elements(message.element_columns());
   const bool is_path = !own.are_there();
-  PoseColumns& columns = is_path ? of_elements : own;
+  BagPoseColumns& columns = is_path ? of_elements : own;
   if (!columns.are_there()) {
     Refuse(file, topic.name, fmt::format("messages of the type {} have no position", topic.type));
   }

@@ -15,9 +15,11 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path_files/globe_file.h"
 #include "trackbed/path_files/globe_names.h"
+#include "trackbed/path_files/pose_columns.h"
 
 // Lists a log and proposes a map (log_map.h).
-// 1. In CSV files, columns are recognized by the names that path files use, too.
+// 1. In CSV files, columns are recognized by the names that path files use, too
+//    (FindPoseColumns), and by names that state a unit.
 // 2. In bags, the type of a topic's messages decides. The position is that of an odometry, a pose
 //    or a satellite fix, the first of these that the bag has.
 // 3. GPX, KML and GeoJSON files have positions and times.
@@ -93,35 +95,57 @@ LogListing ListGlobe(const fs::path& log) {
   return listing;
 }
 
-/// Splits "speed [km/h]" or "speed (km/h)" into the name and the unit; the unit may be absent.
-std::pair<std::string, std::string> NameAndUnit(const std::string& name) {
-  const std::size_t begin = name.find_last_of("[(");
-  if (begin == std::string::npos || begin == 0 || !(name.ends_with(']') || name.ends_with(')'))) {
-    return {name, ""};
-  }
-  return {boost::trim_right_copy(name.substr(0, begin)),
-          boost::to_lower_copy(name.substr(begin + 1, name.size() - begin - 2))};
-}
-
 /// A column of the log, with the unit that its name states, as maps write it.
 struct FoundColumn {
   std::string name;
   std::string unit;
 };
 
-/// Returns the first of the wanted names that the log has, ignoring case. A column that states a
-/// unit other than `units` is not taken.
+/// Returns a unit as maps write it, from another spelling of one of `units`; "" if it is none.
+std::string UnitIn(const std::string& spelling, const Names& units) {
+  static const std::vector<std::pair<const char*, const char*>> kSpellings{
+      {"mps", "m/s"},     {"ms", "ms"},       {"ms", "m/s"},      {"kmh", "km/h"},
+      {"kph", "km/h"},    {"kmph", "km/h"},   {"dps", "deg/s"},   {"degps", "deg/s"},
+      {"radps", "rad/s"}, {"degrees", "deg"}, {"degree", "deg"},  {"\xC2\xB0", "deg"},
+      {"sec", "s"},       {"seconds", "s"},   {"unix time", "s"}, {"meters", "m"}};
+  const auto is_allowed = [&](const std::string& unit) {
+    return std::find(units.begin(), units.end(), unit) != units.end();
+  };
+  const std::string lower = boost::to_lower_copy(spelling);
+  for (const auto& [other, unit] : kSpellings) {
+    if (lower == other && is_allowed(unit)) {
+      return unit;
+    }
+  }
+  return is_allowed(lower) ? lower : "";
+}
+
+/// Returns the column if its name is `wanted`, ignoring case, without or with one of `units`, as in
+/// "speed", "speed [km/h]", "speed (km/h)", "speed km/h" and "speed_kmh".
+std::optional<FoundColumn> Matches(const std::string& name, const std::string& wanted,
+                                   const Names& units) {
+  if (boost::iequals(name, wanted)) {
+    return FoundColumn{name, ""};
+  }
+  const bool has_brackets = name.ends_with(']') || name.ends_with(')');
+  const std::size_t begin = name.find_last_of(has_brackets ? "[(" : "_ ");
+  if (begin == std::string::npos || begin == 0 ||
+      !boost::iequals(boost::trim_right_copy(name.substr(0, begin)), wanted)) {
+    return std::nullopt;
+  }
+  const std::size_t end = name.size() - (has_brackets ? 1 : 0);
+  const std::string unit = UnitIn(name.substr(begin + 1, end - begin - 1), units);
+  return unit.empty() ? std::nullopt : std::optional(FoundColumn{name, unit});
+}
+
+/// Returns the first of the wanted names that the log has. A column that states a unit other than
+/// `units` is not taken.
 std::optional<FoundColumn> AnyOf(const std::vector<std::string>& names, const Names& units,
                                  const std::vector<const char*>& wanted) {
   for (const char* own : wanted) {
     for (const std::string& name : names) {
-      const auto [plain, stated] = NameAndUnit(name);
-      const std::string unit = stated == "kph" || stated == "kmh"         ? "km/h"
-                               : stated == "unix time" || stated == "sec" ? "s"
-                                                                          : stated;
-      if (boost::iequals(plain, own) &&
-          (unit.empty() || std::find(units.begin(), units.end(), unit) != units.end())) {
-        return FoundColumn{name, unit};
+      if (auto found = Matches(name, own, units)) {
+        return found;
       }
     }
   }
@@ -169,6 +193,18 @@ void TakePlace(const std::vector<std::string>& names, LogMap& map) {
   } else if (globe.latitude && globe.longitude) {
     map.position.latitude = names[*globe.latitude];
     map.position.longitude = names[*globe.longitude];
+  } else if (const PoseColumns pose = FindPoseColumns(names);
+             pose.x && pose.y && pose.x->unit == pose.y->unit &&
+             std::find(lengths.begin(), lengths.end(), pose.x->unit) != lengths.end()) {
+    // As paths are read: other names of poses, such as pose_x and pose_y.
+    map.position.x = names[pose.x->index];
+    map.position.y = names[pose.y->index];
+    map.position.unit = pose.x->unit;
+    if (pose.yaw) {
+      map.yaw.emplace();
+      map.yaw->column = names[pose.yaw->index];
+      map.yaw->unit = pose.yaw->unit;
+    }
   }
 }
 
@@ -180,7 +216,7 @@ LogListing ListCsv(const fs::path& log) {
   LogMap map;
   map.name = MapName(log);
   TakePlace(names, map);
-  if (!map.position.latitude) {
+  if (!map.position.latitude && !map.yaw) {
     Take(AnyOf(names, UnitsOf(LogQuantity::kAngle),
                {"yaw_rad", "yaw", "heading_rad", "psi_rad", "psi", "theta_rad", "theta"}),
          map.yaw);
@@ -201,6 +237,7 @@ LogListing ListCsv(const fs::path& log) {
              {"speed_mps", "vx_mps", "v_mps", "speed", "velocity", "v", "gps speed", "ground speed",
               "field.twist.twist.linear.x"}),
        map.speed);
+  const std::vector<std::string> poses = FindPoseColumns(names).choices;
   listing.topics.push_back(std::move(topic));
   const bool has_position = map.position.latitude || !map.position.x.empty();
   if (map.time.column.empty() || !has_position) {
@@ -209,6 +246,10 @@ LogListing ListCsv(const fs::path& log) {
                     map.time.column.empty() ? "the time (t_s, time)" : "",
                     map.time.column.empty() && !has_position ? " and " : "",
                     has_position ? "" : "the position (x_m, y_m, latitude, longitude)");
+    if (!has_position && !poses.empty()) {
+      listing.problem = fmt::format("several columns for x: {}; write a map with one of them",
+                                    fmt::join(poses, ", "));
+    }
     return listing;
   }
   std::vector<double> times;

@@ -136,11 +136,12 @@ TEST(PathCsv, WritesWhatItReads) {
   EXPECT_TRUE(again.curvature.empty());
 }
 
-TEST(PathCsv, FindsColumnsBehindWordsForAPose) {
+TEST(PathCsv, FindsColumnsBesideWordsForAPose) {
   for (const std::string header :
        {"pose_x,pose_y,pose_theta", "time.x,odom.pose.position.x,odom.pose.position.y",
         "wp_x [m];wp_y [m];wp_yaw", "positionX\tpositionY\tname", "X (m),Y (m),Yaw(deg)",
-        "field.pose.pose.position.x,field.pose.pose.position.y,field.v"}) {
+        "field.pose.pose.position.x,field.pose.pose.position.y,field.v", "x_pos,y_pos,v",
+        "xPos,yPos,name", "px,py,v", "East,North,v", "center_x,center_y,v", "x_world,y_world,v"}) {
     SCOPED_TRACE(header);
     const bool has_time = boost::starts_with(header, "time");
     const std::string separator = header.find(';') != std::string::npos    ? ";"
@@ -167,7 +168,7 @@ TEST(PathCsv, TakesNoOtherColumnsForAPose) {
               AllOf(HasSubstr("several columns for x: map_x, odom_x"), HasSubstr("columns.x")));
   for (const char* header :
        {"goal_x,goal_y", "velocity_x,velocity_y", "orientation_x,orientation_y", "pose_x,goal_y",
-        "linear_acceleration.x,linear_acceleration.y"}) {
+        "x_pos,y_goal", "px,velocity_y", "linear_acceleration.x,linear_acceleration.y"}) {
     EXPECT_THAT(Error("p.csv", std::string(header) + "\n1,2\n3,4\n"), HasSubstr("no column for x"))
         << header;
   }
@@ -600,6 +601,37 @@ TEST(CommonRoad, ReadsTrajectories) {
            "<yVelocity>0</yVelocity></pmState></pmTrajectory></CommonRoadSolution>");
   EXPECT_EQ(mass.speed, (std::vector<double>{5.0, 0.0}));
   EXPECT_TRUE(mass.yaw.empty());
+}
+
+TEST(PathFile, SaysThatAFileIsOfAnotherKind) {
+  for (const std::string name :
+       {"p.csv", "p.gpx", "p.kml", "p.osm", "p.xml", "p.json", "p.geojson"}) {
+    SCOPED_TRACE(name);
+    EXPECT_THAT(Error(name, "\x1F\x8B\x08...."), HasSubstr("gunzip"));
+    EXPECT_THAT(Error(name, "<!DOCTYPE html>\n<html><p>Sign in"), HasSubstr("web page"));
+    EXPECT_THAT(Error(name, "\xFF\xFE<"), HasSubstr("UTF-16"));
+    EXPECT_THAT(Error(name, ""), HasSubstr("empty"));
+  }
+}
+
+// Maps of Formula Student list cones by their colors, in no order along the track.
+TEST(PathCsv, TellsConesFromThePointsOfAPath) {
+  EXPECT_THAT(Error("p.csv", "tag,x,y\nblue,0,1.5\nblue,5,1.5\nbig_orange,0,-1.5\n"),
+              AllOf(HasSubstr("p.csv:4: tag: big_orange after blue"), HasSubstr("are cones")));
+  EXPECT_THAT(Error("p.csv", "X,Y,color\n0,1.5,Yellow\n5,1.5,Blue\n"),
+              AllOf(HasSubstr("p.csv:3: color"), HasSubstr("are cones")));
+  EXPECT_THAT(Error("p.csv", "blue,0.2,1.8,0.0,0.0\nblue,5,1.5,0.0,0.0\n"), HasSubstr("are cones"));
+  PathMap map;
+  map.columns.x = "x";
+  EXPECT_EQ(Read("p.csv", "tag,x,y\nblue,0,1.5\nyellow,5,1.5\n", map).points.size(), 2U);
+  // One color may be that of a line in a drawing.
+  EXPECT_EQ(Read("p.csv", "x,y,color\n0,1.5,blue\n5,1.5,blue\n").points.size(), 2U);
+  EXPECT_EQ(Read("p.csv", "x,y,tag\n0,1.5,start\n5,1.5,blue\n9,2,yellow\n").points.size(), 3U);
+}
+
+TEST(PathCsv, NumbersAreNoNamesOfColumns) {
+  EXPECT_THAT(Error("p.csv", "start,0.5,0.5,1\nturn,2,3,4\n"),
+              AllOf(HasSubstr("p.csv:1: 0.5"), HasSubstr("add a line of names above")));
 }
 
 TEST(CommonRoad, SaysWhatIsWrong) {

@@ -82,6 +82,48 @@ TEST(ListLog, ProposesAMapWithTheUnitsOfALogger) {
   }
 }
 
+// The same drive along x at 10 m/s, in the units and names of other programs.
+TEST(ListLog, ReadsUnitsAndPosesFromNames) {
+  struct Table {
+    const char* names;
+    double time;      // units of time in a second
+    double position;  // units of length in a meter
+    double speed;     // units of speed in a meter per second
+  };
+  for (const Table& table : {Table{"timestamp_ms,pos_x,pos_y,velocity_kph", 1e3, 1.0, 3.6},
+                             Table{"stamp_us,px,py,v_kmh", 1e6, 1.0, 3.6},
+                             Table{"t,East,North,speed_mph", 1.0, 1.0, 2.2369363},
+                             Table{"Time [s],PosX [m],PosY [m],Ground Speed [km/h]", 1.0, 1.0, 3.6},
+                             Table{"time_s,x_cm,y_cm,speed_ms", 1.0, 100.0, 1.0},
+                             Table{"time,waypoint_x,waypoint_y,speed km/h", 1.0, 1.0, 3.6},
+                             Table{"Time(sec),xPos,yPos,Velocity (KPH)", 1.0, 1.0, 3.6}}) {
+    SCOPED_TRACE(table.names);
+    const TempFolder folder;
+    std::string text = std::string(table.names) + "\n";
+    for (int i = 0; i <= 50; ++i) {
+      const double t = 0.1 * i;
+      text += fmt::format("{:.9g},{:.9g},0,{:.9g}\n", t * table.time, 10.0 * t * table.position,
+                          10.0 * table.speed);
+    }
+    const fs::path log = folder.Write("log.csv", text);
+    const LogListing listing = ListLog(log);
+    ASSERT_TRUE(listing.map) << listing.problem;
+    ASSERT_TRUE(listing.map->speed);
+    const RecordedDrive drive = ImportLog(log, *listing.map);
+    EXPECT_NEAR(drive.duration(), 5.0, Tolerance(1e-6));
+    EXPECT_NEAR(drive.samples.back().pose.x, 50.0, Tolerance(1e-6));
+    for (const RecordedSample& sample : drive.samples) {
+      // Polynomials reproduce constants; the factor of mph has eight digits.
+      EXPECT_NEAR(sample.velocity_V.x(), 10.0, Tolerance(1e-6));
+    }
+  }
+  const TempFolder folder;
+  const LogListing two =
+      ListLog(folder.Write("log.csv", "t,map_x,map_y,odom_x,odom_y\n0,1,2,3,4\n"));
+  EXPECT_FALSE(two.map);
+  EXPECT_THAT(two.problem, HasSubstr("several columns for x: map_x, odom_x"));
+}
+
 // To the east at 10 m/s along the parallel of 52 degrees, over midnight.
 TEST(ListLog, ProposesAMapThatReadsAVboFile) {
   const TempFolder folder;

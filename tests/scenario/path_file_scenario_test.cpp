@@ -200,11 +200,12 @@ TEST(PathFileScenario, ReadsFilesBelowItsFolderAlone) {
 TEST(PathFileScenario, SaysWhatIsWrong) {
   const TempFolder folder;
   folder.Write("p.csv", Circle());
+  folder.Write("unknown.csv", "along,across\n0,0\n1,0\n");
   folder.Write("cell.csv", "x,y\n0,0\n1,one\n");
   folder.Write("point.csv", "x,y\n0,0\n0,0\n");
   folder.Write("back.csv", "x,y,yaw,gear\n0,0,3.1,D\n1,0,3.1,D\n2,0,3.1,D\n");
-  EXPECT_THAT(Error(folder, "file: p.csv"),
-              AllOf(HasSubstr("p.csv:1"), HasSubstr("no column for x")));
+  EXPECT_THAT(Error(folder, "file: unknown.csv"),
+              AllOf(HasSubstr("unknown.csv:1"), HasSubstr("no column for x")));
   EXPECT_THAT(Error(folder, "file: cell.csv"), HasSubstr("cell.csv:3: y: 'one'"));
   EXPECT_THAT(Error(folder, "file: point.csv"), HasSubstr("1 different point; must be at least 2"));
   EXPECT_THAT(Error(folder, "file: back.csv"), HasSubstr("heading of point 1"));

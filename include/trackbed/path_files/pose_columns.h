@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Finds the columns of a pose by their names: for paths, and for maps of logs.
+namespace trackbed {
+
+/// A column, and the unit that its name implies.
+struct UsualColumn {
+  std::size_t index = 0;
+  std::string unit;
+};
+
+/// Returns the column that has one of the usual names of a quantity (PathColumnNames), ignoring
+/// case.
+std::optional<UsualColumn> FindUsualColumn(const std::vector<std::string>& names,
+                                           std::string_view quantity);
+
+/// Columns of a pose. Their names consist of a usual name and words that describe a pose, such as
+/// "pose_x", "pose_y" and "pose_theta", "odom.pose.position.x", "posX", "x_pos", "X (m)" or
+/// "utm_x_cm". Other names of x and y are "px" and "py", "east" and "north".
+struct PoseColumns {
+  std::optional<UsualColumn> x;
+  std::optional<UsualColumn> y;
+  std::optional<UsualColumn> yaw;
+  /// If the columns of several poses match, the names of their x columns; `x`, `y` and `yaw` are
+  /// then empty.
+  std::vector<std::string> choices;
+};
+
+/// Finds the columns of a pose. Yaw is only set together with x and y.
+PoseColumns FindPoseColumns(const std::vector<std::string>& names);
+
+}  // namespace trackbed
