@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "src/core/markup.h"
 
@@ -45,6 +46,30 @@ constexpr std::array kKinds{
     Kind{"\xFE\xFF"sv, "text in UTF-16; save it as UTF-8, as by: iconv -f UTF-16 -t UTF-8"},
 };
 
+/// Describes an error of tinyxml2 by its name.
+std::string_view XmlErrorText(std::string_view name) {
+  constexpr std::array kTexts{
+      std::pair{"XML_ERROR_MISMATCHED_ELEMENT"sv,
+                "element not closed, or closed by another name"sv},
+      std::pair{"XML_ERROR_PARSING_ATTRIBUTE"sv,
+                "attribute not of the form name=\"value\", given twice, or cut off"sv},
+      std::pair{"XML_ERROR_PARSING_TEXT"sv, "text without a following element"sv},
+      std::pair{"XML_ERROR_PARSING_COMMENT"sv, "comment not closed by -->"sv},
+      std::pair{"XML_ERROR_PARSING_CDATA"sv, "CDATA section not closed by ]]>"sv},
+      std::pair{"XML_ERROR_PARSING_DECLARATION"sv,
+                "declaration <?...?> not closed or not at the start"sv},
+      std::pair{"XML_ERROR_PARSING_UNKNOWN"sv, "declaration <!...> not closed"sv},
+      std::pair{"XML_ELEMENT_DEPTH_EXCEEDED"sv, "elements are nested too deeply"sv},
+      std::pair{"XML_ERROR_EMPTY_DOCUMENT"sv, "no element"sv},
+  };
+  for (const auto& [own, text] : kTexts) {
+    if (own == name) {
+      return text;
+    }
+  }
+  return "element not of the form <name attribute=\"value\">";
+}
+
 }  // namespace
 
 std::string ForeignBytes(std::string_view content) {
@@ -70,6 +95,10 @@ std::string ParseProblem(std::string_view content, std::string_view format,
                          std::string_view error) {
   const std::string foreign = ForeignContent(content);
   return foreign.empty() ? fmt::format("not {}: {}", format, error) : foreign;
+}
+
+std::string XmlProblem(std::string_view content, std::string_view error_name) {
+  return ParseProblem(content, "XML", XmlErrorText(error_name));
 }
 
 }  // namespace trackbed

@@ -16,7 +16,7 @@ using tinyxml2::XMLElement;
 const XMLElement& ParseCommonRoadXml(tinyxml2::XMLDocument& document, const std::string& text,
                                      const std::filesystem::path& file) {
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    Refuse(file, "", ParseProblem(text, "XML", document.ErrorName()), document.ErrorLineNum());
+    Refuse(file, "", XmlProblem(text, document.ErrorName()), document.ErrorLineNum());
   }
   const XMLElement* root = document.RootElement();
   if (root == nullptr) {

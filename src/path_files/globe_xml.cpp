@@ -59,7 +59,7 @@ class XmlLines {
  public:
   XmlLines(const std::filesystem::path& path, const std::string& text) : file_(path) {
     if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-      Refuse(file_, "", ParseProblem(text, "XML", document_.ErrorName()), document_.ErrorLineNum());
+      Refuse(file_, "", XmlProblem(text, document_.ErrorName()), document_.ErrorLineNum());
     }
   }
 

@@ -163,7 +163,7 @@ std::vector<double> LimitsOf(const Lanelet2Map& map, const Lanelet2Route& route,
 PathFile ReadLanelet2(const fs::path& file, const std::string& text, const PathMap& map) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    Refuse(file, "", ParseProblem(text, "XML", document.ErrorName()), document.ErrorLineNum());
+    Refuse(file, "", XmlProblem(text, document.ErrorName()), document.ErrorLineNum());
   }
   const XMLElement* root = document.RootElement();
   if (root == nullptr || std::string_view(root->Name()) != "osm") {

@@ -184,9 +184,8 @@ OpenDriveFile ParseOpenDriveFile(std::string text, const std::string& name, cons
   tinyxml2::XMLDocument document;
   if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) {
     const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
-    Refuse(
-        name, document.ErrorLineNum(),
-        deep ? "elements are nested too deeply" : ParseProblem(xml, "XML", document.ErrorName()));
+    Refuse(name, document.ErrorLineNum(),
+           deep ? "elements are nested too deeply" : XmlProblem(xml, document.ErrorName()));
   }
   CheckDeclarations(document, name);
   const XMLElement* root = document.RootElement();

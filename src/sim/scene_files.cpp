@@ -25,29 +25,6 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-std::string XmlErrorText(const XMLDocument& document) {
-  switch (document.ErrorID()) {
-    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-      return "element not closed, or closed by another name";
-    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
-      return "attribute not of the form name=\"value\", given twice, or cut off";
-    case tinyxml2::XML_ERROR_PARSING_TEXT:
-      return "text without a following element";
-    case tinyxml2::XML_ERROR_PARSING_COMMENT:
-      return "comment not closed by -->";
-    case tinyxml2::XML_ERROR_PARSING_CDATA:
-      return "CDATA section not closed by ]]>";
-    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
-      return "declaration <?...?> not closed or not at the start";
-    case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
-      return "declaration <!...> not closed";
-    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
-      return "elements are nested too deeply";
-    default:
-      return "element not of the form <name attribute=\"value\">";
-  }
-}
-
 /// Removes text nodes from an XML document, since MJCF consists only of elements and attributes.
 void RemoveText(tinyxml2::XMLNode& parent) {
   for (tinyxml2::XMLNode *node = parent.FirstChild(), *next = nullptr; node != nullptr;
@@ -130,7 +107,7 @@ void Load(const fs::path& file, XMLDocument& document, bool& shipped) {
     // If the text is truncated, tinyxml2 reports a line number after the last line.
     const auto lines = std::count(text.begin(), text.end(), '\n') + (text.ends_with('\n') ? 0 : 1);
     const int line = std::min(document.ErrorLineNum(), static_cast<int>(lines));
-    Fail(file, line, ParseProblem(text, "XML", XmlErrorText(document)));
+    Fail(file, line, XmlProblem(text, document.ErrorName()));
   }
   if (document.RootElement() == nullptr) {
     Fail(file, 1, "no root element");

@@ -59,6 +59,9 @@ TEST(ForeignContent, KnowsNothingAgainstText) {
 TEST(ForeignContent, TheErrorOfAParserIsForText) {
   EXPECT_EQ(ParseProblem("<a>", "XML", "no end"), "not XML: no end");
   EXPECT_THAT(ParseProblem("\x1F\x8B", "XML", "no end"), HasSubstr("gunzip"));
+  EXPECT_EQ(XmlProblem("<a></b>", "XML_ERROR_MISMATCHED_ELEMENT"),
+            "not XML: element not closed, or closed by another name");
+  EXPECT_EQ(XmlProblem(" ", "XML_ERROR_EMPTY_DOCUMENT"), "not XML: no element");
 }
 
 }  // namespace

@@ -16,4 +16,7 @@ std::string ForeignContent(std::string_view content);
 /// Explains why content is not of a format: ForeignContent, otherwise the error of its parser.
 std::string ParseProblem(std::string_view content, std::string_view format, std::string_view error);
 
+/// As ParseProblem for XML, in words for an error of tinyxml2 (XMLDocument::ErrorName).
+std::string XmlProblem(std::string_view content, std::string_view error_name);
+
 }  // namespace trackbed
