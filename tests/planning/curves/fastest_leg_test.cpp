@@ -120,11 +120,17 @@ TEST(FastestLeg, MirrorsALegInReverse) {
 
 TEST(FastestLeg, LeavesAStraight) {
   const std::vector<Segment> straight{{.length = 20.0}};
-  const auto found = FindFasterLeg(LegFrom(straight, 0.0, 0.0, 3));
-  if (found) {
-    EXPECT_GE(TimeOf(*found, 0.0, 0.0), TimeOf(straight, 0.0, 0.0) - Tolerance(1e-9));
+  for (const double speed : {0.0, kPriusLimits.speed.speed}) {
+    const auto found = FindFasterLeg(LegFrom(straight, speed, speed, 3));
+    ASSERT_TRUE(found);
+    // The goal is met to 1e-10 m, at speeds of up to 3 m/s.
+    EXPECT_NEAR(TimeOf(*found, speed, speed), TimeOf(straight, speed, speed), Tolerance(1e-10));
+    for (const Segment& segment : *found) {
+      EXPECT_NEAR(segment.curvature, 0.0, Tolerance(1e-12));
+    }
+    // A single piece cannot meet a goal of three coordinates.
+    EXPECT_FALSE(FindFasterLeg(LegFrom(straight, speed, speed, 1)));
   }
-  EXPECT_FALSE(FindFasterLeg(LegFrom(straight, 0.0, 0.0, 1)));
 }
 
 }  // namespace
