@@ -3,6 +3,8 @@
 #include <boost/locale/utf.hpp>
 #include <filesystem>
 
+#include "trackbed/core/invisible.h"
+
 namespace trackbed {
 namespace {
 
@@ -72,7 +74,7 @@ std::string WithoutControls(std::string_view text) {
     if (c == boost::locale::utf::illegal || c == boost::locale::utf::incomplete) {
       at = begin + 1;
       shown += fmt::format("<0x{:02X}>", static_cast<unsigned char>(*begin));
-    } else if ((c < 0x20 && c != '\t' && c != '\n') || (c >= 0x7f && c < 0xa0)) {
+    } else if (IsInvisible(c)) {
       shown += fmt::format("<U+{:04X}>", c);
     } else {
       shown.append(begin, at);

@@ -37,6 +37,14 @@ TEST(Problem, NamesControlCharactersOfOtherPeoplesNames) {
   EXPECT_EQ(WithoutControls("Prüfstrecke"), "Prüfstrecke");
 }
 
+// U+202E shows the text after it backwards, so "U+202E lmx.exe" looks like "exe.xml".
+TEST(WithoutControls, NamesMarksOfWritingDirection) {
+  EXPECT_EQ(WithoutControls("\u202Elmx.exe\u2066a\u2069\u200Fb\u2028\u061C"),
+            "<U+202E>lmx.exe<U+2066>a<U+2069><U+200F>b<U+2028><U+061C>");
+  const std::string joined = "\u05E9\u05DC\u05D5\u05DD \U0001F469\u200D\U0001F467 a\u0301\tb\n";
+  EXPECT_EQ(WithoutControls(joined), joined);
+}
+
 TEST(InputError, ListsEveryProblemOnItsLine) {
   const InputError error(std::vector<Problem>{
       {.key = "a", .message = "one"}, {.file = "f", .line = 1, .column = 2, .message = "two"}});
