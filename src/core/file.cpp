@@ -11,6 +11,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "src/core/special_file.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/temporaries.h"
 
@@ -25,11 +26,6 @@ namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void Fail(const char* what, const fs::path& file, int error) {
-  throw RunError(
-      fmt::format("cannot {} {}: {}", what, file.string(), std::generic_category().message(error)));
-}
 
 /// Writes the whole content to a file descriptor. Returns 0 on success, otherwise the value of
 /// errno.
@@ -47,30 +43,6 @@ int WriteAll(int out, std::string_view content) {
   return 0;
 }
 
-/// Returns whether the file is a device or pipe (/dev/stdout, /dev/full), which can be written but
-/// not replaced.
-bool IsDevice(const fs::path& file) {
-  struct stat existing {};
-  return ::stat(file.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode) &&
-         !S_ISDIR(existing.st_mode);
-}
-
-/// Throws RunError if the file is a link whose target is absent. Renaming a new file to the link's
-/// name would replace the link, and a link may lead anywhere.
-void RequireTarget(const fs::path& file) {
-  std::error_code error;
-  if (fs::is_symlink(file, error) && !fs::exists(file, error)) {
-    throw RunError(fmt::format(
-        "cannot write {}: it is a link to a file that does not exist; remove it, or name another "
-        "file",
-        file.string()));
-  }
-}
-
-}  // namespace
-
-namespace {
-
 [[noreturn]] void FailAsTooLarge(const fs::path& file, std::size_t max_bytes) {
   throw RunError(
       fmt::format("cannot read {}: it has more than {} MiB", file.string(), max_bytes >> 20U));
@@ -86,22 +58,14 @@ void RequireContent(const fs::path& file, std::string_view begin) {
   }
 }
 
-/// Returns a description of a special file for error messages, for example "a pipe" or "a device".
-const char* KindOf(mode_t mode) {
-  return S_ISFIFO(mode)                   ? "a pipe"
-         : S_ISCHR(mode) || S_ISBLK(mode) ? "a device"
-         : S_ISSOCK(mode)                 ? "a socket"
-                                          : "a special file";
-}
-
 void RequireRegular(const fs::path& file, const struct stat& status) {
   if (S_ISDIR(status.st_mode)) {
-    Fail("read", file, EISDIR);
+    FailOnFile("read", file, EISDIR);
   }
   if (!S_ISREG(status.st_mode)) {
     throw RunError(fmt::format(
         "cannot read {}: it is {}; must be a regular file: save the content to one first",
-        file.string(), KindOf(status.st_mode)));
+        file.string(), KindOfFile(status.st_mode)));
   }
 }
 
@@ -110,13 +74,13 @@ void RequireRegular(const fs::path& file, const struct stat& status) {
 Descriptor OpenInput(const fs::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) {
-    Fail("read", file, errno);
+    FailOnFile("read", file, errno);
   }
   // Check the kind of the file before opening it, because opening a device may have side effects.
   RequireRegular(file, status);
   Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (in.get() < 0 || ::fstat(in.get(), &status) != 0) {
-    Fail("read", file, errno);
+    FailOnFile("read", file, errno);
   }
   // Check the kind of the file again after opening, because the name may refer to another file
   // since the first check.
@@ -151,7 +115,7 @@ void ReadBlocks(const fs::path& file, const std::function<bool(std::string_view 
       if (errno == EINTR) {
         continue;
       }
-      Fail("read", file, errno);
+      FailOnFile("read", file, errno);
     }
     const auto size = static_cast<std::size_t>(got);
     bytes += size;
@@ -227,6 +191,7 @@ bool IsOurs(int descriptor) {
 }  // namespace
 
 TemporaryFile::TemporaryFile(fs::path file) : file_(std::move(file)) {
+  RequireReplaceable(file_);
   // The number in the name distinguishes the temporary files of different threads. A higher number
   // also avoids the name of a file that a killed process with the same process id has left behind.
   for (int number = 0;; ++number) {
@@ -240,7 +205,7 @@ TemporaryFile::TemporaryFile(fs::path file) : file_(std::move(file)) {
       if (errno == EEXIST) {
         continue;
       }
-      Fail("write", file_, errno);
+      FailOnFile("write", file_, errno);
     }
     if (IsOurs(descriptor_.get())) {
       return;
@@ -259,28 +224,22 @@ TemporaryFile::~TemporaryFile() {
 
 void TemporaryFile::Write(std::string_view content) {
   if (const int error = WriteAll(descriptor_.get(), content); error != 0) {
-    Fail("write", file_, error);
+    FailOnFile("write", file_, error);
   }
 }
 
 void TemporaryFile::Publish() {
   const Descriptor still_locked(::dup(descriptor_.get()));
   if (const int error = descriptor_.Close(); error != 0) {
-    Fail("write", file_, error);
+    FailOnFile("write", file_, error);
   }
-  // If the file is a link, replace the target of the link and keep the link. Throw an error if the
-  // file is a device or a pipe, which cannot be replaced.
-  RequireTarget(file_);
+  // If the file is a link, replace the target of the link and keep the link. The file may have
+  // become another one since the constructor checked it.
+  RequireReplaceable(file_);
   std::error_code error_code;
   const fs::path real = fs::is_symlink(file_) ? fs::weakly_canonical(file_, error_code) : file_;
-  if (fs::is_directory(real, error_code)) {
-    Fail("write", file_, EISDIR);
-  }
-  if (fs::exists(real, error_code) && !fs::is_regular_file(real, error_code)) {
-    throw RunError(fmt::format("cannot write {}: it is not a regular file", file_.string()));
-  }
   if (!DropTemporary(path_, [&] { return ::rename(path_.c_str(), real.c_str()) == 0; })) {
-    Fail("write", file_, errno);
+    FailOnFile("write", file_, errno);
   }
   path_.clear();
 }
@@ -292,13 +251,13 @@ TemporaryFolder::TemporaryFolder(const fs::path& file) {
       if (errno == EEXIST) {
         continue;
       }
-      Fail("write", file, errno);
+      FailOnFile("write", file, errno);
     }
     descriptor_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (descriptor_.get() < 0 && errno != ENOENT) {
       const int error = errno;
       DropTemporary(path_, [this] { return ::rmdir(path_.c_str()) == 0; });
-      Fail("write", file, error);
+      FailOnFile("write", file, error);
     }
     if (IsOurs(descriptor_.get())) {
       return;
@@ -341,7 +300,7 @@ void PrepareToWrite(const fs::path& file) {
 void CheckCanWrite(const fs::path& file) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) {
-    Fail("write", file, EISDIR);
+    FailOnFile("write", file, EISDIR);
   }
   RequireTarget(file);
   if (!IsDevice(file)) {
@@ -353,19 +312,19 @@ NewFile::NewFile(const fs::path& file, fs::path shown)
     : shown_(std::move(shown)),
       descriptor_(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) {
   if (descriptor_.get() < 0) {
-    Fail("write", shown_, errno);
+    FailOnFile("write", shown_, errno);
   }
 }
 
 void NewFile::Write(std::string_view content) {
   if (const int error = WriteAll(descriptor_.get(), content); error != 0) {
-    Fail("write", shown_, error);
+    FailOnFile("write", shown_, error);
   }
 }
 
 void NewFile::Close() {
   if (const int error = descriptor_.Close(); error != 0) {
-    Fail("write", shown_, error);
+    FailOnFile("write", shown_, error);
   }
 }
 
@@ -377,11 +336,10 @@ void WriteNewFile(const fs::path& file, std::string_view content, const fs::path
 
 void WriteFileAtomically(const fs::path& file, std::string_view content) {
   if (IsDevice(file)) {
-    Descriptor out(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
-    int error = out.get() < 0 ? errno : WriteAll(out.get(), content);
-    error = error != 0 ? error : out.Close();
-    if (error != 0) {
-      Fail("write", file, error);
+    Descriptor out = OpenDevice(file);
+    const int error = WriteAll(out.get(), content);
+    if (const int closed = out.Close(); error != 0 || closed != 0) {
+      FailOnFile("write", file, error != 0 ? error : closed);
     }
     return;
   }

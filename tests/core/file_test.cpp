@@ -5,7 +5,10 @@
 #include <sys/stat.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/support/temp_folder.h"
@@ -19,6 +22,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
 
 template <typename Function>
 std::string RunErrorMessage(const Function& function) {
@@ -117,6 +121,48 @@ TEST(WriteFileAtomically, WritesToADevice) {
   EXPECT_TRUE(fs::is_symlink(file));
   EXPECT_TRUE(fs::is_character_file(file));
   EXPECT_THAT(folder.Names(), ElementsAre("device"));
+}
+
+TEST(WriteFileAtomically, WritesToAPipeThatIsRead) {
+  const TempFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::string read;
+  std::thread reader([&] {
+    std::ifstream in(pipe);  // waits for the writer
+    read.assign(std::istreambuf_iterator<char>(in), {});
+  });
+  const std::string content(300'000, 'x');  // more than the pipe holds
+  EXPECT_NO_THROW(WriteFileAtomically(pipe, content));
+  reader.join();
+  EXPECT_EQ(read, content);
+  EXPECT_THAT(folder.Names(), ElementsAre("pipe"));
+}
+
+TEST(WriteFileAtomically, DoesNotWaitLongForAReader) {
+  const TempFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(RunErrorMessage([&] { WriteFileAtomically(pipe, "x"); }),
+            "cannot write " + pipe.string() +
+                ": it is a pipe, and no process reads it; start the reader first");
+}
+
+TEST(TemporaryFile, IsRefusedForAFileThatItCannotReplace) {
+  const TempFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const fs::path device = folder.path() / "device";
+  fs::create_symlink("/dev/null", device);
+  const fs::path below = folder.path() / "folder";
+  fs::create_directory(below);
+  const auto message = [](const fs::path& file) {
+    return RunErrorMessage([&] { const TemporaryFile temporary(file); });
+  };
+  EXPECT_THAT(message(pipe), HasSubstr("pipe: it is a pipe; must be a regular file, or a new one"));
+  EXPECT_THAT(message(device), HasSubstr("device: it is a device; must be a regular file"));
+  EXPECT_THAT(message(below), HasSubstr("folder: Is a directory"));
+  EXPECT_THAT(folder.Names(), UnorderedElementsAre("device", "folder", "pipe"));
 }
 
 TEST(WriteFileAtomically, KeepsALinkWhoseTargetIsAbsent) {

@@ -91,7 +91,8 @@ void WriteNewFile(const std::filesystem::path& file, std::string_view content,
 /// destructor of TemporaryFile removes the temporary file.
 class TemporaryFile {
  public:
-  /// Creates the temporary file. Throws RunError if the folder of `file` is missing or unwritable.
+  /// Creates the temporary file. Throws RunError if the folder of `file` is missing or unwritable,
+  /// if `file` exists and is not a regular file, or if `file` is a link whose target is absent.
   explicit TemporaryFile(std::filesystem::path file);
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+
+/// Throws RunError "cannot WHAT FILE: REASON" with the reason of an errno.
+[[noreturn]] void FailOnFile(const char* what, const std::filesystem::path& file, int error);
+
+/// Returns a description of a special file for error messages, for example "a pipe" or "a device".
+const char* KindOfFile(mode_t mode);
+
+/// Returns whether the file is a device or pipe (/dev/stdout, /dev/full), which can be written but
+/// not replaced.
+bool IsDevice(const std::filesystem::path& file);
+
+/// Throws RunError if the file is a link whose target is absent. Renaming a new file to the link's
+/// name would replace the link, and a link may lead anywhere.
+void RequireTarget(const std::filesystem::path& file);
+
+/// Throws RunError if a temporary file cannot replace the file: if the file is a folder, a device
+/// or a pipe, or a link whose target is absent.
+void RequireReplaceable(const std::filesystem::path& file);
+
+/// Opens a device or a pipe for writing. Opening a pipe waits for at most a second until a process
+/// opens it for reading; otherwise throws RunError.
+Descriptor OpenDevice(const std::filesystem::path& file);
+
+}  // namespace trackbed
