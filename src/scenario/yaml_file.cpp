@@ -27,6 +27,8 @@ namespace {
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxValues = 100000;
 constexpr std::size_t kMaxTextBytes = std::size_t{16} << 20U;
+// 40 bytes for each of kMaxValues. yaml-cpp reads about a megabyte per second.
+constexpr std::size_t kMaxYamlBytes = std::size_t{4} << 20U;
 
 [[noreturn]] void Fail(const std::string& file, const YAML::Mark& mark, std::string message) {
   throw InputError(Problem{file, mark.line + 1, mark.column + 1, "", std::move(message)});
@@ -291,6 +293,9 @@ SyntaxError Explain(const std::string& text, const YAML::Exception& error,
 /// only if no line feed follows the quote. If a line feed follows the open quote, yaml-cpp takes
 /// the rest of the text as the quoted value.
 bool EndsInQuotes(const std::string& text) {
+  if (text.find_first_of("'\"") == std::string::npos) {
+    return false;
+  }
   EventTracker tracker("");
   try {
     Follow(text.substr(0, text.find_last_not_of(" \t\r\n") + 1), tracker);
@@ -311,6 +316,13 @@ std::string ReadInput(const std::filesystem::path& file) {
 }
 
 YAML::Node LoadYamlValue(const std::string& text, const std::string& file) {
+  if (text.size() > kMaxYamlBytes) {
+    throw InputError(Problem{
+        .file = file,
+        .message = fmt::format("has {} bytes of YAML; must be at most {}: keep long tables in CSV "
+                               "files that the YAML file names",
+                               text.size(), kMaxYamlBytes)});
+  }
   RejectInvalidText(text, file);
   // Add a line feed, so that a value at the end of the text is complete.
   const std::string lines = text + "\n";

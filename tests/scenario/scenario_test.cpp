@@ -185,6 +185,10 @@ TEST(ReadScenario, RefusesWhatIsNoScenario) {
     bomb += "]\n";
   }
   EXPECT_EQ(ErrorMessages(bomb), "test.yaml:6:8: more than 100000 values, aliases ('*') expanded");
+  // A comment of a megabyte takes about a second.
+  EXPECT_EQ(ErrorMessages("a: 1  # " + std::string(4'194'297, 'x')),
+            "test.yaml: has 4194305 bytes of YAML; must be at most 4194304: keep long tables in "
+            "CSV files that the YAML file names");
 }
 
 TEST(ReadScenario, RefusesKeysThatDoNotGoTogether) {
