@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -150,6 +151,9 @@ int Main(int argc, char** argv) {
     code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
   } catch (const MethodError& error) {
     say(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    say("cannot access " + error.path1().string() + ": " + error.code().message());
+    code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
   } catch (const std::system_error& error) {
     // If fmt throws because stdout cannot be written, print the same error message as for a failed
     // flush of stdout.
