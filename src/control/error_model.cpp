@@ -41,6 +41,23 @@ Vector SteadyState(const VehicleParams& vehicle, const Motion& motion, const Err
   return x;
 }
 
+/// Returns the amount by which the car now exceeds the planned speed [m/s].
+double ExcessSpeed(const ControlInput& input) {
+  const int direction = input.reference.path.BendAt(input.station).direction;
+  return direction * input.state.speed - input.reference.speed.SpeedAt(input.station);
+}
+
+/// Returns the distance [m] that the car drives within `time` [s] from `station` on.
+double WayFrom(const ControlInput& input, double station, double excess, double time) {
+  const SpeedProfile& planned = input.reference.speed;
+  const double speed = planned.SpeedAt(station);
+  const double acceleration = planned.AccelerationAt(station);
+  const double rolling = acceleration < 0.0 ? std::min(time, speed / -acceleration) : time;
+  const double way = (speed + 0.5 * acceleration * rolling) * rolling;
+  // A car that is much slower than planned will speed up.
+  return std::max(way + excess * time, std::min(way, SlowestSpeed(input.vehicle) * time));
+}
+
 double TangentExcess(double steering) {
   return std::tan(steering) - steering;
 }
@@ -172,22 +189,18 @@ Regulator SolveRegulator(const ErrorModel& model, const ErrorWeights& weights) {
 }
 
 Ahead::Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model,
-             SpeedAhead speed, const RampedPath* path)
+             const RampedPath* path)
     : input_(input),
       model_(model),
       path_(path),
-      speed_(speed),
       station_(input.station),
-      excess_speed_(std::abs(model.speed) - input.reference.speed.SpeedAt(input.station)),
+      excess_speed_(ExcessSpeed(input)),
       direction_(tracking.foot.direction),
       curvature_(tracking.foot.curvature),
       steady_(SteadyState(input.vehicle, MotionOn(curvature_), model)),
       yaw_(tracking.foot.pose.yaw) {}
 
 Motion Ahead::MotionOn(double curvature) const {
-  if (speed_ == SpeedAhead::kPresent) {
-    return {.curvature = curvature, .speed = model_.speed};
-  }
   const SpeedProfile& planned = input_.reference.speed;
   const double speed =
       std::max(planned.SpeedAt(station_) + excess_speed_, SlowestSpeed(input_.vehicle));
@@ -196,14 +209,33 @@ Motion Ahead::MotionOn(double curvature) const {
           .acceleration = planned.AccelerationAt(station_)};
 }
 
+double DistanceAhead(const ControlInput& input, double period, long steps) {
+  const double excess = ExcessSpeed(input);
+  double distance = 0.0;
+  for (long k = 0; k < steps; ++k) {
+    distance += WayFrom(input, input.station + distance, excess, period);
+  }
+  return distance;
+}
+
 Vector Ahead::Next(const ErrorModel& model) {
   const Motion from = MotionOn(curvature_);
-  const double stride = std::abs(from.speed) * model.period;
+  const double stride = WayFrom(input_, station_, excess_speed_, model.period);
+  const auto point = [&](double station) {
+    return path_ ? path_->At(station) : input_.reference.path.At(station);
+  };
+  const PathPoint next = point(station_ + stride);
+  if (next.direction != direction_) {
+    // The car stops at the cusp, and its wheels keep their angle until then.
+    return Vector::Zero(steady_.size());
+  }
   station_ += stride;
-  const PathPoint next = path_ ? path_->At(station_) : input_.reference.path.At(station_);
   // Mean curvature over the step, computed from the heading change so that it includes curvature
-  // jumps.
-  const double mean = AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride);
+  // jumps. The heading of a car that hardly rolls is rounded.
+  constexpr double kLeastStride = 1e-6;  // [m]
+  const double mean = stride > kLeastStride
+                          ? AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride)
+                          : next.curvature;
   const auto steering = [&](double curvature) {
     Motion motion = from;
     motion.curvature = curvature;

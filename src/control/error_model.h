@@ -142,29 +142,26 @@ Regulator SolveRegulator(const ErrorModel& model, const ErrorWeights& weights);
 /// Returns the diagonal of the matrix Q in the state's cost x^T Q x.
 ErrorModel::Vector StateCost(const ErrorModel& model, const ErrorWeights& weights);
 
-/// Speed that Ahead assumes on the path ahead.
-enum class SpeedAhead {
-  kPresent,  ///< The present speed of the model.
-  kPlanned,  ///< The planned speed plus the amount by which the car now exceeds the planned speed.
-};
-
 /// Computes, step by step, the disturbance g with which the path ahead acts on the error model. Let
-/// x_0(k) be the steady turn k steps ahead, at the curvature and the speed there. The deviation z =
-/// x - x_0 from the steady turn satisfies z(k+1) = a z(k) + b w(k) + g(k). The speed on the path
-/// ahead determines the length of a step and the steady turn x_0(k). With `path`, the car follows
-/// the ramped path instead of the path, and `tracking` is RampedPath::Track.
+/// x_0(k) be the steady turn at the path's curvature k steps ahead. The deviation z = x - x_0 from
+/// the steady turn satisfies z(k+1) = a z(k) + b w(k) + g(k). The speed on the path ahead is the
+/// planned speed plus the amount by which the car now exceeds the planned speed. It determines the
+/// length of a step and the steady turn x_0(k). A car that is much slower than planned is assumed
+/// to reach the smaller one of the planned speed and the least speed of the model. Cusps end the
+/// path ahead. With `path`, the car follows the ramped path instead of the path, and `tracking` is
+/// RampedPath::Track.
 class Ahead {
  public:
   Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model,
-        SpeedAhead speed, const RampedPath* path = nullptr);
+        const RampedPath* path = nullptr);
 
   /// Returns the steady turn x_0 at the present step.
   [[nodiscard]] const ErrorModel::Vector& steady() const { return steady_; }
   /// Returns the motion that the car should have at the present step.
   [[nodiscard]] Motion Now() const { return MotionOn(curvature_); }
   /// Advances by one step of the error model and returns the disturbance g of this step. The
-  /// disturbance g is zero while curvature and speed are constant. Without an argument, the model
-  /// is the one of the constructor, otherwise it must describe Now.
+  /// disturbance g is zero while the curvature and the planned speed are constant. Without an
+  /// argument, the model is the one of the constructor, otherwise it must describe Now.
   ErrorModel::Vector Next() { return Next(model_); }
   ErrorModel::Vector Next(const ErrorModel& model);
 
@@ -176,7 +173,6 @@ class Ahead {
   const ControlInput& input_;
   const ErrorModel& model_;
   const RampedPath* path_;
-  SpeedAhead speed_;
   double station_;
   double excess_speed_;  // excess of the car's speed over the planned speed [m/s]
   int direction_;
@@ -184,6 +180,10 @@ class Ahead {
   ErrorModel::Vector steady_;
   double yaw_;
 };
+
+/// Returns the distance [m] that the car drives within `steps` steps of `period` [s], at the speeds
+/// of Ahead.
+double DistanceAhead(const ControlInput& input, double period, long steps);
 
 /// Returns the regulator for a car with a maximum steering rate `steering_rate` [rad/s]. For large
 /// errors, the weight of the steering rate is doubled until neither offset nor heading error

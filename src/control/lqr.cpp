@@ -22,14 +22,10 @@ class Lqr final : public SteeringController {
     }
     const VehicleParams& vehicle = input.vehicle;
     const auto steps = static_cast<long>(std::ceil(options_.preview / input.period));
-    const double previewed =
-        std::abs(input.state.speed) * input.period * static_cast<double>(steps);
-    path_.Update(input, previewed);
+    path_.Update(input, DistanceAhead(input, input.period, steps));
     const Tracking tracking = path_.Track();
     const ErrorModel model = MakeErrorModel(input, tracking, input.period, options_.tyres);
-    const SpeedAhead speed =
-        options_.tyres == TyreForces::kLinear ? SpeedAhead::kPresent : SpeedAhead::kPlanned;
-    Ahead ahead(input, tracking, model, speed, &path_);
+    Ahead ahead(input, tracking, model, &path_);
     ErrorModel::Vector z = ErrorState(input, tracking, options_.tyres) - ahead.steady();
     ErrorWeights weights = WeightsFor(vehicle, options_, model.speed, input.period);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z);

@@ -34,7 +34,7 @@ class Mpc final : public SteeringController {
     const Tracking tracking = ProjectOntoPath(input);
     const double step = Step(input);
     ErrorModel model = MakeErrorModel(input, tracking, step, options_.tyres);
-    Ahead ahead(input, tracking, model, SpeedAhead::kPlanned);
+    Ahead ahead(input, tracking, model);
     Prediction z{ErrorState(input, tracking, options_.tyres) - ahead.steady(), {}};
     ErrorWeights weights = WeightsFor(vehicle, options_, model.speed, input.period);
     Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z.free);

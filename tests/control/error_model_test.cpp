@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "tests/control/loop.h"
@@ -85,7 +86,7 @@ TEST(ErrorModel, StaysInASteadyTurn) {
         const ControlInput input = situation.input();
         const Tracking tracking = ProjectOntoPath(input);
         const ErrorModel model = MakeErrorModel(input, tracking, 0.1);
-        Ahead ahead(input, tracking, model, SpeedAhead::kPresent);
+        Ahead ahead(input, tracking, model);
         // Headings on a path of 500 m are rounded by about 1e-13 rad. Divided by a stride of at
         // least 0.1 m, this causes an error of 1e-12 1/m in the curvature.
         EXPECT_LT((ErrorState(input, tracking) - ahead.steady()).norm(), Tolerance(1e-12));
@@ -190,7 +191,7 @@ TEST(Ahead, MovesTheSteadyTurnToTheCurvatureAhead) {
                            .period = 0.1};
   const Tracking tracking = ProjectOntoPath(input);
   const ErrorModel model = MakeErrorModel(input, tracking, 0.1);
-  Ahead ahead(input, tracking, model, SpeedAhead::kPresent);
+  Ahead ahead(input, tracking, model);
   // At 1 m per step, the tenth step ends on the arc.
   for (int k = 0; k < 9; ++k) {
     EXPECT_EQ(ahead.Next().norm(), 0.0);
@@ -263,7 +264,7 @@ TEST(OperateOn, MovesTheLoadWhenTheCarBrakes) {
   EXPECT_GT(OperateOn(car, TyreForces::kBrush, backward).stiffness.rear, rear);
 }
 
-TEST(Ahead, BrushTyresTurnAtThePlannedSpeed) {
+TEST(Ahead, TurnsAtThePlannedSpeed) {
   const VehicleParams car = CarWithAxles();
   // The speed falls from 30 m/s to 10 m/s at the beginning of the arc.
   const Reference reference{Path({}, {{100.0, 0.0, 1}, {100.0, 0.05, 1}}),
@@ -278,22 +279,56 @@ TEST(Ahead, BrushTyresTurnAtThePlannedSpeed) {
                            .station = 0.0,
                            .period = 0.1};
   const Tracking tracking = ProjectOntoPath(input);
-  const ErrorModel model = MakeErrorModel(input, tracking, 0.1, TyreForces::kBrush);
-  Ahead ahead(input, tracking, model, SpeedAhead::kPlanned);
-  // At a mean speed of 20 m/s, the car reaches the arc after 5 s. The path adds no input to earlier
-  // steps.
-  for (int k = 0; k < 45; ++k) {
-    EXPECT_EQ(ahead.Next().norm(), 0.0);
+  for (const TyreForces tyres : {TyreForces::kNone, TyreForces::kLinear, TyreForces::kBrush}) {
+    const ErrorModel model = MakeErrorModel(input, tracking, 0.1, tyres);
+    Ahead ahead(input, tracking, model);
+    // At a mean speed of 20 m/s, the car reaches the arc after 5 s. The straight adds no input to
+    // earlier steps.
+    for (int k = 0; k < 49; ++k) {
+      EXPECT_EQ(ahead.Next().norm(), 0.0) << k;
+    }
+    // The step that ends at the joint, up to rounding, or the next one reaches the arc.
+    const double before = ahead.Next().norm();
+    EXPECT_GT(std::max(before, ahead.Next().norm()), 0.0);
+    const SteadyTurn turn = OperateOn(car, tyres, {.curvature = 0.05, .speed = 10.0}).turn;
+    EXPECT_NEAR(ahead.steady()[2], turn.steering, Tolerance(1e-12));
+    // With constant curvature and speed the input is zero.
+    EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
+    EXPECT_NEAR(DistanceAhead(input, 0.1, 50), 100.0, Tolerance(1e-9));
   }
-  for (int k = 0; k < 10; ++k) {
+}
+
+TEST(Ahead, StartsFromRestAndStopsAtACusp) {
+  // The curvature of the path is c s, so the steady steering tells the station. The car drives off
+  // with 1 m/s^2, and brakes before the cusp at 8 m with 1 m/s^2. The wheels turn at the cusp.
+  const VehicleParams car = ReferenceCar();
+  const double c = 0.01;
+  const Reference reference{Path({}, {{8.0, 0.0, 1, c}, {8.0, -0.1, -1}}),
+                            SpeedProfile({{0.0, 0.0}, {4.0, std::sqrt(8.0)}, {8.0, 0.0}})};
+  const SteeringSchedule schedule;
+  const VehicleState state;
+  const double period = 0.1;
+  const ControlInput input{.vehicle = car,
+                           .reference = reference,
+                           .schedule = schedule,
+                           .state = state,
+                           .station = 0.0,
+                           .period = period};
+  const Tracking tracking = ProjectOntoPath(input);
+  const ErrorModel model = MakeErrorModel(input, tracking, period);
+  Ahead ahead(input, tracking, model);
+  for (int k = 1; k <= 28; ++k) {
+    ahead.Next();
+    // The least speed of the model does not matter for the steering of a car without slip.
+    const double station = 0.5 * k * k * period * period;
+    EXPECT_NEAR(std::tan(ahead.steady()[2]), car.wheelbase * c * station, Tolerance(1e-12));
+  }
+  for (int k = 0; k < 100; ++k) {
     ahead.Next();
   }
-  const SteadyTurn turn =
-      OperateOn(car, TyreForces::kBrush, {.curvature = 0.05, .speed = 10.0}).turn;
-  EXPECT_NEAR(ahead.steady()[2], turn.steering, Tolerance(1e-12));
-  EXPECT_NEAR(ahead.steady()[5], 0.5, Tolerance(1e-12));
-  // With constant curvature and speed the input is zero.
-  EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
+  // A step ends at most one period's way of the slowest speed before the cusp: less than 1 mm.
+  EXPECT_NEAR(std::tan(ahead.steady()[2]), car.wheelbase * c * 8.0, Tolerance(1e-3));
+  EXPECT_EQ(ahead.Next().norm(), 0.0);
 }
 
 TEST(ErrorModel, TheModelOfEachStepStaysInTheTurnAtAChangingSpeed) {
@@ -314,7 +349,7 @@ TEST(ErrorModel, TheModelOfEachStepStaysInTheTurnAtAChangingSpeed) {
                            .period = 0.1};
   const Tracking tracking = ProjectOntoPath(input);
   const ErrorModel present = MakeErrorModel(input, tracking, 0.1);
-  Ahead ahead(input, tracking, present, SpeedAhead::kPlanned);
+  Ahead ahead(input, tracking, present);
   for (int k = 0; k < 40; ++k) {
     SCOPED_TRACE(k);
     const ErrorModel model = MakeErrorModelFor(car, ahead.Now(), 0.1, TyreForces::kLinear);

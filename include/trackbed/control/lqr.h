@@ -25,7 +25,8 @@ namespace trackbed {
 /// The car is modeled by the dynamic single-track model at the present speed, with the axle forces
 /// that TyreForces selects. A car without tyre coefficients is modeled as the kinematic car. The
 /// dynamic and the kinematic model both include the steering actuator and the steering lag. The
-/// gains are recomputed in each control period for the present speed and direction of motion.
+/// gains are recomputed in each control period for the present speed and direction of motion. The
+/// path ahead is passed at the planned speeds.
 ///
 /// The commanded angle is the integral of the steering rate, starting at the actuator's initial
 /// angle. This integral action compensates delay, backlash and gain errors of the actuator.

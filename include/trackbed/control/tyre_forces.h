@@ -11,13 +11,13 @@ enum class TyreForces {
   /// coefficients.
   kNone,
   /// The lateral forces are proportional to the slip angles, with the cornering stiffnesses at the
-  /// static wheel loads. The linear model is computed for the car's present speed.
+  /// static wheel loads.
   kLinear,
   /// The tyres follow the brush model (Pacejka 2012, ch. 3), linearized at the planned lateral and
   /// longitudinal acceleration. The stiffness and the friction force of an axle are proportional to
   /// its load, which changes during braking and driving. The braking or driving force reduces the
-  /// lateral stiffness and the available lateral friction. For turns ahead of the car, the forces
-  /// are computed at the planned speeds. The brush model assumes a road friction factor of 1 and no
+  /// lateral stiffness and the available lateral friction. The brush model assumes a road friction
+  /// factor of 1 and no
   /// aerodynamic drag. For a car with unknown friction or axle loads, the brush model is the same
   /// as kLinear.
   kBrush,
