@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
+#include "src/control/timely_steering.h"
 #include "src/control/turn_round.h"
 #include "trackbed/control/preview.h"
 
@@ -23,10 +25,25 @@ class PurePursuit final : public SteeringController {
     if (const std::optional<double> steering = turn_round_.Steer(input, u)) {
       return *steering;
     }
-    const double steering = std::atan(2.0 * input.vehicle.wheelbase * std::sin(u) / distance);
-    const double limit = input.vehicle.steering_limit;
-    // In reverse gear, steering to the right turns the direction of motion to the left.
-    return path.BendAt(input.station).direction * std::clamp(steering, -limit, limit);
+    const int direction = path.BendAt(input.station).direction;
+    const auto toward = [&](double angle) {
+      const double steering = std::atan(2.0 * input.vehicle.wheelbase * std::sin(angle) / distance);
+      const double limit = input.vehicle.steering_limit;
+      // In reverse gear, steering to the right turns the direction of motion to the left.
+      return direction * std::clamp(steering, -limit, limit);
+    };
+    if (options_.distance) {
+      return toward(u);
+    }
+    path_.UpdateWithoutRamps(input);
+    const double yaw = path_.At(input.station).pose.yaw;
+    const Vec2 to_left(-std::sin(yaw), std::cos(yaw));
+    const auto law = [&](const GainedErrors& gained) {
+      const Vec2 position = input.state.pose.position() + gained.cross_track * to_left;
+      const Pose2 later{position.x(), position.y(), input.state.pose.yaw + gained.heading};
+      return toward(PreviewAngle(path, later, input.station, distance));
+    };
+    return timely_.Steer(input, path_, false, toward(u), std::cref(law));
   }
 
  private:
@@ -38,6 +55,8 @@ class PurePursuit final : public SteeringController {
 
   PurePursuitOptions options_;
   HeldPreviewDistance planned_;
+  RampedPath path_;
+  TimelySteering timely_;
   TurnRound turn_round_;
 };
 

@@ -19,6 +19,12 @@ namespace trackbed {
 /// Unlike the preview controller, pure pursuit does not lengthen a given `distance` when the car is
 /// off its path.
 ///
+/// By default, the wheels turn no further than they can turn back in time
+/// (src/control/timely_steering.h): where the path turns them at nearly their full rate, they could
+/// not correct their own lead. With a given `distance`, the law is used as it is. Cost per control
+/// period: up to 160 points of the path. The controller allocates heap memory in its first control
+/// period only.
+///
 /// A look-ahead point may be behind the car, for example after a start that faces away from the
 /// path. The car then turns at full lock on the shorter side (src/control/turn_round.h).
 ///
