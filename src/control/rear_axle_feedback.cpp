@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
 #include "src/control/ramped_path.h"
+#include "src/control/timely_steering.h"
 #include "src/control/turn_round.h"
 
 namespace trackbed {
@@ -35,25 +37,34 @@ class RearAxleFeedback final : public SteeringController {
       return *steering;
     }
     const VehicleParams& vehicle = input.vehicle;
-    path_.Update(input, WayInLag(input));
+    path_.Update(input, std::max(WayInLag(input), TimelySteering::Horizon(input)));
     const Tracking tracking = path_.Track();
     const int direction = tracking.foot.direction;
     const double speed = direction * std::abs(input.state.speed);
     const double curvature = tracking.foot.curvature;
-    const double e = tracking.cross_track;
-    const double psi =
-        tracking.heading_error - SteadyTurnOn(vehicle, curvature, speed).heading_error;
-    const double d = options_.distance ? *options_.distance : DefaultDistance(input, e);
-    const double parallel =
-        path_.CurvatureAfterLag() * std::cos(psi) / std::max(1.0 - curvature * e, kNearCenter);
-    const double feedback = direction * 2.0 * psi / d + e * Sinc(psi) / (d * d);
-    const double steering = SteadyTurnOn(vehicle, parallel - feedback, speed).steering;
-    return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
+    const double steady_heading = SteadyTurnOn(vehicle, curvature, speed).heading_error;
+    const double d =
+        options_.distance ? *options_.distance : DefaultDistance(input, tracking.cross_track);
+    const double later_curvature = path_.CurvatureAfterLag();
+    const auto law = [&](const GainedErrors& gained) {
+      const double e = tracking.cross_track + gained.cross_track;
+      const double psi = tracking.heading_error - steady_heading + gained.heading;
+      const double parallel =
+          later_curvature * std::cos(psi) / std::max(1.0 - curvature * e, kNearCenter);
+      const double feedback = direction * 2.0 * psi / d + e * Sinc(psi) / (d * d);
+      const double steering = SteadyTurnOn(vehicle, parallel - feedback, speed).steering;
+      return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
+    };
+    if (options_.distance) {
+      return law({});
+    }
+    return timely_.Steer(input, path_, HasTyres(vehicle), law({}), std::cref(law));
   }
 
  private:
   RearAxleFeedbackOptions options_;
   RampedPath path_;
+  TimelySteering timely_;
   TurnRound turn_round_;
 };
 

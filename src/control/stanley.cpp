@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "src/control/ramped_path.h"
+#include "src/control/timely_steering.h"
 #include "src/control/turn_round.h"
 
 namespace trackbed {
@@ -18,30 +20,37 @@ class Stanley final : public SteeringController {
       return *steering;
     }
     const VehicleParams& vehicle = input.vehicle;
-    path_.Update(input, WayInLag(input));
+    path_.Update(input, std::max(WayInLag(input), TimelySteering::Horizon(input)));
     const Tracking tracking = path_.Track();
     const int direction = tracking.foot.direction;
     const double speed = std::abs(input.state.speed);
     const SteadyTurn turn = SteadyTurnOn(vehicle, tracking.foot.curvature, direction * speed);
     const SteadyTurn ahead = SteadyTurnOn(vehicle, path_.CurvatureAfterLag(), direction * speed);
-    const double heading = tracking.heading_error - turn.heading_error;
-    double offset = tracking.cross_track;
-    if (direction > 0) {
-      offset += vehicle.wheelbase * std::sin(heading);
-    }
     const CarScale scale = ComputeCarScale(vehicle);
     const double gain = options_.gain.value_or(1.0 / scale.time);
     const double softening = options_.softening.value_or(scale.length / scale.time);
-    // Use atan2, because without softening the divisor is 0 at rest; the steering angle is then at
-    // its limit.
-    const double approach = std::atan2(gain * offset, softening + speed);
-    const double steering = ahead.steering - direction * heading - approach;
-    return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
+    const auto law = [&](const GainedErrors& gained) {
+      const double heading = tracking.heading_error - turn.heading_error + gained.heading;
+      double offset = tracking.cross_track + gained.cross_track;
+      if (direction > 0) {
+        offset += vehicle.wheelbase * std::sin(heading);
+      }
+      // Use atan2, because without softening the divisor is 0 at rest; the steering angle is then
+      // at its limit.
+      const double approach = std::atan2(gain * offset, softening + speed);
+      const double steering = ahead.steering - direction * heading - approach;
+      return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
+    };
+    if (options_.gain) {
+      return law({});
+    }
+    return timely_.Steer(input, path_, HasTyres(vehicle), law({}), std::cref(law));
   }
 
  private:
   StanleyOptions options_;
   RampedPath path_;
+  TimelySteering timely_;
   TurnRound turn_round_;
 };
 

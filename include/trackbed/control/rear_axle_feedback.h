@@ -28,7 +28,8 @@ namespace trackbed {
 /// e, ReturnDistance for the offset L/8, and 3 |v| T (src/control/preview_distance.h).
 ///
 /// The control law has no preview, so at a curvature step the steering lags by the time that the
-/// wheels need to turn.
+/// wheels need to turn. By default, the wheels turn no further than they can turn back in time
+/// (src/control/timely_steering.h). With a given `distance`, the law is used as it is.
 struct RearAxleFeedbackOptions {
   /// Decay distance d of small tracking errors [m], >= 0.01; by default computed from the car, its
   /// speed and the cross-track error.

@@ -29,8 +29,12 @@ namespace trackbed {
 /// The Stanley law has no preview, but tracks a path whose curvature steps are ramps that the
 /// wheels can follow (docs/algorithms/control.md, "Ramped path"). The Stanley law has no damping:
 /// above 10 m/s with the default gain k, the yaw response lags and the car oscillates. A larger
-/// gain k makes the oscillation worse. The Stanley law ignores the limit on the steering rate: at 3
-/// m/s, the Prius returns from an offset of 1.5 m, but is unstable from an offset of 4 m.
+/// gain k makes the oscillation worse.
+///
+/// By default, the wheels turn no further than they can turn back in time
+/// (src/control/timely_steering.h). With a given `gain`, the law is used as it is and ignores the
+/// limit on the steering rate: at 3 m/s, the Prius returns from an offset of 1.5 m, but is unstable
+/// from an offset of 4 m.
 struct StanleyOptions {
   /// Gain k on the offset [1/s], > 0; default: 6.64 omega, with the maximum steering rate omega
   /// [rad/s].
