@@ -92,7 +92,7 @@ class RoutePlanner {
 
   [[nodiscard]] Plan Make() {
     Legs best;
-    if (route_.objective != CurveObjective::kLength) {
+    if (route_.objective == CurveObjective::kTime) {
       best = BestLegs(Speeds());
       Legs constant = BestLegs({speed_});
       if (!constant.legs.empty() && (best.legs.empty() || Time(constant) <= Time(best))) {
@@ -182,7 +182,7 @@ class RoutePlanner {
 
   [[nodiscard]] double CostOf(const std::vector<Segment>& segments, double speed,
                               std::size_t leg) const {
-    const bool counts_time = route_.objective != CurveObjective::kLength;
+    const bool counts_time = route_.objective == CurveObjective::kTime;
     double cost = 0.0;
     for (std::size_t i = 0; i < segments.size(); ++i) {
       cost += counts_time ? 0.0 : segments[i].length;
@@ -226,8 +226,8 @@ class RoutePlanner {
   /// Returns the cost of the lead-in, on which the speed falls evenly.
   [[nodiscard]] double LeadCost(const LegStart& start) const {
     const double sum = start.speed + request_.start_speed;
-    return route_.objective != CurveObjective::kLength ? 2.0 * start.lead.length / sum
-                                                       : start.lead.length;
+    return route_.objective == CurveObjective::kTime ? 2.0 * start.lead.length / sum
+                                                     : start.lead.length;
   }
 
   /// Returns the cheapest free leg at `speed`; its cost is infinite if all words are blocked.

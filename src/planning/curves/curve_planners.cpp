@@ -283,17 +283,14 @@ namespace {
 template <typename Options>
 void VisitKeys(KeyVisitor& keys, Options& options, const EnumNames<CurveCurvature>& curvatures) {
   static const EnumNames<CurveObjective> objectives{{CurveObjective::kLength, "length"},
-                                                    {CurveObjective::kTime, "time"},
-                                                    {CurveObjective::kFastest, "fastest"}};
+                                                    {CurveObjective::kTime, "time"}};
   route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);
   keys.Field(kCurvatureKey, options.curvature, Need::kOptional, curvatures);
   VisitClothoids(keys, options.max_lateral_acceleration, options.max_steering_rate_fraction);
-  keys.Field(
-      {"objective", "",
-       "what curves with clothoids minimize: the length at the mission's speed, or the "
-       "driving time, with slower, sharper turns; 'fastest' also searches a faster course of each "
-       "leg"},
-      options.objective, Need::kOptional, objectives);
+  keys.Field({"objective", "",
+              "what curves with clothoids minimize: the length at the mission's speed, or the "
+              "driving time, with slower, sharper turns"},
+             options.objective, Need::kOptional, objectives);
 }
 
 }  // namespace

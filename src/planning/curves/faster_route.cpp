@@ -237,7 +237,7 @@ bool IsContinuous(const Path& path) {
 }  // namespace
 
 Plan FasterRoute(const ContinuousRoute& route, const PlanRequest& request, Plan plan) {
-  const bool can_be_faster = plan.ok() && route.objective == CurveObjective::kFastest &&
+  const bool can_be_faster = plan.ok() && route.objective == CurveObjective::kTime &&
                              !request.limits && plan.stops.empty() &&
                              IsContinuous(plan.reference.path) &&
                              !plan.reference.path.segments().empty();

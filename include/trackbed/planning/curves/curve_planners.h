@@ -24,9 +24,6 @@ enum class CurveCurvature {
 enum class CurveObjective {
   kLength,  ///< The length of the path, at the speed of the mission.
   kTime,    ///< The driving time; the car may drive more slowly on sharper turns.
-  /// The driving time, and each leg is then made faster by a numerical search. The plan turns the
-  /// wheels at almost their full rate while the speed changes, which not every controller follows.
-  kFastest,
 };
 
 /// Options of the planner `dubins`, which joins the stops of a route by Dubins curves (dubins.h).
