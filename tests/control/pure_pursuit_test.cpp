@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "tests/control/loop.h"
 #include "tests/control/steer_once.h"
@@ -52,32 +51,6 @@ TEST(PurePursuit, SwingsOutWhenItLooksTooNearForItsWheels) {
   };
   EXPECT_LT(late(5.7), 0.05);
   EXPECT_GT(late(2.0), 0.5);
-}
-
-TEST(PurePursuit, TurnsItsWheelsBackInTime) {
-  // The path turns the wheels from side to side at 0.9 of their rate, so little rate is left to
-  // correct the error of the start. A car that feeds back errors without regard to its wheels
-  // swings ever further, here until it is 5 m off. The header states that the law cuts a bend of
-  // radius r by R^2/(8 r); the error of the start adds to this.
-  LoopSetup setup;
-  const double most = std::tan(0.4) / setup.vehicle.wheelbase;
-  const double ramp = 0.8 * setup.speed / (0.9 * setup.vehicle.steering_rate);
-  std::vector<Segment> segments{{20.0, 0.0, 1}, {0.5 * ramp, 0.0, 1, 2.0 * most / ramp}};
-  for (int swing = 0; swing < 4; ++swing) {
-    const double from = swing % 2 == 0 ? most : -most;
-    segments.push_back({ramp, from, 1, -2.0 * from / ramp});
-  }
-  segments.push_back({0.5 * ramp, most, 1, -2.0 * most / ramp});
-  segments.push_back({20.0, 0.0, 1});
-  setup.path = Path({}, segments);
-  setup.start = setup.path.At(18.0).pose;
-  const double offset = 0.3;
-  setup.start.y += offset;
-  setup.duration = 30.0;
-  const double distance =
-      1.5 * std::cbrt(offset * setup.vehicle.wheelbase * setup.speed / setup.vehicle.steering_rate);
-  EXPECT_LT(LargestOffset(Loop(PurePursuitOptions{}, setup)),
-            offset + distance * distance * most / 8.0);
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ TEST(Stanley, AddsHeadingAndOffsetOfTheFrontAxle) {
   const Path straight({}, {{100.0, 0.0, 1}});
   // With a cross-track error of 0.5 m to the left, a gain of 1 1/s, a softening of 1 m/s and a
   // speed of 3 m/s, the angle is -atan(1 * 0.5/(1 + 3)).
-  EXPECT_NEAR(Steer({.gain = 1.0}, straight, {0.0, 0.5, 0.0}, 3.0), -std::atan(0.125), Tolerance(1e-12));
+  EXPECT_NEAR(Steer({.gain = 1.0}, straight, {0.0, 0.5, 0.0}, 3.0), -std::atan(0.125),
+              Tolerance(1e-12));
   // With a heading error of 0.1 rad to the left, the cross-track error of the front axle is L
   // sin(0.1).
   EXPECT_NEAR(Steer({.gain = 1.0}, straight, {0.0, 0.0, 0.1}, 3.0),
@@ -29,7 +30,8 @@ TEST(Stanley, AddsHeadingAndOffsetOfTheFrontAxle) {
   // In reverse the law uses the cross-track error of the rear axle, and the heading error has the
   // opposite sign.
   const Path back({}, {{100.0, 0.0, -1}});
-  EXPECT_NEAR(Steer({.gain = 1.0}, back, {0.0, 0.5, 0.1}, -3.0), 0.1 - std::atan(0.125), Tolerance(1e-12));
+  EXPECT_NEAR(Steer({.gain = 1.0}, back, {0.0, 0.5, 0.1}, -3.0), 0.1 - std::atan(0.125),
+              Tolerance(1e-12));
 }
 
 TEST(Stanley, FrontAxleReturnsExponentially) {

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "tests/control/loop.h"
 #include "tests/tolerance.h"
@@ -90,6 +93,40 @@ TEST(TimelySteering, SteersByThePathWhereItsWheelsTurnBackAtTheirFullRate) {
   // Wheels that must turn further in the direction of the path are never late by the rule.
   const auto right = [&](const GainedErrors& gained) { return 0.2 - gained.heading; };
   EXPECT_GE(SteerBy(path, 10.0, right), 0.2);
+}
+
+class FollowerAtFullRate : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Laws, FollowerAtFullRate,
+                         testing::Values("preview", "preview_integral", "pure_pursuit", "stanley",
+                                         "rear_axle_feedback", "lqr", "mpc"),
+                         [](const auto& law) { return std::string(law.param); });
+
+TEST_P(FollowerAtFullRate, TurnsItsWheelsBackInTime) {
+  // The path turns the wheels from side to side at 0.9 of their rate, so little rate is left to
+  // correct the error of the start. A law that feeds back errors without regard to its wheels
+  // swings ever further. The error is at most that of the start, plus the R^2/(8 r) by which a law
+  // that aims at a point at the distance R cuts a bend of radius r (pure_pursuit.h).
+  LoopSetup setup;
+  const double most = std::tan(0.4) / setup.vehicle.wheelbase;
+  const double ramp = 0.8 * setup.speed / (0.9 * setup.vehicle.steering_rate);
+  std::vector<Segment> segments{{20.0, 0.0, 1}, {0.5 * ramp, 0.0, 1, 2.0 * most / ramp}};
+  for (const double from : {most, -most, most, -most}) {
+    segments.push_back({ramp, from, 1, -2.0 * from / ramp});
+  }
+  segments.push_back({0.5 * ramp, most, 1, -2.0 * most / ramp});
+  segments.push_back({20.0, 0.0, 1});
+  setup.path = Path({}, segments);
+  const double offset = 0.3;
+  setup.start = {18.0, offset, 0.0};
+  setup.duration = 30.0;
+  const double distance =
+      1.5 * std::cbrt(offset * setup.vehicle.wheelbase * setup.speed / setup.vehicle.steering_rate);
+  const auto entry = std::find_if(
+      Controllers().begin(), Controllers().end(),
+      [](const ControllerEntry& each) { return std::string(each.name) == GetParam(); });
+  ASSERT_NE(entry, Controllers().end());
+  EXPECT_LT(LargestOffset(Loop(entry->defaults, setup)), offset + distance * distance * most / 8.0);
 }
 
 }  // namespace timely_steering_test
