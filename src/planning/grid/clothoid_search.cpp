@@ -39,7 +39,7 @@ class ClothoidSearch final : public PoseTree {
  private:
   using PoseTree::IsFree;
 
-  /// Number of expansions after the first path, in addition to as many as the first path needed.
+  /// If the first path was found after n expansions, the search ends n + kMoreExpansions later.
   /// The estimated costs to the goal neglect that the car is slow on clothoids. A search until no
   /// path can be cheaper would take a hundred times as long as the search for the first path.
   static constexpr int kMoreExpansions = 1500;

@@ -39,8 +39,8 @@
 /// lowest speed. The last curve is a curve of continuous curvature (continuous_curvature.h) for one
 /// of these speeds. A stretch on which the car drives at w < v counts v/w times. Each change of
 /// speed and each turn of the wheels at rest counts the distance that the car would drive at v in
-/// the lost time. After the first path, the search ends after as many expansions as this path
-/// needed and 1500 more, so that the cost may be above `weight` times the optimum.
+/// the lost time. If the search finds the first path after n expansions, it ends at the latest
+/// after n + 1500 further expansions. The cost may therefore be above `weight` times the optimum.
 namespace trackbed {
 
 struct HybridAStarOptions {
