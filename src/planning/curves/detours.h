@@ -23,7 +23,8 @@ using CurveLength = std::function<double(const Pose2&, const Pose2&, double)>;
 /// A remedy is taken only if the path becomes shorter by this radius or more, or has fewer stops
 /// because waypoints are left out, and if it takes no longer to drive. If a longer path is left
 /// that a car at rest would not drive, or without obstacles a car without the given headings, a
-/// note says so, with the shorter length. Costs one plan if there is no detour, otherwise up to 19.
+/// note says so, with the shorter length. Calls `plan` once if there is no detour, otherwise up to
+/// 21 times.
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
                     const std::function<Plan(const PlanRequest&)>& plan);
 

@@ -24,7 +24,7 @@ namespace trackbed {
                                          const VehicleParams& car);
 
 /// Adds a note to a detour of a rolling car if `plan` makes a path for a car at rest that is
-/// shorter and not slower. The note gives both lengths. Costs one plan for a detour.
+/// shorter and not slower. The note gives both lengths. Calls `plan` at most once.
 void NoteDetourOfRollingStart(const PlanRequest& request, Plan& detour,
                               const std::function<Plan(const PlanRequest&)>& plan);
 
