@@ -126,8 +126,9 @@ std::optional<Vec2> Meeting(const Vec2& a, const Vec2& b, const Vec2& c, const V
   return Vec2(b + ahead * in);
 }
 
-/// Returns the points of a path with the corners at which up to kSpan successive lines meet that
-/// are not neighbors. The corners are in the order of the first line of each.
+/// Returns the points of a path, and the corners at which two of its lines meet if both are
+/// extended. Between the two lines are at least one line and fewer than kSpan lines. The corners
+/// are in the order of the first line of each.
 std::vector<OuterCorner> WithOuterCorners(const std::vector<Vec2>& way) {
   std::vector<OuterCorner> corners{{way.front(), 0}};
   for (std::size_t i = 0; i + 1 < way.size(); ++i) {
