@@ -72,9 +72,10 @@ void RemoveJumps(const RunLog& log, std::vector<double>& values) {
   }
 }
 
-/// Replaces each jump of a steering angle that is faster than the wheels by a ramp with their rate
-/// [rad/s], half of it before and half behind the jump. Controllers that know the rate follow steps
-/// of the curvature so, which no linear filter of the steps explains.
+/// Replaces a jump of the steering angle by a ramp if the wheels cannot turn so far between two
+/// rows. The ramp has the steering rate `rate` [rad/s]. The jump is in the middle of the ramp.
+/// Controllers that know the rate respond to steps of the curvature with such ramps, which no
+/// linear filter of the steps explains.
 std::vector<double> Ramped(const std::vector<double>& values, const RunLog& log, double rate) {
   const std::vector<LogRow>& rows = log.rows;
   std::vector<double> ramped = values;

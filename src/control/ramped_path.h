@@ -9,14 +9,14 @@ namespace trackbed {
 /// A path whose steps of the curvature are replaced by ramps that the wheels can follow.
 ///
 /// At a step of the curvature, wheels with a limited rate lag behind the path. A control law that
-/// tracks the path itself then saturates, and feeds back errors that it cannot avoid. The ramped
-/// path is what a car with a limited steering rate can drive: a control law that tracks it
-/// receives no error, and commands rates within the limit.
+/// tracks the path itself then saturates, and feeds back errors that it cannot avoid. A car with a
+/// limited steering rate can drive the ramped path: a control law that tracks this path receives no
+/// unavoidable errors, and commands rates within the limit.
 ///
 /// The symbols are:
 ///   x       distance from the step along the path [m], positive behind the step
 ///   kappa   height of the step [1/m]
-///   S       length of the ramp [m]: v abs(Delta delta)/omega, the way in which the wheels turn
+///   S       length of the ramp [m]: v abs(Delta delta)/omega, driven while the wheels turn
 ///   e       offset of the ramped path from the path [m], positive to the left
 ///   T       length of the tails [m]: 2 S
 ///

@@ -104,7 +104,7 @@ double TimelySteering::Steer(const ControlInput& input, const RampedPath& path, 
   const double at_planned = untimely - planned;
   const double at_untimely = excess(untimely);
   if (at_planned * at_untimely >= 0.0) {
-    return untimely;  // no error: the wheels reach the path's angle at once
+    return untimely;  // the gained errors do not change the angle of the law
   }
   std::uintmax_t iterations = 30;
   const bool left = at_planned > 0.0;
