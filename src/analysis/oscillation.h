@@ -34,10 +34,10 @@ struct Wave {
 /// cycles and 4 s. The second half of a stretch repeats the first half with a correlation of at
 /// least 0.9 and at least half of the amplitude. If inputs of the loop are `random`, each cycle
 /// must also repeat the one before, because noise excites poorly damped loops to short trains of
-/// waves. At least half of the wave's amplitude must be in the command, too, because the fit of the
-/// inputs may add waves that the command does not have. Returns at most one wave for each quarter
-/// octave of periods, at the place of its largest amplitude. `period` [s] > 0 is the sampling
-/// period of both signals, which have the same size. Cost: O(n log n) for n samples.
+/// waves. The command itself must contain the wave with at least half of its amplitude, because the
+/// fit of UnexplainedCommand may add waves to the unexplained part. Returns at most one wave for
+/// each quarter octave of periods, at the place of its largest amplitude. `period` [s] > 0 is the
+/// sampling period of both signals, which have the same size. Cost: O(n log n) for n samples.
 std::vector<Wave> FindWaves(const std::vector<double>& unexplained,
                             const std::vector<double>& command, double period, bool random);
 

@@ -98,7 +98,7 @@ void ReadMessages(sqlite3* database, std::int64_t id, const BagTopic& topic,
   while (Next(database, rows, file)) {
     const std::string_view data = Blob(rows, 0);
     const std::int64_t time = sqlite3_column_int64(rows.get(), 1);
-    // A message of CDR begins with a zero, so these first bytes of zstd are not CDR.
+    // Data in CDR begin with a zero byte, so data with the first four bytes of zstd are compressed.
     if (data.starts_with("\x28\xB5\x2F\xFD")) {
       take(topic, Decompress(data, "zstd", kMaxChunkBytes, file), time);
     } else {

@@ -37,9 +37,9 @@ std::size_t FirstTimeOutOfOrder(const std::vector<double>& times) {
   return static_cast<std::size_t>(std::is_sorted_until(times.begin(), times.end()) - times.begin());
 }
 
-/// Separates the times of points that share one time, as clocks with whole seconds write. Such
-/// points and the next one are reached at a constant speed; the last points of a file, at the speed
-/// before them. Returns the speed of each step [m/s].
+/// Separates the times of points that share one time, as clocks with whole seconds write. The speed
+/// is constant from the first of these points to the next point with another time. If no such point
+/// follows, the speed is that of the step before. Returns the speed of each step [m/s].
 std::vector<double> SpreadEqualTimes(const std::vector<Vec2>& points, std::vector<double>& times) {
   std::vector<double> step_speeds;
   std::size_t first = 0;

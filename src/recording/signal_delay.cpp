@@ -244,9 +244,9 @@ double IndependentSamples(const Scan& scan, int delay, const Line& line, int str
 }
 
 /// Returns the delay in samples whose sum of squared residuals is least. Periodic motion fits
-/// nearly as well at other delays, one period apart. Of the minima that are not significantly worse
-/// than the least one, and separated from it by significantly worse delays, returns that with the
-/// smallest absolute delay.
+/// nearly as well at other delays, one period apart: the residuals have several minima, which
+/// significantly worse delays separate. If other minima are not significantly worse than the least
+/// one, returns the minimum with the smallest absolute delay.
 int BestDelay(const Scan& scan, const std::vector<Line>& lines, int stride) {
   const int reach = scan.reach();
   const auto at = [&](int delay) -> const Line& {

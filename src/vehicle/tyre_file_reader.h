@@ -23,7 +23,8 @@ class TyreFileReader {
   /// Throws InputError if a line is malformed.
   TyreFileReader(std::string_view text, const std::string& name);
 
-  /// Returns the tyre. Throws InputError as ReadTyreFile. Call Read once.
+  /// Returns the tyre. Throws InputError in the same cases as ReadTyreFile. Call Read
+  /// once.
   TyreFile Read();
 
  private:

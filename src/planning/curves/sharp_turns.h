@@ -14,9 +14,10 @@
 namespace trackbed {
 
 /// Returns the shortest forward word of two sharpest turns from the origin with the curvature
-/// `start` to `goal`, if it is shorter than `limit`, else a curve of infinite length. The turns
-/// deflect by at most pi more or less than a turn that only straightens the wheels. The goal is in
-/// units of the smallest radius. Roots closer than 0.3 rad to each other may be missed.
+/// `start` to `goal`, if it is shorter than `limit`, else a curve of infinite length. The heading
+/// change of each turn differs by at most pi from the heading change of a turn that only
+/// straightens the wheels. The goal is in units of the smallest radius. Roots closer than 0.3 rad
+/// to each other may be missed.
 ShortestCurve SharpWord(const TurnCircle& circle, double start, const CurveState& goal,
                         double limit);
 

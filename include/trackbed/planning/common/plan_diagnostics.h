@@ -50,7 +50,7 @@ void Visit(DiagnosticsVisitor& out, const AvoidedStretch& stretch);
 /// driven without these diagnostics.
 struct PlanDiagnostics {
   MethodDiagnostics planner;  ///< Diagnostics of the planner, such as RrtDiagnostics.
-  /// Diagnostics of the turns of an open-loop schedule, as FilletTurnFindings.
+  /// Diagnostics of the turns of an open-loop schedule (FilletTurnFindings).
   std::vector<MethodDiagnostics> turns;
   /// Corners of a polyline that the planner rounded.
   std::optional<std::vector<RoundCorner>> corners;
