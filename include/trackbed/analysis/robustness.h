@@ -25,10 +25,10 @@ struct RunRobustness {
 ///   * The margin of a requirement over time is the requirement's robustness, in the unit of the
 ///     comparison that determines the robustness.
 ///   * A check without a numeric margin (arrived, no collision, an unmeasured metric) has the
-///     margin -1 if the check is not met. It has no margin if the check is met. A run without a
+///     margin -1 if the check is not met. Such a check has no margin if it is met. A run without a
 ///     plan has the margin -1.
-///   * The check of the steering rate limit checks the simulation and not the driving. It has the
-///     margin -1 if the check is not met, and no margin if the check is met.
+///   * The check of the steering rate limit, which checks the simulation and not the driving, has
+///     the margin -1 if the check is not met, and no margin if the check is met.
 ///
 /// The robustness is 1 if all checks are met and no check has a margin.
 ///

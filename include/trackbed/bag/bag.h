@@ -36,11 +36,11 @@ bool IsBag(const std::filesystem::path& bag);
 ///
 /// A MCAP file that its recorder did not finish is read up to its last complete record, with a
 /// note. Throws InputError if the file is no bag, or if it has more than 10000 topics. Also throws
-/// it if the file is damaged: if a record exceeds its chunk or the file, if a chunk's checksum is
-/// wrong, or if SQLite rejects the file. Compressions other than lz4 and zstd, and records or
-/// decompressed chunks of more than 256 MiB, are errors, too. Throws InputError for files of a
-/// folder outside of the folder, and for files that are compressed as a whole, with the command
-/// that decompresses them. Throws RunError if a file cannot be read.
+/// InputError if the file is damaged: if a record exceeds its chunk or the file, if a chunk's
+/// checksum is wrong, or if SQLite rejects the file. Compressions other than lz4 and zstd, and
+/// records or decompressed chunks of more than 256 MiB, are errors, too. Throws InputError for
+/// files of a folder outside of the folder, and for files that are compressed as a whole, with the
+/// command that decompresses them. Throws RunError if a file cannot be read.
 BagContent ReadBagTopics(const std::filesystem::path& bag);
 
 /// Reads all messages of one topic, in the order of the bag (MCAP) or of their times (SQLite).

@@ -37,8 +37,8 @@ enum class PreviewLaw {
 ///
 /// Wheels with a limited rate cannot follow a step of the path's curvature. Without `distance`, the
 /// preview point therefore lies on a path whose steps are ramps. A car with a limited rate can
-/// drive the ramped path. It leaves the given path by at most kappa S^2/24, where kappa is the
-/// height of the step and S the distance driven while the wheels turn.
+/// drive the ramped path. The ramped path leaves the given path by at most kappa S^2/24, where
+/// kappa is the height of the step and S the distance driven while the wheels turn.
 ///
 /// Without `distance`, the wheels turn no further than they can turn back in time: the angle is
 /// that of the law for the errors that the car will have when its wheels, turning at their full

@@ -27,8 +27,8 @@ struct PathEdges {
   double spacing = 0.0;                    ///< Distance between two stations [m], > 0.
   std::vector<EdgeDistances> distances{};  ///< Empty if the plan is not on a track.
 
-  /// Returns the edges at a station [m]. They are linear between the stations and constant before
-  /// the first and beyond the last one. `distances` must not be empty.
+  /// Returns the edges at a station [m]. The distances of the edges are linear between the stations
+  /// and constant before the first and beyond the last one. `distances` must not be empty.
   [[nodiscard]] EdgeDistances At(double station) const;
 };
 

@@ -19,8 +19,9 @@ using TakeCsvRow = std::function<void(std::vector<std::string>& cells, int line)
 using TakeCsvNames = std::function<void(std::vector<std::string>& names, int line)>;
 
 /// Value of CsvLimits::delimiter that stands for the most frequent of comma, semicolon and tab in
-/// the first line that is neither empty nor a comment. If this line has none of them, kBlanks if
-/// blanks separate as many numbers in this line or, behind a line of names, in the next line.
+/// the first line that is neither empty nor a comment. If this line contains none of these
+/// characters, the delimiter is kBlanks on one condition: blanks separate numbers in this line, or
+/// names in this line and equally many numbers in the next line.
 inline constexpr char kFindDelimiter = '\0';
 
 /// Value of CsvLimits::delimiter for cells that are separated by any number of spaces and tabs.

@@ -26,10 +26,10 @@
 /// (sim/car_parameters.h) is estimated besides the parameters of the study, between -0.1 and 0.1
 /// rad. If the records do not determine the offset and other parameters at once, the offset is
 /// fixed before the others. The offset is left out if the study names it as a parameter or has 40
-/// parameters. It is also left out for vehicles without steered wheels, and if a record has
+/// parameters. The offset is also left out for vehicles without steered wheels, and if a record has
 /// prescribed steering, which bypasses the offset.
 ///
-/// With `bank`, the bank of the track that all records were driven on is estimated, too. It
+/// With `bank`, the bank of the track that all records were driven on is estimated, too. The bank
 /// consists of the coefficients bank[0], bank[1], … of a closed spline over the station of the
 /// track, each with a normal prior distribution about 0. The search starts at 0. All records are
 /// replayed on the estimated ground (recording/banked_track.h).

@@ -41,7 +41,7 @@ struct SmoothSolution {
 /// Searches a local minimum near the start by NLopt's SLSQP (Kraft 1994), which ends when x changes
 /// by less than `tolerance`, or after `evaluations` evaluations.
 ///
-/// Guarantees: the result lies within the bounds. It is the evaluated point with the lowest
+/// Guarantees: the result lies within the bounds. The result is the evaluated point with the lowest
 /// objective among the points that violate no constraint by more than `tolerance`, otherwise the
 /// point of least violation. The same program always has a bit-identical solution. Throws
 /// InternalError unless the sizes agree and the bounds are finite. Costs the evaluations, and for

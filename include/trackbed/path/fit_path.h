@@ -110,10 +110,10 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// these are missing, by their headings. The car drives in reverse where its heading is opposite to
 /// the step to the next point. A leg that is shorter than max_deviation counts as noise. The car
 /// changes its direction at points, the cusps of the path. Each leg is fitted as a separate curve.
-/// At a cusp, the heading is continuous. It is the given heading, corrected by the mean difference
-/// of the curves from the given headings, or the mean of the curves' headings. The curvature may
-/// jump at a cusp, where the car stands. A path without directions and headings has one forward
-/// leg.
+/// At a cusp, the heading is continuous. The heading at a cusp is the given heading, corrected by
+/// the mean difference of the curves from the given headings, or the mean of the curves' headings.
+/// The curvature may jump at a cusp, where the car stands. A path without directions and headings
+/// has one forward leg.
 ///
 /// Because a Path has a continuous heading, each corner of a polyline becomes an arc. The arc is at
 /// most 2 mm long, is within 1 mm of the corner, and is far too tight for any car.

@@ -49,9 +49,9 @@ struct CommonRoadScenario {
   Pose2 start;               ///< Pose of the car's center at time 0.
   double start_speed = 0.0;  ///< Speed at time 0 [m/s], >= 0.
   CommonRoadGoal goal;
-  /// Points for the car's center, about 1 m apart [m]. They lead from the start onto the lanelets'
-  /// centers, along the shortest sequence of lanelets to the goal, and on until a car can have
-  /// stopped.
+  /// Points for the car's center, about 1 m apart [m]. The points lead from the start onto the
+  /// lanelets' centers, along the shortest sequence of lanelets to the goal, and on until a car can
+  /// have stopped.
   std::vector<Vec2> route;
   /// The speed nearest to the initial speed at which a car on the route meets the goal in time
   /// [m/s], >= 0.1.
@@ -92,9 +92,9 @@ bool IsCommonRoadScenario(const std::string& text);
 /// planning problems or goals, reads the first.
 ///
 /// Throws InputError, with line and element, if the file is not a CommonRoad scenario, if there is
-/// no planning problem, or if a number is not finite or out of range. Also throws it if no lanelets
-/// lead from the start to the goal, or if the route is longer than 50 km. The start must be at most
-/// 5 m from a lanelet.
+/// no planning problem, or if a number is not finite or out of range. Also throws InputError if no
+/// lanelets lead from the start to the goal, or if the route is longer than 50 km. The start must
+/// be at most 5 m from a lanelet.
 CommonRoadScenario ReadCommonRoadScenario(const std::filesystem::path& file,
                                           const std::string& text);
 

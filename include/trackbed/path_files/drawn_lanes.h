@@ -35,7 +35,7 @@ std::string LanesCsv(const DrawnLanes& lanes);
 /// Reads the file that LanesCsv writes. Rows of the same lane stand together.
 ///
 /// Throws InputError, with file and line, if a column is missing, or if a cell is not a finite
-/// number of at most 1e7. Also throws it if a lane has one row, or if there are more than
+/// number of at most 1e7. Also throws InputError if a lane has one row, or if there are more than
 /// kMaxLanePoints rows. Throws RunError if the file cannot be read.
 DrawnLanes ReadLanesCsv(const std::filesystem::path& file);
 

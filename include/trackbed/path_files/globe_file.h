@@ -42,8 +42,8 @@ bool IsGlobeFile(const std::filesystem::path& file);
 /// most 64 levels deep.
 ///
 /// Throws InputError, with file and line, if the text is malformed, if the file has no line, or if
-/// it is a KMZ archive. Also throws it if a position does not exist (GlobeProblem) or is no number
-/// (NumberProblem). Throws RunError in the same cases as ReadFile.
+/// it is a KMZ archive. Also throws InputError if a position does not exist (GlobeProblem) or is no
+/// number (NumberProblem). Throws RunError in the same cases as ReadFile.
 GlobeFile ReadGlobeFile(const std::filesystem::path& file);
 
 }  // namespace trackbed

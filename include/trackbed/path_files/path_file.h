@@ -34,9 +34,9 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// point and the next point. The speed of the last point is the mean speed between the last two
 /// points.
 ///
-/// Invalid speeds and times do not make a path unusable; PathFile::speed_problems lists them. They
-/// are cells of a CSV file that are not finite numbers or out of range (speeds to 100 m/s), and
-/// times that do not increase. Invalid curvatures are dropped, with a note.
+/// Invalid speeds and times do not make a path unusable; PathFile::speed_problems lists them.
+/// Cells of a CSV file are invalid if they are not finite numbers or out of range (speeds to 100
+/// m/s), times also if they do not increase. Invalid curvatures are dropped, with a note.
 ///
 /// PathPoints::direction comes from a column of directions or gears, or from the signs of the
 /// speeds. Speeds of less than 0.05 m/s, or of less than a tenth of the largest speed, have no
@@ -55,10 +55,10 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// message suggests the most similar name), or if a required member of a YAML or JSON file is
 /// missing. The direction of travel decides whether the headings of a CSV file are measured from
 /// the x axis or from north, positive to the left; a note says which. Throws InputError if the
-/// headings are degrees or compass headings (the message suggests the unit). Also throws it if the
-/// column `psi_rad` of a racing line fits the direction of travel in neither way. It is a further
-/// error if all headings of a CSV file are opposite to the direction of travel although a column of
-/// speeds is not negative. Throws InputError if there are fewer than two or more than
+/// headings are degrees or compass headings (the message suggests the unit). Also throws InputError
+/// if the column `psi_rad` of a racing line fits the direction of travel in neither way. Also
+/// throws InputError if all headings of a CSV file are opposite to the direction of travel although
+/// a column of speeds is not negative. Throws InputError if there are fewer than two or more than
 /// kMaxPathPoints points. Throws InputError if the text is malformed, is nested deeper than 64
 /// levels, has YAML aliases, or contains coordinates that do not exist on Earth. Throws RunError if
 /// the file cannot be read or is larger than 512 MiB (CSV) or 16 MiB (other formats). Reading takes

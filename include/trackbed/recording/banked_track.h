@@ -42,8 +42,8 @@ class GroundLine;
 /// height are smoothed as the center line is (Track). Where parts of the track are close to each
 /// other, each part keeps its height on the road, and the ground in between is their mean, weighted
 /// by proximity. On the inside of bends, the road ends at 0.9 of the bend's radius. An open road
-/// continues straight beyond its ends, with the slope and the bank that it has there. It blends
-/// into smooth ground between 1.5 m and 9.5 m from them.
+/// continues straight beyond its ends, with the slope and the bank that it has there. The road
+/// blends into smooth ground between 1.5 m and 9.5 m from them.
 class BankedGround {
  public:
   /// Throws InputError if the track spreads over more than 4 km along x or y, or if it is open and
@@ -103,11 +103,11 @@ struct CenterPoints {
   std::vector<int> lines{};  ///< Line of each point in its file.
 };
 
-/// Reads the points of a track file (track/track_file.h), which may be open. It is open if it has a
-/// column `closed` of zeros, or no such column and not the shape of a closed line (IsClosedLine). A
-/// file without columns of widths is the log of a drive. Its path, with points 0.5 m or more apart,
-/// is the middle of an open road of 10 m. Throws InputError in the same cases as ReadTrackFile, and
-/// if the line is open and has an OpenLineProblem.
+/// Reads the points of a track file (track/track_file.h), which may be open. The file is open if it
+/// has a column `closed` of zeros, or no such column and not the shape of a closed line
+/// (IsClosedLine). A file without columns of widths is the log of a drive. Its path, with points
+/// 0.5 m or more apart, is the middle of an open road of 10 m. Throws InputError in the same cases
+/// as ReadTrackFile, and if the line is open and has an OpenLineProblem.
 CenterPoints ReadCenterPoints(const std::filesystem::path& file);
 
 /// Reads a track file with the column `bank_rad`, `z_m`, or both; a missing column counts as 0.

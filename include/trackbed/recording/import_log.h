@@ -29,19 +29,19 @@ namespace trackbed {
 /// of the gap. RecordedDrive::notes lists the processing steps.
 ///
 /// Throws InputError, with file and line, if a column is missing (the message suggests the most
-/// similar name), if a cell is not a number, or if times decrease. Also throws it if the position
-/// never changes, or if the log yields less than 1 s of data or more than 1e6 samples. Throws
-/// InputError if the columns that the log map names have more than 5e7 numbers between `from` and
-/// `to`. Throws InputError, with the key of the log map, if columns contradict each other. Examples
-/// of contradicting columns: the yaw or yaw rate has the wrong unit (degrees or radians), or its
-/// sign is opposite to the turns of the path. The measured speed may also differ from the speed of
-/// the position by a factor of 3.6. If `map.check` is false, contradictions between columns are
-/// only listed in the notes. Throws RunError in the same cases as ReadFile.
+/// similar name), if a cell is not a number, or if times decrease. Also throws InputError if the
+/// position never changes, or if the log yields less than 1 s of data or more than 1e6 samples.
+/// Throws InputError if the columns that the log map names have more than 5e7 numbers between
+/// `from` and `to`. Throws InputError, with the key of the log map, if columns contradict each
+/// other. Examples of contradicting columns: the yaw or yaw rate has the wrong unit (degrees or
+/// radians), or its sign is opposite to the turns of the path. The measured speed may also differ
+/// from the speed of the position by a factor of 3.6. If `map.check` is false, contradictions
+/// between columns are only listed in the notes. Throws RunError in the same cases as ReadFile.
 ///
 /// Delays of at most 1 s between the pose and the measured speed, yaw rate and accelerations are
-/// estimated with their standard errors. They are noted if they exceed three standard errors and
-/// the mean distance of two rows. If `map.align` is true, these signals are shifted onto the clock
-/// of the pose. The delay of the yaw rate behind the steering is noted, too, but not removed,
+/// estimated with their standard errors. The delays are noted if they exceed three standard errors
+/// and the mean distance of two rows. If `map.align` is true, these signals are shifted onto the
+/// clock of the pose. The delay of the yaw rate behind the steering is noted, too, but not removed,
 /// because the response of the car is a part of it. A steering signal that lags the yaw rate is
 /// shifted. Drift is not removed. The import takes 1 us per row and 10 us per sample. The file is
 /// read once as a stream, and each number that is kept needs 16 bytes of memory.

@@ -37,7 +37,7 @@ struct AdaptGuess {
 /// A car file that AdaptModel proposes.
 struct AdaptedModel {
   VehicleKind kind = VehicleKind::kSteered;
-  std::string xml;                  ///< MJCF text of the car file. It refers to no other files.
+  std::string xml;                  ///< MJCF text of the car file, without references to files.
   std::vector<AdaptGuess> guesses;  ///< In the order of the parts of the car.
   /// Properties of the given model that a run would have been wrong with, such as tyres that touch
   /// the chassis. The proposed file does not have them.
@@ -60,9 +60,9 @@ struct AdaptedModel {
 ///
 /// Errors: throws InputError if the file cannot be read or does not compile. Throws InputError,
 /// with a question and the option that answers it, if the model has no vehicle with four wheels or
-/// with two driven wheels. Also throws it if its axles cannot be told apart, or if a limit is
-/// missing that nothing in the model suggests. The limits of size and of the separate process are
-/// those of ComposeScene and CompileScene. Cost: that of compiling the model twice.
+/// with two driven wheels. Also throws InputError if its axles cannot be told apart, or if a limit
+/// is missing that nothing in the model suggests. The limits of size and of the separate process
+/// are those of ComposeScene and CompileScene. Cost: that of compiling the model twice.
 AdaptedModel AdaptModel(const std::filesystem::path& file, const AdaptOptions& options);
 
 }  // namespace trackbed

@@ -22,8 +22,8 @@
 ///
 /// If a matcher fails, the test prints the value that violates the expectation, with station and
 /// time. Each matcher checks every plant of the run. A matcher also fails if the run has no plan,
-/// or if it lacks the named plants. It also fails if the quantity was not measured because there is
-/// no path or no obstacle.
+/// or if it lacks the named plants. A matcher also fails if the quantity was not measured because
+/// there is no path or no obstacle.
 namespace trackbed {
 
 /// Prints a comparison of two plants in GoogleTest: "kinematic and mujoco from 0 m to 138.2 m:

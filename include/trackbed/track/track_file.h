@@ -44,8 +44,8 @@ struct TrackFile {
 /// default is then multiplied by the power of 2 nearest to 1 (1/64 to 64) at which neither happens,
 /// if one exists.
 ///
-/// The inner edge may fold over in a bend (TrackFold). It is then narrowed to 95 % of the bend's
-/// radius, to no less than half of its width in the file.
+/// The inner edge may fold over in a bend (TrackFold). The inner edge is then narrowed to 95 % of
+/// the bend's radius, to no less than half of its width in the file.
 ///
 /// Throws InputError, which lists up to twenty problems with file and line, including the problems
 /// that ReadCsvTable finds. A point is a problem if its position is beyond 1e7 m, or if a width is

@@ -70,8 +70,8 @@ TrailerParams TrailerFromNumbers(const std::array<double, 13>& numbers);
 /// the body, cg_ahead 6 % of the tongue, cg_height 1.75 R, wheel_radius R.
 ///
 /// Throws InputError, with the key below vehicle.trailer and the allowed values, if the hitch is
-/// not behind the car, or if the body reaches ahead of the hitch. Also throws it if the center of
-/// gravity is not between the hitch and its mirror image behind the axle.
+/// not behind the car, or if the body reaches ahead of the hitch. Also throws InputError if the
+/// center of gravity is not between the hitch and its mirror image behind the axle.
 TrailerParams MakeTrailer(const TrailerOptions& options, const VehicleParams& car);
 
 /// State of a trailer relative to the car.

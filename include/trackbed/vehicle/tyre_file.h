@@ -45,8 +45,8 @@ struct TyreFile {
 ///
 /// Errors: throws InputError, with line and key, if the text is malformed, if the file is not of a
 /// supported version, or if the file exceeds kMaxTyreFileBytes or kMaxTyreFileEntries. Also throws
-/// it if a needed coefficient is missing or outside its range, or if a unit is unknown. Throws
-/// RunError if the file cannot be read.
+/// InputError if a needed coefficient is missing or outside its range, or if a unit is unknown.
+/// Throws RunError if the file cannot be read.
 TyreFile ReadTyreFile(const std::filesystem::path& file);
 
 /// As ReadTyreFile, for the text of a file. `name` names the file in messages.

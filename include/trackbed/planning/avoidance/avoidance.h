@@ -21,8 +21,8 @@
 ///
 /// Symbols: SD is the safe distance from the car's footprint to an obstacle [m]; t_d is the system
 /// delay [s]; S = r + v t_d [m], where r is the radius of a turn and v the speed. To pass an
-/// obstacle in a turn, the car leaves its path at most the distance S before the turn. It returns
-/// to the path at most the distance S after the turn.
+/// obstacle in a turn, the car leaves its path at most the distance S before the turn. The car
+/// returns to the path at most the distance S after the turn.
 namespace trackbed {
 
 struct AvoiderEntry {

@@ -60,7 +60,7 @@ class CollisionChecker {
 
   /// Returns the first tested station at which the car is too near to a box; nullopt if the car is
   /// clear at all tested stations. The search advances along the path by the distance that is free
-  /// according to the clearance. It advances by at least 2 cm (for a car shorter than 1 m, a
+  /// according to the clearance. Each step is at least 2 cm long (for a car shorter than 1 m, a
   /// fiftieth of its length). Between two tested stations, the clearance may therefore be negative,
   /// by at most half of the smallest step times the motion of the footprint's fastest corner per
   /// meter of path.

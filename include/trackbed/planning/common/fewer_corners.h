@@ -35,11 +35,11 @@ inline constexpr double kUnnoticedShareOfWidth = 0.25;
 /// Leaves out waypoints that are too close to each other for the curves of their corners. The first
 /// and last point stay the same, and the direction of the first leg unless `choice` says otherwise.
 /// A point may be left out if it is a waypoint within `max_gap` of the leg that replaces it or of
-/// the first leg. It may also be left out if it lies on one of these legs. Of all such polylines,
-/// returns the one with the fewest corners that the car cannot drive at `min_speed`. Of polylines
-/// with equally many such corners, returns the one with the most points, and among these the one
-/// that is nearest to the points left out. Cost: O(n w^2) for n points, of which at most w = 50 are
-/// left out in a row.
+/// the first leg. A point may also be left out if it lies on one of these legs. Of all such
+/// polylines, returns the one with the fewest corners that the car cannot drive at `min_speed`. Of
+/// polylines with equally many such corners, returns the one with the most points, and among these
+/// the one that is nearest to the points left out. Cost: O(n w^2) for n points, of which at most w
+/// = 50 are left out in a row.
 std::vector<Vec2> LeaveOutCloseWaypoints(const VehicleParams& vehicle,
                                          const std::vector<Vec2>& polyline,
                                          const CornerLimits& limits);

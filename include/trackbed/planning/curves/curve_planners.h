@@ -12,12 +12,12 @@ namespace trackbed {
 
 /// How the curvature of a path of curves may change.
 enum class CurveCurvature {
-  /// It is continuous, except at cusps, if the car can drive such a path; otherwise it steps. A
-  /// note of the plan says why it steps.
+  /// The curvature is continuous, except at cusps, if the car can drive such a path; otherwise it
+  /// steps. A note of the plan says why the curvature steps.
   kAuto,
-  kSteps,       ///< It steps between straights and arcs, at a speed that the steering can follow.
-  kContinuous,  ///< It is continuous (continuous_curvature.h).
-  kCuspSteps,   ///< It is continuous except at cusps, where the car turns its wheels at rest.
+  kSteps,       ///< Steps between straights and arcs, at a speed that the steering can follow.
+  kContinuous,  ///< Continuous curvature (continuous_curvature.h).
+  kCuspSteps,   ///< Continuous except at cusps, where the car turns its wheels at rest.
 };
 
 /// Quantity that a planner of curves of continuous curvature minimizes.

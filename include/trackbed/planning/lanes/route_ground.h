@@ -40,7 +40,8 @@ struct RouteGround {
 /// `failure` gives the reason. Heights in the file may be of a kind that is not supported. Lanes of
 /// two roads may lie more than 0.1 m above each other at one place. The surface may deviate by more
 /// than 1 cm. Roads may be steeper than 45 degrees, higher than 10 km, wider than 50 m on either
-/// side, or longer than 20 km together. They may also be spread over more than 8 km along x or y.
+/// side, or longer than 20 km together. The roads may also be spread over more than 8 km along x or
+/// y.
 ///
 /// If FindLaneRoute finds no route, the result has neither a terrain nor a failure. Throws
 /// PreconditionError in the same cases as FindLaneRoute. Cost: about 1 s of computing time and 3 MB

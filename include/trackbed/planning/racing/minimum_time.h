@@ -47,9 +47,9 @@ LapLimits LimitsOfLap(const PlanRequest& request);
 double LapTime(const Track& track, const TrackLine& line, const LapLimits& limits);
 
 enum class MinimumTimeEnd {
-  /// The search has converged if the predicted gain of a step is at most 1e-4 of the lap time. It
-  /// has also converged if this gain is at most 5e-4 of the lap time, and no fraction of the step
-  /// makes the lap faster.
+  /// The search has converged if the predicted gain of a step is at most 1e-4 of the lap time. The
+  /// search has also converged if this gain is at most 5e-4 of the lap time, and no fraction of the
+  /// step makes the lap faster.
   kConverged,
   /// No step makes the lap faster, not even a step that changes the line by only a millimeter.
   kNoGain,

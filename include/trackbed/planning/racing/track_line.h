@@ -64,8 +64,8 @@ struct TrackPlanDiagnostics {
 void Visit(DiagnosticsVisitor& out, const TrackPlanDiagnostics& own);
 
 /// Plans laps along a line on the track. The plan leads from the car onto the line, and
-/// TrackLaps::laps times around the track. It continues beyond the finish line by the distance that
-/// the car needs to brake from the mission's speed.
+/// TrackLaps::laps times around the track. The plan continues beyond the finish line by the
+/// distance that the car needs to brake from the mission's speed.
 ///
 /// The car may start anywhere on the track, facing along the track. A car that starts up to half a
 /// lap before the start line first drives to the start line. A car that starts on or beyond the
@@ -82,8 +82,9 @@ void Visit(DiagnosticsVisitor& out, const TrackPlanDiagnostics& own);
 Plan FollowLine(const PlanRequest& request, const TrackLine& line);
 
 /// Returns the curvature of a path through the car's pose that keeps the offset and the angle that
-/// the car has from the center line [1/m]. It is PlannerEntry::start_curvature of the planners on
-/// tracks. Returns nullopt if there is no track, or if the car does not face along the track.
+/// the car has from the center line [1/m]. This function is PlannerEntry::start_curvature of the
+/// planners on tracks. Returns nullopt if there is no track, or if the car does not face along the
+/// track.
 std::optional<double> StartCurvatureOnTrack(const PlannerOptions& options, const RouteStart& route);
 
 }  // namespace trackbed

@@ -112,9 +112,9 @@ struct Leader {
 /// speed may have a lower cost than a motion that passes the obstacle. The function nevertheless
 /// tries to pass at the speed V first, because slowing down does not remove a standing obstacle.
 ///
-/// The car passes a moving leader only if it could finish passing at the speed V. It must be able
-/// to get past the leader, return to the route and brake to a stop before the route's end, with all
-/// obstacles extrapolated at constant velocity. If the car follows its leader instead,
+/// The car passes a moving leader only if it could finish passing at the speed V. The car must be
+/// able to get past the leader, return to the route and brake to a stop before the route's end,
+/// with all obstacles extrapolated at constant velocity. If the car follows its leader instead,
 /// AlongPlan::why states the reason.
 ///
 /// Guarantees: the motion has the guarantees of PlanFrenet or PlanLattice. During the braking after

@@ -62,10 +62,10 @@ struct DetourFindings {
 void Visit(DiagnosticsVisitor& out, const DetourFindings& own);
 
 /// Searches for a detour if a standing obstacle blocks the route; otherwise, there is no detour.
-/// Candidate paths leave the driven path on a straight stretch, as early as the car can. They
-/// rejoin the route on straight stretches behind the last obstacle that blocks the route, or at the
-/// end of the route. The comparator (comparator.h) chooses the best candidate path, and keeps the
-/// current path unless the best candidate has a lower score.
+/// Candidate paths leave the driven path on a straight stretch, as early as the car can. The
+/// candidate paths rejoin the route on straight stretches behind the last obstacle that blocks the
+/// route, or at the end of the route. The comparator (comparator.h) chooses the best candidate
+/// path, and keeps the current path unless the best candidate has a lower score.
 ///
 /// Guarantees: the new route begins with a part of the driven path that is long enough for the
 /// steering to follow the new route. Beyond this part, the new route keeps the planner's safe

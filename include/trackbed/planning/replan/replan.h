@@ -16,9 +16,9 @@
 /// obstacle if there is no detour.
 ///
 /// During a run, the car drives one plan after the other. A new plan begins at the point of the old
-/// plan nearest to the car. It has the curvature, speed and acceleration that the old plan has
-/// there, so that these quantities do not jump. If the car has strayed from its plan, the new plan
-/// begins with the car's actual pose, steering and speed.
+/// plan nearest to the car. The new plan has the curvature, speed and acceleration that the old
+/// plan has there, so that these quantities do not jump. If the car has strayed from its plan, the
+/// new plan begins with the car's actual pose, steering and speed.
 namespace trackbed {
 
 /// The state of a run, which consists of the route, the current plan and the car's stations on

@@ -9,13 +9,13 @@
 namespace trackbed {
 
 /// Options of the planner `rrt`. The planner `rrt` grows trees from waypoint to waypoint by RRT
-/// (rrt.h), and smooths the resulting paths with regard to wind (smoothing.h). It takes shortcuts
-/// that do not worsen the score of a path, and rounds or rejects corners (corners.h). Among the
-/// paths that the car can drive, the planner chooses the path with the best score (comparator.h).
-/// If no tree reaches the goal and partial paths are allowed (Plan::partial), the result is the
-/// path that ends nearest to the first unreached waypoint. A partial path ends at the tree's node
-/// that is nearest to the unreached waypoint. If the car's front is too near to an obstacle at this
-/// node, the path ends at the last earlier node at which the car is clear.
+/// (rrt.h), and smooths the resulting paths with regard to wind (smoothing.h). The planner takes
+/// shortcuts that do not worsen the score of a path, and rounds or rejects corners (corners.h).
+/// Among the paths that the car can drive, the planner chooses the path with the best score
+/// (comparator.h). If no tree reaches the goal and partial paths are allowed (Plan::partial), the
+/// result is the path that ends nearest to the first unreached waypoint. A partial path ends at the
+/// tree's node that is nearest to the unreached waypoint. If the car's front is too near to an
+/// obstacle at this node, the path ends at the last earlier node at which the car is clear.
 struct RrtPlannerOptions {
   Corners corners = Corners::kRound;
   /// Distance that the car's footprint keeps from obstacles [m], >= 0.

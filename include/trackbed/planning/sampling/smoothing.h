@@ -8,8 +8,8 @@
 #include "trackbed/world/wind.h"
 
 /// Smooths a path with corners ("Smoothing" of the wind-aware RRT; Thrun 2012). Each inner point of
-/// the path moves toward its original position and toward the middle of its two neighbors. It does
-/// not move if an obstacle is in the way or if the wind score would decrease.
+/// the path moves toward its original position and toward the middle of its two neighbors. A point
+/// does not move if an obstacle is in the way or if the wind score would decrease.
 ///
 /// Symbols: x_i are the original points and y_i the smoothed points, whose first and last are
 /// fixed. The weight of the original points is alpha, and the weight of smoothness is beta. The
