@@ -80,8 +80,8 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   if (length < 1e-6) {
     return;
   }
-  // Neighboring pieces of a line overlap, so they alternate between two heights. If the heights
-  // were equal, a lamp with shadows would light the overlap twice.
+  // Neighboring pieces of a line overlap, so they alternate between two heights. At equal heights,
+  // a lamp with shadows would light the overlap of two pieces twice.
   constexpr double kStagger = 0.0005;
   // The angle between neighboring pieces of a line is at most about 15 degrees. An overlap of the
   // pieces by tan(15/2 degrees) times half the width therefore closes the outer corner.

@@ -31,9 +31,9 @@ constexpr double kLeastShare =
 constexpr double kPeriodStep =
     1.189207115002721;  ///< Ratio of neighboring periods: a quarter octave.
 
-/// Adds low-pass filters of the input with time constants in steps of a factor of 2. They range
-/// from one period to 3 s, or to the twentieth part of a short signal. A filter that runs backward
-/// responds to the input's future.
+/// Adds low-pass filters of the input with time constants in steps of a factor of 2. The time
+/// constants range from one period to 3 s, or to the twentieth part of a short signal. A filter
+/// that runs backward responds to the input's future.
 void AddLowPasses(const Series& input, double period, bool backward, std::vector<Series>& out) {
   const std::size_t n = input.size();
   const double longest = std::min(3.0, 0.05 * static_cast<double>(n) * period);

@@ -45,8 +45,8 @@ class RoadBands {
 };
 
 /// Returns the smallest distance of the footprint from the edges of the roads in a run; negative if
-/// the car leaves the roads. It is measured at points of the footprint's outline at most half a
-/// meter apart. Returns nullopt for a plan that does not follow the lanes of roads.
+/// the car leaves the roads. The distance is measured at points of the footprint's outline at most
+/// half a meter apart. Returns nullopt for a plan that does not follow the lanes of roads.
 std::optional<MetricReading> SmallestRoadMargin(const MetricInput& input);
 
 }  // namespace trackbed

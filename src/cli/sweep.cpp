@@ -28,9 +28,9 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
-// The verb `sweep` reads the study and its options. It chooses the rows of this shard, of --only or
-// of a study that was interrupted, runs them in parallel and writes the table. With --until, the
-// study ends as soon as the confidence intervals of its pass rates are narrow enough.
+// The verb `sweep` reads the study and its options. The verb chooses the rows of this shard, of
+// --only or of a study that was interrupted, runs them in parallel and writes the table. With
+// --until, the study ends as soon as the confidence intervals of its pass rates are narrow enough.
 
 namespace trackbed::cli {
 namespace {

@@ -24,8 +24,8 @@
 // 1. CommentFilter removes lines that begin with '#', before libcsv interprets quotes.
 // 2. RowReader collects the cells of a row, and calls the caller for each row with its line.
 // 3. NamedRows skips a preamble (src/core/csv_head.h), and finds the names of columns in the
-// header, or in a comment before rows of numbers. It rewrites numbers such as "+1" and "0,5", and
-// the cells of VBO files (src/core/vbo.h).
+// header, or in a comment before rows of numbers. NamedRows rewrites numbers such as "+1" and
+// "0,5", and the cells of VBO files (src/core/vbo.h).
 namespace trackbed {
 namespace {
 

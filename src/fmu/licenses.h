@@ -9,7 +9,7 @@
 
 namespace trackbed::fmu {
 
-/// Returns the files of the folder `documentation/licenses` of an FMU. They are the texts of
+/// Returns the files of the folder `documentation/licenses` of an FMU. The files are the texts of
 /// Trackbed, of the code compiled into `library` (the folder fmu_licenses beside it), and of the
 /// `carried` libraries, files by soname. `license.txt` lists all carried libraries with their
 /// texts.

@@ -43,9 +43,9 @@ inline constexpr int kRunning = 0;
 /// Returns the names of the values of the output `status`, from kRunning on.
 std::vector<std::string> StatusNames();
 
-/// Returns the variables of an FMU. They are those of Reference, then a parameter for each number
-/// in `yaml` that influences the run, then the columns of the log of the scenario's first plant.
-/// `scenario` must be the scenario that `yaml` describes.
+/// Returns the variables of an FMU. The variables are those of Reference, then a parameter for each
+/// number in `yaml` that influences the run, then the columns of the log of the scenario's first
+/// plant. `scenario` must be the scenario that `yaml` describes.
 std::vector<Variable> Variables(const std::string& yaml, const Scenario& scenario);
 
 }  // namespace trackbed::fmu

@@ -24,7 +24,7 @@ class BankModel {
   /// wide as all records drive. The path is the first lap of the record if it returns to its start,
   /// else the whole open path. The study must have `bank`. Throws InputError if a record leaves the
   /// path of an open road, or if the track has more knots than the study has room for. Also throws
-  /// it in the same cases as BankedGround.
+  /// InputError in the same cases as BankedGround.
   explicit BankModel(const Identification& study);
 
   /// Returns the parameters, bank[0] at the start line first [rad]. Before the fit, they are

@@ -15,7 +15,7 @@ namespace {
 std::vector<SignalResiduals> Derivative(const Identification& study, const ResidualModel& model,
                                         const std::vector<double>& estimate, std::size_t index,
                                         const std::function<void()>& count) {
-  // Step of the finite difference. It is large enough to average over the kinks that backlash
+  // Step of the finite difference. The step is large enough to average over the kinks that backlash
   // causes in the residuals, and small enough that the Magic Formula is almost linear within the
   // step.
   constexpr double kStep = 1e-3;  // Step as a fraction of the parameter's range.

@@ -10,8 +10,8 @@
 // that the car can brake in time for the rest of the path. A forward pass limits the speed to what
 // the car can reach by accelerating from the start. StopAtEnd then adds knots to each stretch where
 // the car starts to cruise and where it starts to brake. A car that starts too fast brakes until
-// its speed meets the profile. It brakes as hard as the strict caps, the sections of less grip and
-// the end of the path demand.
+// its speed meets the profile. The car brakes as hard as the strict caps, the sections of less grip
+// and the end of the path demand.
 
 namespace trackbed {
 namespace {
@@ -124,9 +124,9 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
 
 /// Returns the constant deceleration at which a car slows down if it starts faster than the profile
 /// [m/s^2]. The result is the deceleration of the first stretch, or `deceleration` if there is no
-/// stretch. It is more if the car would otherwise be too fast at one of three places: the start of
-/// a strict cap, the start of a section of less grip, or the end of the path. `squared` are the
-/// largest squared speeds at the ends of the stretches.
+/// stretch. The result is larger if the car would otherwise be too fast at one of three places: the
+/// start of a strict cap, the start of a section of less grip, or the end of the path. `squared`
+/// are the largest squared speeds at the ends of the stretches.
 double BrakingFromStart(double length, double start_squared, double deceleration,
                         const std::vector<SpeedCap>& caps, const std::vector<Stretch>& stretches,
                         const std::vector<double>& squared) {

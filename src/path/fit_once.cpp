@@ -97,8 +97,9 @@ double MeanAngle(const std::vector<double>& angles, const std::vector<double>& w
   return angles.front() + sum / weight;
 }
 
-/// Estimates the error of the heading at the end of a curve that is fitted to points [rad]. It is
-/// the mean deviation of the points near this end, over the length of curve that they determine.
+/// Estimates the error of the heading at the end of a curve that is fitted to points [rad]. The
+/// error is the mean deviation of the points near this end, over the length of curve that they
+/// determine.
 double HeadingError(const FittedPath& fit, bool at_begin) {
   // Error of a heading from fewer than kManyPoints points, which tell little about the curvature.
   constexpr std::size_t kManyPoints = 4;

@@ -73,8 +73,9 @@ double DrivenIn(double time, double from, double to) {
          to * (time - changing);
 }
 
-/// Returns the speed nearest to the initial speed at which a car passes the goal in time. If there
-/// is none, returns the speed at which the car misses the goal by the shortest distance.
+/// Returns the speed nearest to the initial speed at which a car passes the goal in time. If no
+/// speed reaches the goal in time, returns the speed at which the car misses the goal by the
+/// shortest distance.
 double ChooseSpeed(const PlanningProblem& problem, const Passage& passage) {
   const CommonRoadGoal& goal = problem.goal;
   const double margin = std::min(2.0, 0.25 * (passage.to - passage.from));

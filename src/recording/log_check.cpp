@@ -82,9 +82,9 @@ std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale
   return all;
 }
 
-/// Returns how badly the logged yaw fits the direction of motion. It is the upper quartile of the
-/// difference of both rates of change, divided by the upper quartile of the direction's rate of
-/// change. Returns none if the vehicle hardly turns.
+/// Returns how badly the logged yaw fits the direction of motion. The misfit is the upper quartile
+/// of the difference of both rates of change, divided by the upper quartile of the direction's rate
+/// of change. Returns none if the vehicle hardly turns.
 std::optional<double> Misfit(const std::vector<Moment>& moments) {
   std::vector<double> apart;
   std::vector<double> course;

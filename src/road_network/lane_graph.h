@@ -40,7 +40,7 @@ class LaneGraph {
   [[nodiscard]] std::vector<std::size_t> ShortestWay(std::size_t from, std::size_t to) const;
 
   /// Returns the broken parts of the file at which the paths from a lane end, for people, at most
-  /// three. They are links to roads, junctions or lanes that are missing or left out.
+  /// three. Broken parts are links to roads, junctions or lanes that are missing or left out.
   [[nodiscard]] std::vector<std::string> BrokenPartsFrom(std::size_t from) const;
 
  private:

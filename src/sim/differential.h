@@ -12,8 +12,8 @@ struct AxleWheel {
 
 /// Returns the torque [N m] that the coupling of a differential transmits from the right to the
 /// left wheel in a step of `timestep` [s]. The transmitted torque makes both wheels turn at the
-/// same speed at the end of the step. It is clamped to `most` [N m], >= 0, in both directions. An
-/// infinite `most` locks the differential.
+/// same speed at the end of the step. The torque is clamped to `most` [N m], >= 0, in both
+/// directions. An infinite `most` locks the differential.
 ///
 /// The wheels' dry friction acts in the same step. The speed of a wheel at the end of the step is
 /// S(omega + (T + c) dt/I, T_f dt/I). Here, c is the transmitted torque, and S(u, b) moves u toward

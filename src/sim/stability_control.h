@@ -23,11 +23,11 @@ struct CarMotion {
 /// with the understeer gradient K of the unladen car, and mu = friction_lateral times the road's
 /// factor. The reference r follows r_s with a lag equal to the delay of the linear single-track
 /// model at low frequencies. The control acts if the yaw rate leaves the band of 0.05 mu g/v about
-/// the reference. It also acts if the sideslip angle exceeds atan(0.02 s^2/m mu g) while the car
-/// turns out of its course. The excess e asks for the yaw moment I_z e/0.02 s. Against oversteer,
-/// the moment comes from the outer front wheel, against understeer from the inner rear wheel. While
-/// a wheel brakes, the drive torque is cut. The control does not act below the speed sqrt(g L), nor
-/// in reverse.
+/// the reference. The control also acts if the sideslip angle exceeds atan(0.02 s^2/m mu g) while
+/// the car turns out of its course. The excess e asks for the yaw moment I_z e/0.02 s. Against
+/// oversteer, the moment comes from the outer front wheel, against understeer from the inner rear
+/// wheel. While a wheel brakes, the drive torque is cut. The control does not act below the speed
+/// sqrt(g L), nor in reverse.
 class StabilityControl {
  public:
   StabilityControl(const CarModel& car, double gravity);

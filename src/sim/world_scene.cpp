@@ -17,10 +17,12 @@
 #include "trackbed/sim/car_model.h"
 
 // Adds the ground and obstacles of a world to the scene of a car.
-// 1. WithGround adds the ground plane, and height fields for terrain, bumps and side slopes. It
-//    also adds a plane under each wheel, which RoadContact keeps tangent to the exact ground.
-// 2. WithObstacles adds a box for each obstacle, with two slide joints if the obstacle moves. It
-//    also adds the walls of the map, and a shell of the car that can touch only obstacles.
+// 1. WithGround adds the ground plane, and height fields for terrain, bumps and side slopes.
+//    WithGround also adds a plane under each wheel, which RoadContact keeps tangent to the exact
+//    ground.
+// 2. WithObstacles adds a box for each obstacle, with two slide joints if the obstacle moves.
+//    WithObstacles also adds the walls of the map, and a shell of the car that can touch only
+//    obstacles.
 namespace trackbed {
 namespace {
 

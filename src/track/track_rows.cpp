@@ -235,8 +235,7 @@ void TrackRows::CheckExtent() {
   }
 }
 
-/// Drops the last points if they are the first point again. Such points may differ from the first
-/// point by the rounding of the file.
+/// Drops the last points if they repeat the first point, up to the rounding of the file.
 void TrackRows::DropRepeatedEnd() {
   if (points.size() < Track::kMinPoints) {
     return;

@@ -12,7 +12,7 @@
 
 namespace trackbed::fmu {
 
-/// Base of the instances of FMI 2 and FMI 3. `Own` is the type derived from this one. It defines
+/// Base of the instances of FMI 2 and FMI 3. `Own` is the type derived from this one. `Own` defines
 /// `Status`, the constants kOk and kError of this type, kStateName, the name of the argument with a
 /// state, and Fail(message), which passes a message to the host.
 struct InstanceBase {

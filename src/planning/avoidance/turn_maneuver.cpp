@@ -128,9 +128,9 @@ std::size_t NearestNode(const std::vector<TreeNode>& nodes, const Vec2& point) {
   return nearest;
 }
 
-/// Returns the corner of the obstacle to which listing F.2 measures distances. It is the rear inner
-/// corner if the car passes on the inside of the turn, and the front outer corner if the car passes
-/// on the outside.
+/// Returns the corner of the obstacle to which listing F.2 measures distances. This corner is the
+/// rear inner corner if the car passes on the inside of the turn, and the front outer corner if the
+/// car passes on the outside.
 Vec2 TestCorner(const TurnManeuver& maneuver, const OrientedBox& obstacle) {
   const double inward = maneuver.passing_side() == PassingSide::kInner ? 1.0 : -1.0;
   return ToWorld(obstacle.center,

@@ -30,8 +30,8 @@ constexpr std::array<std::array<double, kTerms>, 2> Coefficients() {
 
 constexpr std::array<std::array<double, kTerms>, 2> kCoefficients = Coefficients();
 
-/// Coefficients of the power series of ChordPerLength in angle^2. They are (-1)^n/(2n)! times the
-/// integral of (1 - u^2)^(2n), which is the product of 2k/(2k + 1) for k from 1 to 2n.
+/// Coefficients of the power series of ChordPerLength in angle^2. The coefficients are (-1)^n/(2n)!
+/// times the integral of (1 - u^2)^(2n), which is the product of 2k/(2k + 1) for k from 1 to 2n.
 constexpr std::array<double, kTerms> ChordCoefficients() {
   std::array<double, kTerms> c{};
   double term = 1.0;

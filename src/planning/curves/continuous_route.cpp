@@ -7,8 +7,8 @@
 //
 // The objective `length` takes the mission's speed, and lower speeds only where all words at a
 // higher speed are blocked. The objective `time` compares several speeds for each leg, and pairs of
-// speeds for its first and last turn, by an estimate of the driving time. It then compares the best
-// combination with the one at the mission's speed, by the speed profile of the whole path.
+// speeds for its first and last turn, by an estimate of the driving time. The planner then compares
+// the best combination with the one at the mission's speed, by the speed profile of the whole path.
 //
 // A car that rolls at the start drives its first turns at its present speed, or straightens its
 // wheels first and slows down on a straight.

@@ -145,8 +145,8 @@ void ChainFinder::OfOneTurn(const Centers& centers, const Consider& consider) co
 }
 
 /// Finds the words with a straight. A word may have a cusp and a quarter turn at one end of the
-/// straight or at both ends. It may drive the straight in the direction opposite to a neighboring
-/// turn.
+/// straight or at both ends. A word may drive the straight in the direction opposite to a
+/// neighboring turn.
 template <typename Limit, typename Consider>
 void ChainFinder::WithStraight(const Centers& centers, const Limit& limit,
                                const Consider& consider) const {

@@ -34,8 +34,8 @@ struct Sweeps {
 /// Each of the following functions computes one Dubins word that begins with a left arc and is
 /// shorter than `limit`. If no word shorter than `limit` exists, the functions return kNone as the
 /// middle piece. The center of the first arc is at (0, 1). The center of the last arc is at (x -
-/// sin, y + cos) if this arc is to the left. It is at (x + sin, y - cos) if the arc is to the
-/// right.
+/// sin, y + cos) if this arc is to the left. The center is at (x + sin, y - cos) if the arc is to
+/// the right.
 Sweeps LeftStraightLeft(const CurveGoal& goal, double limit) {
   const double dx = goal.x - goal.sin;
   const double dy = goal.y - 1.0 + goal.cos;

@@ -24,9 +24,9 @@ struct FastestLeg {
 };
 
 /// Returns a leg at a local minimum of the driving time near `leg.start`; nullopt if the search
-/// finds none. It has the pose and curvature of `leg.start` at both ends, to 1e-10 m and rad. At an
-/// end at rest, the curvature stays constant below `leg.held_speed`. Costs 1 to 140 ms for 7 to 16
-/// parts.
+/// finds none. The leg has the pose and curvature of `leg.start` at both ends, to 1e-10 m and rad.
+/// At an end at rest, the curvature stays constant below `leg.held_speed`. Costs 1 to 140 ms for 7
+/// to 16 parts.
 std::optional<std::vector<Segment>> FindFasterLeg(const FastestLeg& leg);
 
 }  // namespace trackbed

@@ -278,8 +278,8 @@ class AlphaSearch {
   void Split(const Word& a, const Word& b) {
     constexpr double kSpacing = 0.3;  // spacing at which two roots are told apart [rad]
     const double most = words_.MostStraight(a, b);
-    // The function f falls by at most `slope` per angle. It therefore has no root if it is too far
-    // above 0 at the first end, or too far below 0 at the last one.
+    // The function f falls by at most `slope` per angle. The function f therefore has no root if it
+    // is too far above 0 at the first end, or too far below 0 at the last one.
     const double slope = most + (a.slope - a.straight) + (b.slope - b.straight);
     const double fall = slope * (b.alpha - a.alpha);
     if (most < -kTurnRounding || a.across > fall || -b.across > fall ||

@@ -42,15 +42,15 @@ bool ClearsLaterally(const AlongRequest& request, const AlongSettings& settings,
 double ShiftLength(const VehicleParams& vehicle, const FrenetLimits& limits, double speed,
                    double aside);
 
-/// Returns the offsets [m] at which the car can pass the leader on the road. They are the offsets
-/// of the method's options that clear the leader, and the nearest such offset on each side. Empty
-/// if the road is too narrow.
+/// Returns the offsets [m] at which the car can pass the leader on the road. The result has the
+/// offsets of the method's options that clear the leader, and the nearest such offset on each side.
+/// Empty if the road is too narrow.
 std::vector<double> PassingOffsets(const AlongRequest& request, const AlongSettings& settings,
                                    const Leader& leader, const AlongOptions& options);
 
 /// Returns the speeds [m/s] at which the car may pull out beside the leader, the fastest first.
-/// They are the speeds of the method's options above the leader's speed, then the leader's own
-/// speed. A car that is slower than the leader does not pull out at the leader's speed, because
+/// The result has the speeds of the method's options above the leader's speed, then the leader's
+/// own speed. A car that is slower than the leader does not pull out at the leader's speed, because
 /// following the leader reaches this speed sooner. Empty if the leader is not slower than the
 /// desired speed.
 std::vector<double> PassingSpeeds(const AlongRequest& request, const Leader& leader,
@@ -70,11 +70,11 @@ std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongReques
 
 /// Returns why the car could not finish passing the leader after `motion`; empty if it could. To
 /// pass, the car accelerates at the last offset of the motion to the desired speed, or to a lower
-/// one. It drives until its rear is the safe distance ahead of the leader's front, and returns to
-/// the route. The whole maneuver must keep the safe distance from all obstacles, which are
-/// extrapolated at constant velocity. It must leave the distance in which the car brakes to a stop
-/// at the end of the route. When the car stops there, the distance to the leader behind must be at
-/// least the distance that the car itself would keep from a leader.
+/// one. The car drives until its rear is the safe distance ahead of the leader's front, and returns
+/// to the route. The whole maneuver must keep the safe distance from all obstacles, which are
+/// extrapolated at constant velocity. The maneuver must leave the distance in which the car brakes
+/// to a stop at the end of the route. When the car stops there, the distance to the leader behind
+/// must be at least the distance that the car itself would keep from a leader.
 std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
                        const AlongSettings& settings, const FrenetLimits& limits,
                        const Leader& leader, const FrenetMotion& motion);
