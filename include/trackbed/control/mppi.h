@@ -29,10 +29,11 @@ namespace trackbed {
 /// Obstacles keep their velocity and yaw rate during the horizon.
 ///
 /// The roll-outs vary the better one of two motions: the last plan, or the motion of a car that lqr
-/// steers. Their steering rates have normally distributed deviations, constant for a tenth of the
-/// horizon, in pairs of opposite sign and in four sizes. The weighted mean, half of its change, and
-/// the cheapest roll-out replace the plan only if their cost is lower. A car that moves by less
-/// than 1/1000 of its wheelbase in a control period is steered as lqr does without preview.
+/// steers. The steering rates of the roll-outs have normally distributed deviations, constant for a
+/// tenth of the horizon, in pairs of opposite sign and in four sizes. The weighted mean, half of
+/// its change, and the cheapest roll-out replace the plan only if their cost is lower. A car that
+/// moves by less than 1/1000 of its wheelbase in a control period is steered as lqr does without
+/// preview.
 ///
 /// Guarantees: the commands are the same, bit for bit, for the same seed and inputs, for any number
 /// of threads. A plan of cost 0, such as on the path in a steady turn, is kept. The commanded angle

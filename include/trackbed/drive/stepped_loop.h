@@ -58,10 +58,10 @@ class SteppedLoop {
   void Step();
   /// Simulates the coming control period with the commanded steering angle of the bicycle model
   /// `steering` [rad], positive to the left. `acceleration` [m/s^2] is positive if the car speeds
-  /// up in the direction of its gear; nullopt leaves the speed to the plan. Both have the meaning
-  /// of the outputs of a SteeringController. The loop's own controller is not called. Throws
-  /// PreconditionError, and leaves the loop unchanged, if a command is not finite or if the run has
-  /// ended.
+  /// up in the direction of its gear; nullopt leaves the speed to the plan. Both values have the
+  /// meaning of the outputs of a SteeringController. The loop's own controller is not called.
+  /// Throws PreconditionError, and leaves the loop unchanged, if a command is not finite or if the
+  /// run has ended.
   void Step(double steering, std::optional<double> acceleration);
 
   /// Returns a copy of the log so far; its status is kInterrupted if the run has not ended.

@@ -82,7 +82,7 @@ bool IsCommonRoadScenario(const std::string& text);
 ///
 /// The route changes lanes only between adjacent lanelets with the same driving direction. The
 /// route joins a lanelet's center, after the start or a lane change, along a quintic polynomial.
-/// Its lateral acceleration is at most 1.5 m/s^2 where the road is long enough.
+/// The lateral acceleration on this polynomial is at most 1.5 m/s^2 where the road is long enough.
 ///
 /// Properties that Trackbed does not model are approximated, with a note. Discs and polygons become
 /// their smallest enclosing boxes. Sets of occupied places become several boxes, which together

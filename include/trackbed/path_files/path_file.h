@@ -35,8 +35,9 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// points.
 ///
 /// Invalid speeds and times do not make a path unusable; PathFile::speed_problems lists them.
-/// Cells of a CSV file are invalid if they are not finite numbers or out of range (speeds to 100
-/// m/s), times also if they do not increase. Invalid curvatures are dropped, with a note.
+/// Speeds and times in a CSV file are invalid if they are not finite numbers or out of range
+/// (speeds to 100 m/s), or if the times do not increase. Invalid curvatures are dropped, with a
+/// note.
 ///
 /// PathPoints::direction comes from a column of directions or gears, or from the signs of the
 /// speeds. Speeds of less than 0.05 m/s, or of less than a tenth of the largest speed, have no

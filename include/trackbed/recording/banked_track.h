@@ -105,9 +105,9 @@ struct CenterPoints {
 
 /// Reads the points of a track file (track/track_file.h), which may be open. The file is open if it
 /// has a column `closed` of zeros, or no such column and not the shape of a closed line
-/// (IsClosedLine). A file without columns of widths is the log of a drive. Its path, with points
-/// 0.5 m or more apart, is the middle of an open road of 10 m. Throws InputError in the same cases
-/// as ReadTrackFile, and if the line is open and has an OpenLineProblem.
+/// (IsClosedLine). A file without columns of widths is the log of a drive. The path of this drive,
+/// with points 0.5 m or more apart, is the middle of an open road of 10 m. Throws InputError in the
+/// same cases as ReadTrackFile, and if the line is open and has an OpenLineProblem.
 CenterPoints ReadCenterPoints(const std::filesystem::path& file);
 
 /// Reads a track file with the column `bank_rad`, `z_m`, or both; a missing column counts as 0.

@@ -9,9 +9,10 @@ namespace trackbed {
 inline constexpr double kFullSizeCar = 4.0;
 
 /// Returns whether the default of a key of the section `plan` is a length that follows from the
-/// size of the car. Such lengths are distances from obstacles, cells and margins of searches, and
-/// costs as a path length. `method` is the method of the key's section. Lengths that describe the
-/// route, the file of a path or a standard maneuver do not follow from the size of the car.
+/// size of the car. Lengths that follow from the size are distances from obstacles, cells and
+/// margins of searches, and costs as a path length. `method` is the method of the key's section.
+/// Lengths that describe the route, the file of a path or a standard maneuver do not follow from
+/// the size of the car.
 bool FollowsCarSize(const Key& key, const std::string& method);
 
 /// Returns the factor on these default lengths: min(1, length/kFullSizeCar). Returns 1 if

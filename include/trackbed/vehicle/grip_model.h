@@ -60,11 +60,11 @@ struct GripModel {
 ///
 /// In a turn with f_y on a level road, the front wheels have the steering angle delta =
 /// atan(L f_y/v^2) + s_f - s_r, with the slip angles s_f and s_r of the axles, at most
-/// `steering_limit`. Their forces act along and across the wheels, and the outer wheel has more
-/// lateral force than the inner one. Both reduce the moment that turns the car, so the largest f_y
-/// is smaller in tight turns: for a Prius by 5 % at a radius of 17 m. This reduction is computed
-/// for the largest f_y at each speed. At the same fraction of the largest f_y, the diagram has the
-/// f_x of a car with straight wheels.
+/// `steering_limit`. The forces of the front wheels act along and across the wheels, and the outer
+/// wheel has more lateral force than the inner one. Both effects reduce the moment that turns the
+/// car, so the largest f_y is smaller in tight turns: for a Prius by 5 % at a radius of 17 m. This
+/// reduction is computed for the largest f_y at each speed. At the same fraction of the largest
+/// f_y, the diagram has the f_x of a car with straight wheels.
 ///
 /// The longitudinal force f_x is the sum of the forces along the wheels minus the cornering drag.
 /// The cornering drag is f_y times the mean slip angle of the axles, where each axle is weighted by

@@ -157,8 +157,8 @@ struct FrontAngles {
 };
 
 /// Returns the Ackermann angles of the front wheels for a steering angle of the bicycle model. Both
-/// wheels and the front wheel of the bicycle model turn about the same center on the line of the
-/// rear axle (cot outer - cot inner = track/L).
+/// front wheels and the single front wheel of the bicycle model turn about the same center on the
+/// line of the rear axle (cot outer - cot inner = track/L).
 FrontAngles AckermannAngles(const VehicleParams& params, double steering);
 
 /// Returns the derivatives of the AckermannAngles with respect to the bicycle model's steering

@@ -52,8 +52,8 @@ struct TurnOperation {
 SteadyTurn TurnWithoutSlip(const VehicleParams& vehicle, double curvature, double speed);
 
 /// Returns the turn of a car whose slip angles are proportional to the lateral forces, the steady
-/// state of SingleTrackCar. Its steering angle is tan(delta) = kappa (L + K u |u|), with the
-/// understeer gradient K. A car without tyre coefficients does not slip.
+/// state of SingleTrackCar. The steering angle delta of this turn follows from tan(delta) = kappa
+/// (L + K u |u|), with the understeer gradient K. A car without tyre coefficients does not slip.
 SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double speed);
 
 /// Returns the turn of a car whose axles follow the brush model (Pacejka 2012, ch. 3). The

@@ -11,7 +11,7 @@
 /// At a joint between two segments, the curvature steps by dkappa [1/m] and the steering angle by
 /// ddelta [rad]. The distance that the car drives while its wheels turn is S = v
 /// |ddelta|/omega_delta [m]. If the wheels begin to turn S/2 before the joint, the car ends with
-/// the heading of the path. Its lateral offset from the path is |dkappa| S^2/24 [m].
+/// the heading of the path. The lateral offset of the car from the path is |dkappa| S^2/24 [m].
 namespace trackbed {
 
 /// Largest permitted lateral offset from the path due to a step of curvature [m].
