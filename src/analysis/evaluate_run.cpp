@@ -99,8 +99,9 @@ PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarM
     metrics.steering_saturated_fraction = 0.0;
   }
   if (car.params().kind == VehicleKind::kDifferential) {
-    // A differential drive has no wheels that a motor steers. Its steering angle follows from the
-    // speeds of the wheels, so it jumps where the wheels slip, for example on a slope.
+    // A differential drive has no wheels that a motor steers. The steering angle of a differential
+    // drive follows from the speeds of the wheels, so it jumps where the wheels slip, for example
+    // on a slope.
     metrics.steering_rate_limit = 0.0;
   }
   if (scenario.maneuver) {

@@ -8,7 +8,7 @@ namespace trackbed {
 
 /// Wraps the path-following controller `inner` in a model of what the steering does. The control
 /// law then accounts for the dead time, the lag, the backlash and the calibration curve of
-/// SteeringResponse, and for the limits of angle and rate. Both with kModel and kIgnore:
+/// SteeringResponse, and for the limits of angle and rate. With kModel as with kIgnore:
 ///   * The angle that `inner` wants is clamped to AllowedSteering (steering_limit.h). `inner` plans
 ///     with this limit as VehicleParams::steering_limit.
 ///   * The friction coefficients that `inner` receives are those on the road under the car, if the
@@ -22,7 +22,8 @@ namespace trackbed {
 ///   1. A SteeringFilter keeps the commands that are on their way to the actuator.
 ///   2. The predicted car starts at the measured state. The predicted car is the linear
 ///      single-track car, or the kinematic car without tyre coefficients or below 1 m/s.
-///   3. The car drives for T_d at constant speed. Its wheels follow the output of the filter plus
+/// 3. The car drives for T_d at constant speed. The wheels of the predicted car follow the output
+/// of the filter plus
 ///      the difference between the measured and the modeled actuator angle at t. Through this
 ///      difference, the feedback corrects errors of the model, for example of the steering ratio.
 /// The predicted state has the wheel angle at t + T_d, and the last wanted angle as the angle of

@@ -187,10 +187,10 @@ double DistanceAhead(const ControlInput& input, double period, long steps);
 
 /// Returns the regulator for a car with a maximum steering rate `steering_rate` [rad/s]. For large
 /// errors, the weight of the steering rate is doubled until neither offset nor heading error
-/// commands more than twice the maximum rate. Such a scheduled gain, which is low for large errors,
-/// stabilizes a chain of integrators with a saturated input from any initial state (Megretski
-/// 1996). If the gain for small errors were also used for large errors, the car could oscillate
-/// forever.
+/// commands more than twice the maximum rate. A scheduled gain of this kind, which is low for large
+/// errors, stabilizes a chain of integrators with a saturated input from any initial state
+/// (Megretski 1996). If the gain for small errors were also used for large errors, the car could
+/// oscillate forever.
 ///
 /// The offset in z is limited to the value at which the control law steers the car toward the path
 /// at an angle of 0.6 rad. Without the clamp, a large offset would make the linear model turn

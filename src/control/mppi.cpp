@@ -33,7 +33,7 @@ constexpr std::size_t kHolds = 10;
 /// refine the plan near its optimum; large ones find ways around obstacles.
 constexpr std::size_t kSizes = 4;
 constexpr double kSizeRatio = 4.0;
-/// Fraction of the roll-outs whose costs define the spread of the costs. The other ones may
+/// Fraction of the roll-outs whose costs define the spread of the costs. The other roll-outs may
 /// collide.
 constexpr double kSpreadShare = 0.1;
 /// Cost per step below which a plan is optimal up to rounding.

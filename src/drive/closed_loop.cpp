@@ -243,7 +243,7 @@ double LoopCore::WantedAcceleration(SteeringController& controller, const Contro
       MaxDeceleration(controlled_, RoadFactor(config_.world, row_.state.pose.position()));
   if (at_limit && hardest > 0.0) {
     // A plan at the limit brakes with the tyres and the drag, so at high speed it decelerates more
-    // than the tyres alone can. Its deceleration is within the grip of the road.
+    // than the tyres alone can. The deceleration of the plan is within the grip of the road.
     hardest = std::max(hardest, -plan.AccelerationAt(input.station));
   }
   const double wanted =

@@ -4,8 +4,8 @@
 
 namespace trackbed::fmu {
 
-/// A shared library that is loaded as long as the object exists. Its symbols are not visible to
-/// other libraries.
+/// A shared library that is loaded as long as the object exists. The symbols of this library are
+/// not visible to other libraries.
 class SharedLibrary {
  public:
   /// Throws RunError, with the message of the dynamic loader, if the library cannot be loaded.

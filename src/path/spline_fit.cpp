@@ -326,8 +326,8 @@ KnotPath PathAlong(const SmoothingSpline& spline, const LocalPoints& local, doub
 /// smoothing length.
 std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& local,
                                  double& smoothing_length, double tolerance) {
-  // Number of smoothing lengths to try, and the factor from one to the next. The other factors lead
-  // from the curve's smoothing length to that of the spline from which the curve starts.
+  // FitCurve tries kLengths smoothing lengths; each is kShorter times the previous one. kStarts are
+  // ratios of the smoothing length of the spline from which a curve starts to that of the curve.
   constexpr int kLengths = 16;
   constexpr int kMaxFailures =
       2;  // Number of smoothing lengths without convergence after which the search ends.

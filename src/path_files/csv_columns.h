@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// Rows of CSV files that are no points of a path with names of columns.
+/// Recognizes CSV files that are not points of a path below names of columns.
 namespace trackbed {
 
 /// Returns whether the names of the columns are numbers (CsvLimits::numbers_columns).

@@ -10,8 +10,9 @@
 #include "trackbed/core/error.h"
 
 // Projects latitude and longitude to meters with PROJ. The projection is a transverse Mercator
-// projection about the origin of the path. Its scale error on a road of some kilometers is far
-// below the accuracy of a receiver; a UTM zone would make every length 0.04 % too short.
+// projection about the origin of the path. The scale error of this projection on a road of some
+// kilometers is far below the accuracy of a receiver; a UTM zone would make every length 0.04 % too
+// short.
 namespace trackbed {
 namespace {
 

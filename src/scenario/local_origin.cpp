@@ -26,8 +26,8 @@
 #include "trackbed/track/track.h"
 
 // Moves a scenario to its local origin. The function Visit of a scenario declares which keys are
-// coordinates (map_range.h), so every such key is found (place_visitor.h). The other places are in
-// the contents of files: record, track, map, road network, and path. The origin is the middle of
+// coordinates (map_range.h), so every such key is found (place_visitor.h). Further coordinates are
+// in the contents of files: record, track, map, road network, and path. The origin is the middle of
 // the box around all places. The coordinates of the origin are whole meters, so that
 // a coordinate of the file minus the origin, plus the origin, is the same number to the last bit.
 namespace trackbed {

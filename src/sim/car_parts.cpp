@@ -343,8 +343,8 @@ class CarReader final : private PartsReader {
   };
 
   /// The trailer has no brakes. While the car brakes with the deceleration a, the trailer of mass
-  /// m_t pushes the hitch forward with m_t a. Its nose becomes heavier by m_t a (z_t - h)/l, with
-  /// the height z_t of its center of gravity and the height h of the hitch.
+  /// m_t pushes the hitch forward with m_t a. The nose of the trailer becomes heavier by m_t a (z_t
+  /// - h)/l, with the height z_t of its center of gravity and the height h of the hitch.
   Towed ReadTowed() {
     const std::optional<TrailerParts> trailer = FindTrailer(m_);
     if (!trailer) {

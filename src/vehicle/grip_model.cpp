@@ -154,8 +154,8 @@ class SteadyState {
 
   /// Returns whether both axles can generate the forces that the accelerations require. The tyres
   /// must also overcome the drag due to their slip angles, and turn the car with front wheels at
-  /// the steering angle of the turn, unless `wheels` is kStraight. Both depend on the slip angles
-  /// of the axles, so AxlesHold uses a fixed-point iteration.
+  /// the steering angle of the turn, unless `wheels` is kStraight. Drag and moment depend on the
+  /// slip angles of the axles, so AxlesHold uses a fixed-point iteration.
   [[nodiscard]] bool AxlesHold(double longitudinal, double lateral, FrontWheels wheels) const {
     // Each iteration reduces the error of the slip angles to about a tenth.
     constexpr int kIterations = 4;

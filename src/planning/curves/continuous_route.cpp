@@ -288,7 +288,8 @@ class RoutePlanner {
     return leg;
   }
 
-  /// Returns the cheapest leg that is free of obstacles. Its cost is infinite if all are blocked.
+  /// Returns the cheapest leg that is free of obstacles. The cost of the leg is infinite if all
+  /// legs are blocked.
   [[nodiscard]] Leg CheapestFree(std::vector<Leg> found, std::size_t leg) {
     tried_ = std::max(tried_, found.size());
     std::stable_sort(found.begin(), found.end(),

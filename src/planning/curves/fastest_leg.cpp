@@ -8,11 +8,12 @@
 //   subject to  -d h_i <= v_(i+1) - v_i <= a h_i,  |delta_(i+1) - delta_i| <= omega h_i,
 //               v_i^2 |kappa_i| <= lateral acceleration,  and the pose of the goal.
 // Only the last two are nonlinear. The path divides each piece into parts of equal time, on which
-// the curvature is linear over the length. Its end is a sum of integrals over the parts, by
-// Gaussian quadrature. The solution meets the goal to the tolerance of the program; Gauss-Newton
-// steps of the least change of lengths and curvatures meet it exactly. The search amplifies
-// rounding errors of its inputs: it gets rounded inputs, and a leg whose first turn is a left one,
-// so that a moved or mirrored leg has the same solution. Source of the transcription: Betts 2010.
+// the curvature is linear over the length. The end of the path is a sum of integrals over the
+// parts, by Gaussian quadrature. The solution meets the goal to the tolerance of the program;
+// Gauss-Newton steps of the least change of lengths and curvatures meet it exactly. The search
+// amplifies rounding errors of its inputs: it gets rounded inputs, and a leg whose first turn is a
+// left one, so that a moved or mirrored leg has the same solution. Source of the transcription:
+// Betts 2010.
 #include "src/planning/curves/fastest_leg.h"
 
 #include <Eigen/QR>
@@ -39,10 +40,10 @@ double RoundedInput(double value) {
   return std::round(value / kInputGrid) * kInputGrid;
 }
 
-/// The smooth program of a leg. Its units are the smallest radius, the mission's speed, the largest
-/// steering angle, and the time in which the wheels turn by this angle. The variables are the
-/// steering angles and the speeds between the pieces, and the times of the pieces. The car does not
-/// steer on a piece that begins or ends at rest.
+/// The smooth program of a leg. The units of this program are the smallest radius, the mission's
+/// speed, the largest steering angle, and the time in which the wheels turn by this angle. The
+/// variables are the steering angles and the speeds between the pieces, and the times of the
+/// pieces. The car does not steer on a piece that begins or ends at rest.
 class LegProgram {
  public:
   explicit LegProgram(const FastestLeg& leg)

@@ -7,11 +7,11 @@
 #include "src/planning/grid/pose_tree.h"
 #include "trackbed/planning/curves/continuous_curvature.h"
 
-// The curvature belongs to the state of the search. Its five values, the levels, are multiples of
-// 1/(2r); the start of a rolling car may have another curvature. A step is an arc of the present
-// curvature, or a clothoid to the next level on either side. The sharpness of a clothoid is the
-// largest one at one of a few speeds. With cusp steps, the first arc behind a cusp may have any
-// level.
+// The curvature belongs to the state of the search. The five values of the curvature, the levels,
+// are multiples of 1/(2r); the start of a rolling car may have another curvature. A step is an arc
+// of the present curvature, or a clothoid to the next level on either side. The sharpness of a
+// clothoid is the largest one at one of a few speeds. With cusp steps, the first arc behind a cusp
+// may have any level.
 //
 // The curves to the goal are words of continuous curvature. Each attempt takes the words for
 // another of the speeds in turn; the first one, in a world without obstacles the only one, takes

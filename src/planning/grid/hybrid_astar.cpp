@@ -69,8 +69,8 @@ class Searches {
       return Enclosed();
     }
     const auto search = MakePoseSearch(Space(), Requested(), SearchSide::kStart, to_goal);
-    // The series has its own half of the budget. Its result therefore does not depend on the number
-    // of poses that the search at the requested resolution expands.
+    // The series has its own half of the budget. The result of the series therefore does not depend
+    // on the number of poses that the search at the requested resolution expands.
     const int for_series = options_.budget / 2;
     const bool goal_in_gap = SearchWhileGoalIsOpen(*search, grid, options_.budget - for_series);
     const bool series_ended = !search->has_path() && RunSeries(for_series);
