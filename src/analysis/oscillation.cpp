@@ -283,7 +283,7 @@ std::vector<Wave> FindWaves(const std::vector<double>& unexplained,
     const int cycles =
         std::max(kCycles, static_cast<int>(std::ceil(kShortestHalf / (cycle * period))));
     const double lag = cycles * cycle / static_cast<double>(stride);
-    const double halfway = std::sqrt(kPeriodStep);  // ratio to the border between two periods
+    const double halfway = std::sqrt(kPeriodStep);  // tries cycle/halfway to cycle*halfway
     const auto most = std::min(x.size() / 2, static_cast<std::size_t>(std::ceil(lag * halfway)));
     std::optional<Wave> best;
     for (auto own = static_cast<std::size_t>(lag / halfway); own <= most; ++own) {

@@ -290,7 +290,7 @@ struct Box {
 };
 
 /// Returns a smaller box for the next run of DIRECT, centered at x and clipped to the problem's
-/// bounds. Before clipping, its volume is a fiftieth of the volume of `box`.
+/// bounds. Before clipping, the volume of the smaller box is a fiftieth of the volume of `box`.
 Box Zoomed(const SearchProblem& problem, const Box& box, const std::vector<double>& x) {
   Box zoomed = box;
   const double share = std::pow(0.02, 1.0 / static_cast<double>(x.size()));

@@ -60,8 +60,8 @@ bool IsSourceWord(std::string_view word) {
 }
 
 /// Splits a name into words in lower case at characters that are neither letters nor digits, and
-/// before a capital letter that follows a small letter. Also splits it before the last of several
-/// capitals that is followed by a small letter.
+/// before a capital letter that follows a small letter. Also splits the name before the last of
+/// several capitals that is followed by a small letter.
 Words WordsOf(std::string_view name) {
   Words words(1);
   const auto at = [&](std::size_t i) {

@@ -16,8 +16,8 @@ struct HeadingReading {
 /// Decides from the direction of travel whether headings are measured from the x axis or from
 /// north. The headings of `points` are in radians, positive to the left. If the headings fit
 /// neither meaning but are degrees or compass headings, HeadingReading::problem states the remedy.
-/// If they fit no common meaning, they are a problem in a racing line (`is_racing_line`); in other
-/// files, they are read as measured from the x axis.
+/// If headings fit no common meaning, they are a problem in a racing line (`is_racing_line`); in
+/// other files, they are read as measured from the x axis.
 ///
 /// If `is_unit_known` is false, the numbers may be degrees.
 HeadingReading ReadHeadings(const PathPoints& points, bool is_racing_line, bool is_unit_known);

@@ -264,7 +264,7 @@ int BestDelay(const Scan& scan, const std::vector<Line>& lines, int stride) {
   const double worst = at(least).residuals * std::exp(kSignificant / std::max(1.0, independent));
   int best = least;
   const int none = reach + 1;
-  int valley = none;  // least of the neighboring delays that are not significantly worse
+  int valley = none;  // best delay since the last significantly worse one
   for (int delay = -reach; delay <= reach; ++delay) {
     if (at(delay).a > 0.0 && at(delay).residuals <= worst) {
       valley = valley != none && at(valley).residuals <= at(delay).residuals ? valley : delay;

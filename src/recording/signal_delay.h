@@ -32,8 +32,8 @@ inline constexpr double kMaxSignalDelay = 1.0;
 ///
 /// All samples have the same distance `period` [s] in time. Returns nullopt if the model explains
 /// less than a tenth of the signal's variance, or not significantly more than at the best delay of
-/// noise. Also returns it if the best delay exceeds kMaxSignalDelay, or if there are fewer than 4
-/// kMaxSignalDelay/period samples. The cost is at most 1.5 s.
+/// noise. Also returns nullopt if the best delay exceeds kMaxSignalDelay, or if there are fewer
+/// than 4 kMaxSignalDelay/period samples. The cost is at most 1.5 s.
 std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
                                      const std::vector<double>& signal,
                                      const std::vector<bool>& valid, double period);

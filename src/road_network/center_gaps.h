@@ -15,7 +15,8 @@ struct CenterPoint {
 /// Points of a piece of a lane's center line without kinks.
 using Piece = std::vector<CenterPoint>;
 
-/// Distance from the lane centers that a path may keep [m]. Above it, a path is moved back.
+/// Largest distance from the lane centers that a path may keep [m]. At larger distances, the path
+/// is moved back.
 constexpr double kKeptOffset = 1e-3;
 
 /// Returns the length over which a path moves sideways by `offset` [m], such that the move adds at

@@ -71,8 +71,8 @@ struct PairShape {
 inline constexpr PairShape kPoint{"a point [x, y]", "points [x, y]", kMap, kMap};
 
 /// Returns the range with values for its missing bounds. The value for a missing bound depends on
-/// the key's unit and lies beyond any realistic number. For example, it is 1e5 m, 1e6 s or 1e3 m/s,
-/// and 1e12 for other units.
+/// the key's unit and lies beyond any realistic number. For example, the value is 1e5 m, 1e6 s or
+/// 1e3 m/s, and 1e12 for other units.
 Range WithinReason(const Key& key, Range range);
 
 /// Formats the allowed values as text, such as "above 0 and at most 10"; returns an empty text if

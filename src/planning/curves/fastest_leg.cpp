@@ -140,7 +140,8 @@ class LegProgram {
     return std::max<Eigen::Index>(n_ - 1 - held_at_start_ - held_at_end_, 0);
   }
   [[nodiscard]] Eigen::Index Count() const { return Steered() + 2 * n_ - 1; }
-  // Indices of the variables at a knot between two pieces, and of a piece.
+  // Return the indices of the steering angle and the speed at a knot between two pieces, and of the
+  // duration of a piece, in the vector of variables.
   [[nodiscard]] Eigen::Index SteeringIndex(Eigen::Index knot) const {
     return knot - 1 - held_at_start_;
   }

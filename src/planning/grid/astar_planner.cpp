@@ -15,9 +15,9 @@
 #include "trackbed/planning/grid/astar.h"
 
 // Plans leg by leg with A* on a grid (Hart, Nilsson and Raphael 1968), straightens each leg, and
-// rounds its corners. The first path begins at the car's position. If it does not begin along the
-// car's heading or is not feasible, other paths begin with straights and turns from the car, and
-// the search continues at their ends.
+// rounds its corners. The first path begins at the car's position. If this path does not begin
+// along the car's heading or is not feasible, other paths begin with straights and turns from the
+// car, and the search continues at their ends.
 
 namespace trackbed {
 namespace {

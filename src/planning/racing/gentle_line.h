@@ -18,10 +18,11 @@ struct GentleLine {
 /// track. The line keeps the distance `beside` [m] from the track's edges. Ends as soon as the
 /// largest |kappa| is at most `curvature_max` [1/m].
 ///
-/// Guarantees: the curvature of the result is at most that of `start`. If it exceeds
-/// `curvature_max`, no small change of the line reduces it: the last quadratic program predicts a
-/// decrease of less than 1e-4 of `curvature_max`. The minimum is local. The programs always have
-/// solutions. Cost: some 5 programs, each as large as one of FindMinimumCurvature.
+/// Guarantees: the curvature of the result is at most that of `start`. If the curvature of the
+/// result exceeds `curvature_max`, no small change of the line reduces it: the last quadratic
+/// program predicts a decrease of less than 1e-4 of `curvature_max`. The minimum is local. The
+/// programs always have solutions. Cost: some 5 programs, each as large as one of
+/// FindMinimumCurvature.
 GentleLine ReduceCurvature(const Track& track, double beside, const TrackLine& start,
                            double curvature_max, std::size_t count);
 

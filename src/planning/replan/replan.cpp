@@ -17,9 +17,9 @@
 // Replans while the car drives. If the plan is free of conflicts and the car follows the plan, the
 // replanner keeps the plan. If the plan cannot be kept, the replanner first tries to resume the
 // route (if the car is back on it), then to proceed along the route or follow a leading obstacle
-// (PlanAlongRoute). Next, it tries a detour around static obstacles (PlanDetour), then a stop
-// behind an obstacle (PlanAlongRoute). Last, it brakes along the driven plan, comfortably if
-// possible, otherwise harder.
+// (PlanAlongRoute). Next, the replanner tries a detour around static obstacles (PlanDetour), then a
+// stop behind an obstacle (PlanAlongRoute). Last, the replanner brakes along the driven plan,
+// comfortably if possible, otherwise harder.
 
 namespace trackbed {
 namespace {

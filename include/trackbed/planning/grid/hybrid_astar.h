@@ -21,10 +21,10 @@
 /// curvature 0, +-1/(2r) or +-1/r. The cost of a path is its length [m], where reverse stretches
 /// count `reverse_cost` times. Every change of direction adds `switch_cost` to the cost of the
 /// path. Every joint between arcs adds `steering_cost` times the change of curvature divided by
-/// 1/r. The search estimates the cost from a pose to the goal as the length of the shortest
-/// Reeds-Shepp curve. If it is larger, the length of the shortest grid path around the obstacles,
-/// divided by 1.0824, is used. The divisor 1.0824 is needed because a path on an empty grid is up
-/// to 1.0824 times as long as a straight line.
+/// 1/r. The search estimates the cost from a pose to the goal as the larger of two lengths: that of
+/// the shortest Reeds-Shepp curve, and that of the shortest grid path around the obstacles, divided
+/// by 1.0824. The divisor 1.0824 is needed because a path on an empty grid is up to 1.0824 times as
+/// long as a straight line.
 ///
 /// Steps are as long as the larger of 1.5 cells and one heading cell times r, so that no step of
 /// curvature 1/r shares a cell with a straight step. If the search at the requested cells finds no
