@@ -261,8 +261,8 @@ void Canvas::FillConvex(const std::vector<CanvasPoint>& corners, Color color, do
   const Box box = BoxAround(corners, 0.5);
   for (int y = box.top; y < box.bottom; ++y) {
     // Finds the columns of a row that the polygon covers partly, and the columns that it covers
-    // fully. The range of partly covered columns has a margin of one pixel for rounding. Only the
-    // few pixels in partly covered columns are compared with all edges.
+    // fully. The range of partly covered columns has a margin of one pixel for rounding errors.
+    // Only the few pixels in partly covered columns are compared with all edges.
     double left = box.left;
     double right = box.right;
     double whole_left = box.left;

@@ -25,8 +25,8 @@ class ProfileClock {
   }
 
  private:
-  /// Adds the time to a station. The acceleration up to there is constant. A car that rests at both
-  /// ends does not move between them; rounding alone makes such pieces.
+  /// Advances to the station `s`, which the car reaches at `speed` with constant acceleration. A
+  /// piece at whose two ends the car rests takes no time; only rounding errors make such pieces.
   void Pass(double s, double speed) {
     if (s > s_ && speed + speed_ > 0.0) {
       time_ += 2.0 * (s - s_) / (speed + speed_);

@@ -109,7 +109,7 @@ void CollisionChecker::FillBins() {
   rows_ = static_cast<int>(size.y() / bin_) + 1;
   bins_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   // Distance from a bin's center up to which a box may be close to a footprint centered in the bin,
-  // with a margin for rounding.
+  // with a margin for rounding errors.
   const double far = (near + bin_ * std::sqrt(0.5)) * (1.0 + 1e-9);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     const Vec2 reach = reach_of(i);

@@ -158,7 +158,7 @@ class GentleWord {
       return {sweep, end.curvature, SharpRamp(vehicle_, end.curvature, speed, drive_.min_speed),
               0.0};
     }
-    // More than the lengths that are needed, for rounding.
+    // Factor that enlarges the required lengths by a margin for rounding errors.
     constexpr double kMore = 1.0 + 1e-9;
     const double rolled = kMore * vehicle_.wheelbase * speed / vehicle_.steering_rate;  // S/kappa
     const double curvature =

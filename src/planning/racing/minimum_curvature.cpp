@@ -38,7 +38,7 @@ class CurvatureProblem {
       program_.lower[i] = bounds.lower;
       program_.upper[i] = bounds.upper;
       const double room = 0.5 * (bounds.upper - bounds.lower) + beside;
-      // Names the first of several places that are equally narrow, but for rounding.
+      // Names the first of several places that are equally narrow, except for rounding errors.
       constexpr double kSameRoom = 1e-6;  // [m]
       if (room < room_ - kSameRoom) {
         room_ = room;

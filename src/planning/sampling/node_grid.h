@@ -11,8 +11,8 @@ namespace trackbed {
 /// sorts the points into square cells and divides the cells as the number of points grows, so that
 /// each cell contains only a few points.
 ///
-/// Query results are exact except for rounding. The amortized cost of adding a point is O(1). A
-/// query visits only the cells that overlap the search circle.
+/// Query results are exact except for rounding errors. The amortized cost of adding a point is
+/// O(1). A query visits only the cells that overlap the search circle.
 class NodeGrid {
  public:
   struct Entry {

@@ -30,7 +30,7 @@ Plan CheckRoute(const PlanRequest& request);
 
 /// Same as CheckRoute, for a planner that meets the headings at the waypoints. If the request has
 /// headings, a leg needs no length: between two headings at one point, the car turns in place. The
-/// leg is not valid only if its two poses are equal, except for rounding.
+/// leg is not valid only if its two poses are equal, except for rounding errors.
 Plan CheckPoses(const PlanRequest& request);
 
 /// Returns a rejected plan if the requested turning radius is too small for the car.

@@ -45,7 +45,7 @@ struct TurnCircle {
 ///
 /// Guarantees, for distances up to 1e3 r: the curve starts with the pose and curvature of the state
 /// `from`. The curve ends within 1e-9 m and 1e-9 rad of the state `to`. The curvature never exceeds
-/// 1/r, and the sharpness never exceeds sigma, except for rounding. Mirrored states have the
+/// 1/r, and the sharpness never exceeds sigma, except for rounding errors. Mirrored states have the
 /// mirrored curve. The lengths are at least those of Dubins and Reeds-Shepp curves of radius r, and
 /// approach these lengths as sigma grows. The curve is the shortest of its families of words, which
 /// is not always the shortest possible curve of continuous curvature.
