@@ -80,8 +80,9 @@ double BezierCurve::Sharpness(double u) const {
 }
 
 double BezierCurve::Length(double from, double to) const {
-  // Compute the arc length as the sum of integrals over sixteenths of the parameter range. The
-  // parameter speed |P'| is not a polynomial, but is close to a polynomial within a sixteenth.
+  // Compute the arc length as the sum of integrals over sixteenths of the parameter range.
+  // Within each sixteenth, the parameter speed |P'| is so close to a polynomial that Gauss's rule
+  // is accurate.
   using Quadrature = boost::math::quadrature::gauss<double, 10>;
   const double pieces = std::max(1.0, std::ceil(16.0 * std::abs(to - from)));
   double length = 0.0;

@@ -38,7 +38,7 @@ using CurveBetweenKnots = std::function<Vec2(std::size_t, double)>;
 Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, double period,
                 double tolerance);
 
-/// Returns the steps between knots that are straight lines although a curve swings aside of them.
+/// Returns the steps between knots that are straight lines although the curve bulges beside them.
 /// The knots turn by at most 45 degrees at the ends of such a step. The curve deviates too far from
 /// the step (IsAside), or the step is more than four times as long as the median, the knots turn on
 /// it by less than a quarter of the curvature beside it, and the curve leaves it by more than the

@@ -73,7 +73,7 @@ void ChooseVehicle(const FoundModel& found, const AdaptOptions& options,
   });
 }
 
-/// Finds the deepest body that contains all wheels but turns with none of them.
+/// Finds the deepest body that contains all wheels but does not turn with any wheel.
 int FindBase(const mjModel& m, const std::vector<FoundWheel>& wheels) {
   const auto above = [&](const FoundWheel& wheel) {
     return wheel.spin >= 0 ? m.body_parentid[wheel.body] : wheel.body;

@@ -37,13 +37,13 @@ class GroundLine;
 
 /// Makes terrains along one center line, for any banks.
 ///
-/// Between the edges of the track and 1.5 m beyond them, the terrain is the banked road,
+/// Between the edges of the track and 1.5 m beyond the edges, the terrain is the banked road,
 /// interpolated from points every 0.5 m. Further outside, the terrain blends into smooth ground
 /// within 8 m. Bank and height are smoothed as the center line is (Track). Where parts of the track
 /// are close to each other, each part keeps its height on the road, and the ground in between is
 /// their mean, weighted by proximity. On the inside of bends, the road ends at 0.9 of the bend's
 /// radius. An open road continues straight beyond its ends, with the slope and the bank that it has
-/// there. The road blends into smooth ground between 1.5 m and 9.5 m from them.
+/// there. The road blends into smooth ground between 1.5 m and 9.5 m from its ends.
 class BankedGround {
  public:
   /// Throws InputError if the track spreads over more than 4 km along x or y, or if it is open and

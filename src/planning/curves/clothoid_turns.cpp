@@ -76,7 +76,7 @@ TurnEnd LeaveDirectly(const TurnCircle& circle, const CurveState& state, int sid
 
 CurveState After(const TurnCircle& circle, const CurveState& state, double curvature,
                  int direction) {
-  // Seen to the side on which the curvature grows, the clothoid passes the curvatures u to v.
+  // A clothoid whose curvature decreases is mirrored, so that its curvature grows from u to v.
   const double side = curvature < state.curvature ? -1.0 : 1.0;
   const double u = side * state.curvature;
   const double v = side * curvature;

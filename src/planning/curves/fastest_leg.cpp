@@ -95,8 +95,8 @@ class LegProgram {
     return program;
   }
 
-  /// Returns the path of x, and changes it until it ends at the goal, except for rounding; nullopt
-  /// if it does not.
+  /// Changes the path of x by Newton steps of least norm until it ends at the goal, except for
+  /// rounding errors, and returns it; nullopt if the steps do not converge.
   [[nodiscard]] std::optional<std::vector<Segment>> PathOf(const Eigen::VectorXd& x) const {
     constexpr int kMostSteps = 10;
     constexpr double kGoalRounding = 1e-13;

@@ -9,12 +9,13 @@
 #include "trackbed/planning/fillet/steering_room.h"
 
 // Leaves out waypoints between which no turn fits, such as points on a line that were rounded to
-// millimeters. The search of LeaveOutCloseWaypoints chooses the points. A first pass leaves out
-// waypoints very near to a line, at which the car would slow down for rounding. A second pass
-// leaves out waypoints at which no turn fits at all. If the first waypoint is too close to the
-// start for a turn, the path continues straight beyond the waypoint, and the turn follows there.
-// The reason is that the car begins in the direction of the first leg. If the path leaves out the
-// first waypoint, it may turn on the first leg.
+// millimeters. The search of LeaveOutCloseWaypoints chooses the points. If the car slows down where
+// turns lack room, a first pass leaves out waypoints that lie off a straight line only because of
+// rounded coordinates, so that the car does not slow down there. A second pass leaves out waypoints
+// at which no turn fits at all. If the first waypoint is too close to the start for a turn, the
+// path continues straight beyond the waypoint, and the turn follows there. The reason is that the
+// car begins in the direction of the first leg. If the path leaves out the first waypoint, it may
+// turn on the first leg.
 
 namespace trackbed::fillet {
 namespace {

@@ -20,7 +20,7 @@ namespace {
 constexpr double kMinSpeed = 0.1;
 
 // Ratio of the length of the path through some points to the distance between the first and the
-// last of them. Above this ratio, the points move back and forth, as noise does.
+// last point. Above this ratio, the points move back and forth, as noise does.
 constexpr double kToAndFro = 2.0;
 
 std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {

@@ -280,7 +280,7 @@ MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimi
   if (!start.refused.empty()) {
     return {.refused = start.refused, .line = {}, .room = start.room};
   }
-  // Relative excess of the curvature that the stations of the search may leave between them.
+  // Relative excess of the curvature that is permitted between the stations of the search.
   constexpr double kCurvatureTolerance = 1e-3;
   const double most =
       limits.curvature_max > 0.0 ? limits.curvature_max * (1.0 + kCurvatureTolerance) : 1e9;
