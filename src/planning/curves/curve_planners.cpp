@@ -244,7 +244,7 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
 }
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
-  // All Reeds-Shepp words to a pose may begin in reverse, which a rolling car cannot drive.
+  // For some poses, all Reeds-Shepp words begin in reverse, which a rolling car cannot drive.
   // Therefore the Dubins words, which begin forwards, are candidates too.
   const auto words = [](const Pose2& from, const Pose2& to, double radius) {
     std::vector<ShortestCurve> all = ReedsSheppWords(from, to, radius);

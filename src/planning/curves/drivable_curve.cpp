@@ -3,10 +3,10 @@
 // Let alpha be the heading of the straight, seen from the start pose. The arcs turn by alpha and by
 // yaw - alpha, where the signs count, because an arc can change its side as it becomes longer. The
 // arcs and the straight form a curve if f(alpha) = 0, where f is the distance between the two arcs
-// across the straight. Let u be the length of the straight, g the ratio kGentleness, and l_1 and
-// l_2 the lengths of the arcs. Then f' = -(u + (1/4 - 1/(2 g)) (l_1 + l_2)). The straight is at
-// least as long as each ramp, l/g, and as (l_1 + l_2)/4. The iteration alpha <- alpha + f/u then at
-// least halves the error for g = 4.
+// perpendicular to the straight. Let u be the length of the straight, g the ratio kGentleness, and
+// l_1 and l_2 the lengths of the arcs. Then f' = -(u + (1/4 - 1/(2 g)) (l_1 + l_2)). The straight
+// is at least as long as each ramp, l/g, and as (l_1 + l_2)/4. The iteration alpha <- alpha + f/u
+// then at least halves the error for g = 4.
 #include "trackbed/planning/curves/drivable_curve.h"
 
 #include <algorithm>
@@ -114,11 +114,11 @@ class GentleWord {
 
     [[nodiscard]] bool IsNothing() const { return std::abs(sweep) <= kNoTurn; }
     [[nodiscard]] double Length() const { return IsNothing() ? 0.0 : sweep / curvature; }
-    /// Distance from the start to the end of the turn along the straight in the middle [m].
+    /// Distance from the start to the end of the turn, parallel to the straight [m].
     [[nodiscard]] double Along() const {
       return outside * std::cos(sweep) + (IsNothing() ? 0.0 : std::sin(sweep) / curvature);
     }
-    /// Distance from the start to the end of the turn across the straight in the middle [m].
+    /// Distance from the start to the end of the turn, perpendicular to the straight [m].
     [[nodiscard]] double Across() const {
       const double half = std::sin(0.5 * sweep);
       return outside * std::sin(sweep) + (IsNothing() ? 0.0 : 2.0 * half * half / curvature);

@@ -11,7 +11,7 @@
 
 // Finds the shortest word of a turn, a straight and a turn of continuous curvature, all forwards.
 // 1. alpha is the heading of the straight. For a given alpha, both turns are known in closed form;
-//    f is the distance across the straight by which their ends miss each other.
+//    f is the distance between the ends of the turns, measured perpendicular to the straight.
 // 2. The words are the roots of f where the length of the straight is not negative.
 // 3. The interval of alpha is divided at the values at which a turn changes its side, and then into
 //    cells of 0.3 rad. TOMS 748 finds the root in each cell in which f changes its sign.

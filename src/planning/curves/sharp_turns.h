@@ -9,8 +9,8 @@
 /// the start. The deflection of a turn from curvature 0 to curvature 0 is a. The distance between
 /// the ends of this turn, in the direction of its mean heading, is d(a). A turn from another
 /// curvature is the rest of a turn from 0. A word is a root of f(alpha), the distance between the
-/// two turns across the straight. The turns depend continuously on alpha, and their lengths tend to
-/// 0 with a. Nearly straight words therefore need no threshold.
+/// two turns perpendicular to the straight. The turns depend continuously on alpha, and their
+/// lengths tend to 0 with a. Nearly straight words therefore need no threshold.
 namespace trackbed {
 
 /// Returns the shortest forward word of two sharpest turns from the origin with the curvature
