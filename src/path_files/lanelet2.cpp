@@ -69,7 +69,8 @@ Lanelet2Route RouteOf(const fs::path& file, const Lanelet2Map& map,
 }
 
 /// Adds points on long steps beside short ones, so that each step is at most about twice as long as
-/// its neighbors. Centers are polylines, and a spline through the points keeps to their straights.
+/// its neighbors. The center of a lanelet is a polyline; with the added points, a spline stays
+/// close to the straight lines of the polyline.
 std::vector<Vec2> Graded(const std::vector<Vec2>& points) {
   const auto step = [&](std::size_t i) { return (points[i + 1] - points[i]).norm(); };
   std::vector<Vec2> graded;

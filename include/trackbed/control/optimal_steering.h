@@ -137,11 +137,11 @@ double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, d
 SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem& problem,
                              const DeviationWeights& weights, const SearchOptions& search);
 
-/// The circle experiment of Skackauskas et al. 2017. The primary drives one full circle at a
+/// The circle experiment of Skackauskas et al. 2017. The primary model drives one full circle at a
 /// constant steering angle, and the car drives at another constant steering angle and another
-/// speed. The primary and the car start at the same pose with their wheels already turned. The
-/// experiment compares the end poses of the primary and the car. With kTime, the poses are compared
-/// after the duration of the circle; with kArcLength, after equal distances.
+/// speed. The primary model and the car start at the same pose with their wheels already turned.
+/// The experiment compares the end poses of the primary model and the car. With kTime, the poses
+/// are compared after the duration of the circle; with kArcLength, after equal distances.
 struct CircleExperiment {
   double primary_steering = 0.0;  ///< Constant steering angle of the primary [rad], not 0.
   double primary_speed = 0.0;     ///< Speed v_0 of the primary's reference point [m/s], > 0.

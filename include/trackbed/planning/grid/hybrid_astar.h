@@ -111,20 +111,21 @@ struct HybridAStarResult {
 
 /// Searches for a path by Hybrid A*. Guarantees for the status kOk: the path ends within 1e-9 m and
 /// 1e-9 rad of the goal pose. The last part of the path is a Reeds-Shepp curve, or a Dubins curve
-/// if the car may not drive backwards. If the path was found from the goal, this is the first part.
-/// With `drive`, short arcs of this curve are gentler. The curvature of the path never exceeds 1/r.
-/// With clothoids, the last or first part is a curve of continuous curvature. The path then begins
-/// with the curvature `start_curvature` and ends with straight wheels. The curvature steps at no
-/// place except, with kCuspSteps, at cusps and where the car rests at the start or at the goal. The
-/// car's footprint is clear of all obstacles (CollisionChecker). The same input always yields the
-/// same result. The path is not globally optimal, because the search keeps only one pose per cell,
-/// and because the path must contain a Reeds-Shepp or Dubins curve. If the budget is used up, the
-/// function returns the best path found so far. Half of the budget is reserved for the series of
-/// resolutions, unless the search at the requested resolution finds a path with the other half. The
-/// status is kNoPath if obstacles enclose the start or the goal, or if there is no path with steps
-/// of 0.016 r. Before they return kNoPath, the searches have expanded all poses around the start or
-/// around the goal. Throws InternalError if an option is out of range. Computing time: about 10 us
-/// per expanded pose, 100 us with clothoids.
+/// if the car may not drive backwards. If the search from the goal found the path, this curve is
+/// the first part of the path instead. With `drive`, short arcs of this curve are gentler. The
+/// curvature of the path never exceeds 1/r. With clothoids, the last or first part is a curve of
+/// continuous curvature. The path then begins with the curvature `start_curvature` and ends with
+/// straight wheels. The curvature steps at no place except, with kCuspSteps, at cusps and where the
+/// car rests at the start or at the goal. The car's footprint is clear of all obstacles
+/// (CollisionChecker). The same input always yields the same result. The path is not globally
+/// optimal, because the search keeps only one pose per cell, and because the path must contain a
+/// Reeds-Shepp or Dubins curve. If the budget is used up, the function returns the best path found
+/// so far. Half of the budget is reserved for the series of resolutions, unless the search at the
+/// requested resolution finds a path with the other half. The status is kNoPath if obstacles
+/// enclose the start or the goal, or if there is no path with steps of 0.016 r. Before they return
+/// kNoPath, the searches have expanded all poses around the start or around the goal. Throws
+/// InternalError if an option is out of range. Computing time: about 10 us per expanded pose, 100
+/// us with clothoids.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 
