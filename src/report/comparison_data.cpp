@@ -14,6 +14,7 @@
 #include "trackbed/analysis/compare.h"
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/core/text_table.h"
 #include "trackbed/report/names.h"
 
 // Computes the data of the comparisons that a report page shows. The pairs of plants to compare are
@@ -122,8 +123,10 @@ ordered_json UnpairedPlants(const std::vector<fs::path>& runs,
   return left_out;
 }
 
-/// Throws InputError if the logs of the runs have changed since the comparison was made.
-void RefuseIfChanged(const JsonValue& outcome, const PlantComparison& now) {
+/// Throws InputError if the logs of the runs, named by `logs`, have changed since the comparison
+/// was made.
+void RefuseIfChanged(const JsonValue& outcome, const PlantComparison& now,
+                     const std::pair<fs::path, fs::path>& logs) {
   constexpr double kEqualityTolerance =
       1e-6;  // tolerance for differences in rounding between machines [m], [rad], [rad/s]
   for (const ComparedQuantity& quantity : ComparedQuantities()) {
@@ -131,7 +134,13 @@ void RefuseIfChanged(const JsonValue& outcome, const PlantComparison& now) {
     const double max = (now.*quantity.difference).max;
     // A null in compare.json stands for a maximum that is not finite.
     if (then ? !(std::abs(*then - max) <= kEqualityTolerance) : std::isfinite(max)) {
-      FailOutdated(outcome.file(), "does not match the runs' current logs");
+      const auto text = [](double number) {
+        return std::isfinite(number) ? ShortestText(number) : "null";
+      };
+      FailOutdated(outcome.file(),
+                   fmt::format("{}.max is {}, but the logs {} and {} give {}", quantity.key,
+                               then ? text(*then) : "null", logs.first.string(),
+                               logs.second.string(), text(max)));
     }
   }
 }
@@ -174,13 +183,16 @@ ordered_json TolerancesJson(const JsonValue& tolerances) {
   return json;
 }
 
-ordered_json PairJson(const Pair& pair, const Trace& first, const Trace& second,
-                      std::size_t row_limit) {
+ordered_json PairJson(const Pair& pair, const std::vector<fs::path>& runs, const Trace& first,
+                      const Trace& second, std::size_t row_limit) {
   ordered_json json{{"first", pair.first.ToJson()}, {"second", pair.second.ToJson()}};
   const PlantComparison comparison = CompareTraces(first, second);
   if (pair.outcome) {
     json["tolerances"] = TolerancesJson(pair.outcome->At("tolerances"));
-    RefuseIfChanged(*pair.outcome, comparison);
+    const auto log = [&](const Drive& drive) {
+      return runs[drive.run] / run_folder::LogCsv(drive.plant);
+    };
+    RefuseIfChanged(*pair.outcome, comparison, {log(pair.first), log(pair.second)});
   }
   if (comparison.comparable()) {
     ordered_json numbers = ToJson(comparison);
@@ -262,8 +274,8 @@ ordered_json ComparisonData(const std::vector<fs::path>& runs,
       }
       return found->trace;
     };
-    data["pairs"].push_back(
-        PairJson(pair, trace_of(pair.first), trace_of(pair.second), kCurveRows / pairs.size()));
+    data["pairs"].push_back(PairJson(pair, runs, trace_of(pair.first), trace_of(pair.second),
+                                     kCurveRows / pairs.size()));
   }
   return data;
 }
