@@ -15,7 +15,8 @@
 # PrecompiledHeaders.cmake explains the argument KIND; default: NUMERICS. The target header_checks,
 # which is not part of `all`, compiles each public header alone.
 #
-# The global property TRACKBED_MODULES lists the modules, TRACKBED_FOLDERS_<path> the folders of one.
+# The global property TRACKBED_MODULES lists all modules, TRACKBED_FOLDERS_<path> the folders of the
+# module <path>.
 set_property(GLOBAL PROPERTY TRACKBED_MODULES "")
 add_custom_target(header_checks)
 
