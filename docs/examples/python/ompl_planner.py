@@ -12,7 +12,7 @@ import trackbed
 util.RNG.setSeed(1)  # OMPL can be seeded only once in a process.
 util.setLogLevel(util.LogLevel.LOG_WARN)
 
-# The curvature of Dubins curves jumps; the car drives a smooth path this near to them [m].
+# Largest distance of the smooth path from the Dubins curves, whose curvature jumps [m].
 DEVIATION = 0.3
 
 
