@@ -23,7 +23,8 @@ void RequireNoForeignFiles(const std::filesystem::path& folder,
 void RequireNoForeignFile(const std::filesystem::path& file);
 
 /// Returns the result, such as "run", that lists the file in the manifest.json of the file's
-/// folder. Returns "" if none does, or if the folder has no manifest.json that Trackbed can read.
+/// folder. Returns "" if no result lists the file, or if the folder has no manifest.json that
+/// Trackbed can read.
 std::string ResultThatLists(const std::filesystem::path& file);
 
 /// Returns the subfolder `below` of an output folder, such as rows/3. Throws RunError if a part of

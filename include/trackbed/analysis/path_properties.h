@@ -47,8 +47,8 @@ struct PathProperty {
 ///
 /// All properties except clearance_min_m are exact except for rounding errors, and are 0 for a path
 /// of length 0. Cost: a few us per path segment, plus one call of Clearance() per step of the
-/// clearance measurement along the path. The length of such a step is about 1 cm plus the
-/// difference between the current clearance and the smallest clearance so far.
+/// clearance measurement along the path. The length of a step of the clearance measurement is about
+/// 1 cm plus the difference between the current clearance and the smallest clearance so far.
 const std::vector<PathProperty>& PathProperties();
 
 }  // namespace trackbed

@@ -25,8 +25,8 @@ struct RunRobustness {
 ///   * The margin of a requirement over time is the requirement's robustness, in the unit of the
 ///     comparison that determines the robustness.
 ///   * A check without a numeric margin (arrived, no collision, an unmeasured metric) has the
-///     margin -1 if the check is not met. Such a check has no margin if it is met. A run without a
-///     plan has the margin -1.
+///     margin -1 if the check is not met, and no margin if the check is met. A run without a plan
+///     has the margin -1.
 ///   * The check of the steering rate limit, which checks the simulation and not the driving, has
 ///     the margin -1 if the check is not met, and no margin if the check is met.
 ///

@@ -105,10 +105,10 @@ std::vector<std::string> AllNames();
 
 /// Checks that a file of a run folder may be read, and returns the file's path. Throws InputError,
 /// naming the file, if the file does not exist, is a folder, or is a link to a place outside the
-/// run folder. Such links are rejected because content from outside the folder must not enter a
-/// report. Throws InputError if the hash of the file differs from the hash in the folder's
-/// manifest. In a run folder without a manifest, written by an old version of Trackbed, the hashes
-/// of files are not checked.
+/// run folder. Links to places outside the folder are rejected because content from outside must
+/// not enter a report. Throws InputError if the hash of the file differs from the hash in the
+/// folder's manifest. In a run folder without a manifest, written by an old version of Trackbed,
+/// the hashes of files are not checked.
 std::filesystem::path RequireFile(const std::filesystem::path& file);
 
 /// Returns the SHA-256 hash of the folder's manifest.json, which identifies the results in the

@@ -115,8 +115,8 @@ SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWri
 void MergeRecords(const std::vector<std::filesystem::path>& files, SweepRecords& records);
 
 /// Returns the numbers of the rows whose run folders the study keeps, which are the rows with the
-/// highest or lowest values of an output. The worst row is the first one; rows with equal values
-/// keep their order.
+/// highest or lowest values of an output. The first number is that of the worst row; rows with
+/// equal values keep their order.
 std::vector<std::size_t> WorstRows(const SweepRecords& records);
 
 /// Returns the overrides of a row, in the order in which they are applied. Running the scenario
