@@ -16,8 +16,8 @@ struct BagTopic {
   std::string name;      ///< Name of the topic, such as "/odom".
   std::string type;      ///< Type of the messages, such as "nav_msgs/msg/Odometry".
   std::string encoding;  ///< Encoding of the messages; "cdr" in ROS 2.
-  std::string
-      definition;  ///< Definition of the type in the format ros2msg; "" if the bag has none.
+  /// Definition of the type in the format ros2msg; "" if the bag has no definition.
+  std::string definition;
   std::size_t messages = 0;
 };
 
@@ -25,7 +25,7 @@ struct BagTopic {
 using TakeBagMessage = std::function<void(std::string_view data, std::int64_t log_time)>;
 
 struct BagContent {
-  std::vector<BagTopic> topics;    ///< In the order of their names.
+  std::vector<BagTopic> topics;    ///< Topics, in the order of their names.
   std::vector<std::string> notes;  ///< Damaged or missing parts of the bag.
 };
 
@@ -34,13 +34,13 @@ bool IsBag(const std::filesystem::path& bag);
 
 /// Reads the topics of a bag, and counts their messages.
 ///
-/// A MCAP file that its recorder did not finish is read up to its last complete record, with a
+/// An MCAP file that its recorder did not finish is read up to its last complete record, with a
 /// note. Throws InputError if the file is no bag, or if it has more than 10000 topics. Also throws
 /// InputError if the file is damaged: if a record exceeds its chunk or the file, if a chunk's
 /// checksum is wrong, or if SQLite rejects the file. Compressions other than lz4 and zstd, and
-/// records or decompressed chunks of more than 256 MiB, are errors, too. Throws InputError for
-/// files of a folder outside of the folder, and for files that are compressed as a whole, with the
-/// command that decompresses them. Throws RunError if a file cannot be read.
+/// records or decompressed chunks of more than 256 MiB, are errors, too. Throws InputError if
+/// metadata.yaml names a file outside of the bag's folder, and for files that are compressed as a
+/// whole, with the command that decompresses them. Throws RunError if a file cannot be read.
 BagContent ReadBagTopics(const std::filesystem::path& bag);
 
 /// Reads all messages of one topic, in the order of the bag (MCAP) or of their times (SQLite).
