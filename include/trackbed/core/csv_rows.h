@@ -35,8 +35,8 @@ struct CsvLimits {
   /// Whether lines that begin with '#' are comments. The text of a comment, with the '#', is passed
   /// on as a row of a single cell, whatever characters it contains.
   bool comments = false;
-  /// Whether ReadCsvTable calls the columns of a table without names "1", "2", ... Without, such a
-  /// table is a problem.
+  /// Whether ReadCsvTable calls the columns of a table without names "1", "2", ... If false, a
+  /// table without names is a problem.
   bool numbers_columns = false;
 };
 
