@@ -39,8 +39,8 @@ namespace trackbed {
 /// approaches the path to 0.6 rad. On paths that are driven in reverse, the regulator uses the same
 /// model with a negative speed u. Cost per control period, with a preview of 100 periods: 55 us for
 /// a car on its path; up to 0.5 ms more for a car several meters off its path, and up to 0.55 ms
-/// more while it predicts rates beyond the limit. The LQR controller allocates heap memory in its
-/// first control period only.
+/// more while the regulator predicts rates beyond the limit. The LQR controller allocates heap
+/// memory in its first control period only.
 struct LqrOptions {
   std::optional<double> cross_track;  ///< Weight of the cross-track error [1/m^2], > 0; default:
                                       ///< (2.7/L)^2, with the wheelbase L in m.

@@ -24,9 +24,9 @@ namespace trackbed {
 /// within one control period, and the new angle is within the steering limit. While no limit is
 /// active and the speed is constant, the commands equal those of the LQR controller with the same
 /// step and a preview of N steps. Far from the path, the weight of the steering rate grows in the
-/// same way as for the LQR controller. Each step of the prediction has the model of the planned
-/// speed there, plus the amount by which the car now exceeds the planned speed. On paths that are
-/// driven in reverse, the controller uses the same model with a negative speed u. Cost:
+/// same way as for the LQR controller. The model of each prediction step uses the planned speed at
+/// this step, plus the present difference between the car's speed and the planned speed. On paths
+/// that are driven in reverse, the controller uses the same model with a negative speed u. Cost:
 /// about 80 us per control period with 20 steps, and 160 us if a limit is active. The MPC
 /// controller allocates heap memory (in NLopt) only if a limit is active.
 struct MpcOptions {
@@ -39,7 +39,7 @@ struct MpcOptions {
   std::optional<double> steering_rate;
   int horizon = 20;  ///< Number N of steps in the prediction horizon, from 1 to kMaxHorizon.
   /// Duration of a prediction step [s], > 0; at least the control period. Default: 0.1 s, or more
-  /// if the wheels turn from straight ahead to their limit in more than `horizon` such steps.
+  /// if the wheels turn from straight ahead to their limit in more than `horizon` steps of 0.1 s.
   std::optional<double> step;
   TyreForces tyres = TyreForces::kLinear;
 };

@@ -14,9 +14,9 @@ namespace trackbed {
 /// Model of a roll-out: the single-track car on the brush model of its axles, with the road's
 /// friction factor at the car. The load transfer and the friction circle are those of the planned
 /// acceleration. A car without tyre coefficients does not slip, and neither does a car whose rear
-/// axle has never moved sideways, as that of KinematicCar. The steering angle follows the sampled
+/// axle has never moved sideways, such as a KinematicCar. The steering angle follows the sampled
 /// rates within the car's limits of angle and rate, and the wheels follow with the steering lag.
-/// Dead time, lag and backlash of the actuator are those of every controller
+/// MPPI accounts for dead time, lag and backlash of the actuator as every controller does
 /// (docs/algorithms/control.md). The speed follows the plan: MPPI steers, and leaves the speed to
 /// SpeedControl.
 ///
@@ -28,12 +28,12 @@ namespace trackbed {
 ///   + the remaining cost of lqr behind the horizon, z^T P z.
 /// Obstacles keep their velocity and yaw rate during the horizon.
 ///
-/// The roll-outs vary the better one of two motions: the last plan, or the motion of a car that lqr
-/// steers. The steering rates of the roll-outs have normally distributed deviations, constant for a
-/// tenth of the horizon, in pairs of opposite sign and in four sizes. The weighted mean, half of
-/// its change, and the cheapest roll-out replace the plan only if their cost is lower. A car that
-/// moves by less than 1/1000 of its wheelbase in a control period is steered as lqr does without
-/// preview.
+/// The roll-outs vary the better one of two motions: the last plan of MPPI, or the motion of a car
+/// that lqr steers. The steering rates of the roll-outs have normally distributed deviations,
+/// constant for a tenth of the horizon, in pairs of opposite sign and in four sizes. The candidates
+/// for the new plan are the weighted mean, the middle between the plan and the weighted mean, and
+/// the cheapest roll-out. A candidate replaces the plan only if its cost is lower. A car that moves
+/// by less than 1/1000 of its wheelbase in a control period is steered as lqr does without preview.
 ///
 /// Guarantees: the commands are the same, bit for bit, for the same seed and inputs, for any number
 /// of threads. A plan of cost 0, such as on the path in a steady turn, is kept. The commanded angle
@@ -44,14 +44,15 @@ struct MppiOptions {
   int samples = 1000;  ///< Number of roll-outs, from 8 to 100000; rounded up to be even.
   int steps = 50;      ///< Number of steps of a roll-out, from 10 to 500.
   /// Duration of a roll-out [s], from 0.1 to 10. Default: the time in which the car can move aside
-  /// by twice its width w at the speed v, but at least 1 s and at most 5 s. This time is
-  /// the larger one of cbrt(64 w L/(v^2 omega)), at the full steering rate omega, and sqrt(8 w/a),
-  /// at the lateral grip a.
+  /// by twice its width w at the speed v, but at least 1 s and at most 5 s. The time to move aside
+  /// is the larger one of cbrt(64 w L/(v^2 omega)), at the full steering rate omega, and sqrt(8
+  /// w/a), at the lateral grip a.
   std::optional<double> horizon;
   std::uint64_t seed = 0;    ///< Seed of the deviations.
   double temperature = 0.1;  ///< lambda divided by the spread of the costs [1], > 0.
-  /// Standard deviation of the largest deviations [1], > 0: 1 is the smaller one of the car's
-  /// steering rate and the rate whose random motion reaches the grip at the horizon.
+  /// Standard deviation of the largest deviations [1], > 0, as a multiple of the smaller one of two
+  /// rates: the car's steering rate, and the rate whose random motion reaches the grip at the
+  /// horizon.
   double noise = 1.0;
   /// Weight of the cross-track error [1/m^2], > 0; same default as in LqrOptions.
   std::optional<double> cross_track;

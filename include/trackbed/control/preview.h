@@ -42,13 +42,14 @@ enum class PreviewLaw {
 ///
 /// Without `distance`, the wheels turn no further than they can turn back in time: the angle is
 /// that of the law for the errors that the car will have when its wheels, turning at their full
-/// rate, have returned to the steering of the path. Beside a straight path, this bound acts on
-/// large deviations alone. Where the path itself turns the wheels at their full rate, it keeps
-/// the car from overshooting to one side after the other. With `distance`, the law is that of the
-/// textbook, on the path itself.
+/// rate, have returned to the steering of the path. Beside a straight path, the bound on the
+/// wheels' angle acts on large deviations alone. Where the path itself turns the wheels at their
+/// full rate, the bound keeps the car from overshooting to one side after the other. With
+/// `distance`, the textbook law is applied to the path without ramps, and the wheels' angle is not
+/// bounded.
 ///
-/// For a car at an offset e from the path, R must be longer, or the car would oscillate about the
-/// path. R is therefore at least 1.5 cbrt(e L v/omega).
+/// For a car at an offset e from the path, R is at least 1.5 cbrt(e L v/omega), because with a
+/// shorter R, the car would oscillate about the path.
 struct PreviewOptions {
   /// Shortest preview distance R [m], > 0; by default computed from the car and its speed.
   std::optional<double> distance;

@@ -12,21 +12,21 @@ namespace trackbed {
 /// with u the angle from the direction of motion to the path point.
 ///
 /// On a circle of radius R, the steering angle is exactly atan(L/R). With wheels that turn at most
-/// at the rate omega, a car at speed v needs a certain look-ahead distance l to return from an
-/// offset e without oscillation. This distance is about 1.5 cbrt(e L v/omega). By default, l is the
-/// largest of the distance R of PreviewOptions, 1.5 cbrt(e L v/omega) and 3/4 L cbrt(v/(L omega)).
-/// The distance 3/4 L cbrt(v/(L omega)) is long enough for an offset of an eighth of the wheelbase.
-/// Unlike the preview controller, pure pursuit does not lengthen a given `distance` when the car is
-/// off its path.
+/// at the rate omega, a car at speed v needs a look-ahead distance l of about 1.5 cbrt(e L v/omega)
+/// to return from an offset e without oscillation. By default, l is the largest of the distance R
+/// of PreviewOptions, 1.5 cbrt(e L v/omega) and 3/4 L cbrt(v/(L omega)). The distance 3/4 L
+/// cbrt(v/(L omega)) is long enough for an offset of an eighth of the wheelbase. Unlike the preview
+/// controller, pure pursuit does not lengthen a given `distance` when the car is off its path.
 ///
 /// By default, the wheels turn no further than they can turn back in time
-/// (src/control/timely_steering.h): where the path turns them at nearly their full rate, they could
-/// not correct their own lead. With a given `distance`, the law is used as it is. Cost per control
-/// period: up to 160 points of the path. The controller allocates heap memory in its first control
-/// period only.
+/// (src/control/timely_steering.h): on a path that turns the wheels at nearly their full rate,
+/// wheels that have turned too far cannot return in time. With a given `distance`, the textbook law
+/// is used without timely steering. Cost per control period: up to 160 points of the path. The
+/// controller allocates heap memory in its first control period only.
 ///
 /// A look-ahead point may be behind the car, for example after a start that faces away from the
-/// path. The car then turns at full lock on the shorter side (src/control/turn_round.h).
+/// path. If the look-ahead point is behind the car, the car turns at full lock on the shorter side
+/// (src/control/turn_round.h).
 ///
 /// On paths that are driven in reverse, the circle passes through a path point behind the car.
 /// Beyond the end of the path, the look-ahead point lies on the tangent at the end. Pure pursuit

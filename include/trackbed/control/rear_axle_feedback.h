@@ -29,7 +29,8 @@ namespace trackbed {
 ///
 /// The control law has no preview, so at a curvature step the steering lags by the time that the
 /// wheels need to turn. By default, the wheels turn no further than they can turn back in time
-/// (src/control/timely_steering.h). With a given `distance`, the law is used as it is.
+/// (src/control/timely_steering.h). With a given `distance`, the control law is used without timely
+/// steering.
 struct RearAxleFeedbackOptions {
   /// Decay distance d of small tracking errors [m], >= 0.01; by default computed from the car, its
   /// speed and the cross-track error.

@@ -18,11 +18,12 @@ namespace trackbed {
 ///
 /// If the profile brakes more than 1.1 times as hard as `deceleration`, the lower bound of the
 /// command is extended to 1.05 times the profile's deceleration. If the profile accelerates more
-/// than 1.1 times as hard as `acceleration`, the upper bound of the command is extended in the same
-/// way. Beyond the end of a profile that ends at rest, the car brakes with `deceleration`. If the
-/// end of the profile brakes more than 1.1 times as hard as `deceleration`, the car brakes as hard
-/// as the end of the profile. The commanded deceleration never exceeds `max_deceleration` [m/s^2],
-/// the maximum deceleration of the car on its road (0: unknown).
+/// than 1.1 times as hard as `acceleration`, the upper bound of the command is extended to 1.05
+/// times the profile's acceleration. Beyond the end of a profile that ends at rest, the car brakes
+/// with `deceleration`. If the end of the profile brakes more than 1.1 times as hard as
+/// `deceleration`, the car brakes as hard as the end of the profile. The commanded deceleration
+/// never exceeds `max_deceleration` [m/s^2], the maximum deceleration of the car on its road (0:
+/// unknown).
 double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& profile, double s,
                     double speed, double period, double max_deceleration = 0.0);
 

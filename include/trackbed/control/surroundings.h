@@ -28,7 +28,7 @@ struct PathEdges {
   std::vector<EdgeDistances> distances{};  ///< Empty if the plan is not on a track.
 
   /// Returns the edges at a station [m]. The distances of the edges are linear between the stations
-  /// and constant before the first and beyond the last one. `distances` must not be empty.
+  /// and constant before the first and beyond the last station. `distances` must not be empty.
   [[nodiscard]] EdgeDistances At(double station) const;
 };
 
