@@ -67,9 +67,9 @@
 ///   the initial speed [m/s^2].
 ///   yaw_rate_max [rad/s], heading_deviation_max [rad], lateral_deviation_max [m].
 ///
-/// Deviations after a disturbance are measured from the plan's path. Without a path, these
-/// deviations are measured from the circle or line on which the rear axle moved at the time `at`.
-/// Metrics of disturbance:
+/// Deviations after a disturbance are measured from the plan's path. Without a path, deviations
+/// after a disturbance are measured from the circle or line on which the rear axle moved at the
+/// time `at`. Metrics of disturbance:
 ///   lateral_deviation_max [m], heading_deviation_max [rad], yaw_rate_deviation_max [rad/s].
 ///   recovery_time: time from the first moment at which the yaw rate deviation exceeds its bound to
 ///   the last moment at which the deviation returns below the bound [s]; 0 if the deviation never

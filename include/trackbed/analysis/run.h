@@ -79,8 +79,8 @@ RunResult RunScenario(const Scenario& scenario, CarCache& cars, const RunHooks& 
 RunResult RunScenario(const Scenario& scenario, const CarModel& car, const RunHooks& hooks = {});
 
 /// PlanRun and SimulateRun are the two parts of RunScenario: planning, then simulation with
-/// evaluation. Both functions throw errors in the same cases as RunScenario. SimulateRun also
-/// rethrows exceptions that its hooks throw.
+/// evaluation. PlanRun and SimulateRun throw errors in the same cases as RunScenario. SimulateRun
+/// also rethrows exceptions that its hooks throw.
 RunResult PlanRun(const Scenario& scenario, const CarModel& car);
 RunResult SimulateRun(RunResult planned, const CarModel& car, const RunHooks& hooks = {});
 

@@ -51,8 +51,9 @@ struct Classes {
 
 /// Divides the rows of a study into classes by the values of a parameter. If there are at most
 /// `max_classes` distinct values, or if a value is not a number, each distinct value is a class.
-/// Otherwise the rows are sorted by value and divided into `max_classes` classes of equal size.
-/// Rows with equal values are always in the same class.
+/// If there are more distinct values, and all of them are numbers, the rows are sorted by value and
+/// divided into `max_classes` classes of equal size. Rows with equal values are always in the same
+/// class.
 ///
 /// Throws PreconditionError unless max_classes is at least 2.
 Classes Classify(const std::vector<std::string>& values, std::size_t max_classes);

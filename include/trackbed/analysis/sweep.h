@@ -95,8 +95,8 @@ struct SweepSummary {
 SweepSummary Summarize(const SweepRecords& records, const Shard& shard = {});
 
 /// Writes sweep.csv (parameters, seed, status, runs, outputs, reason; rows in grid order),
-/// sweep.json (the study as it was run, and bisections) and manifest.json. These files are written
-/// in one step (ResultWriter), which removes the report.html of an earlier sweep. If rows are
+/// sweep.json (the study as it was run, and bisections) and manifest.json. WriteSweep writes all
+/// files in one step (ResultWriter), and removes the report.html of an earlier sweep. If rows are
 /// missing on purpose, `stopped` states the reason. If writing fails with a RunError, the files of
 /// the earlier sweep remain.
 SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard, const OutputFolder& folder,

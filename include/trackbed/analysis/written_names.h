@@ -61,8 +61,8 @@ inline constexpr std::string_view kPageMark = "<meta name=\"generator\" content=
 /// Graphics, section 11.3.4: tEXt). The chunk follows the header of a .png file, and precedes the
 /// end chunk of an .apng file.
 const std::string& PictureMark();
-/// Returns the last bytes of a video, which mark the video as written by Trackbed. These bytes are
-/// a box that players skip (ISO/IEC 14496-12, section 8.1.2: free).
+/// Returns the last bytes of a video, which mark the video as written by Trackbed. The mark is a
+/// box that players skip (ISO/IEC 14496-12, section 8.1.2: free).
 const std::string& VideoMark();
 /// Returns the last chunk of an animated WebP, which marks it as written by Trackbed. Readers skip
 /// chunks that they do not know (RFC 9649, section 2.7.1.6).
