@@ -19,9 +19,9 @@ namespace trackbed {
 /// turn; g_k change of the path's curvature k periods ahead; K gain, P solution of the discrete
 /// Riccati equation; A_c = A - B K. The steering rate is
 ///   w = -K z - (R + B'PB)^-1 B' sum_k (A_c')^k P g_k
-/// unless this law exceeds the limit of the steering rate within the preview. In this case, w is
-/// the first input of the quadratic program with this limit (src/control/bounded_regulator.h), so
-/// the wheels begin to turn back in time.
+/// unless this law exceeds the limit of the steering rate within the preview. If the law exceeds
+/// the limit, w is the first input of the quadratic program with this limit
+/// (src/control/bounded_regulator.h), so the wheels begin to turn back in time.
 /// The car is modeled by the dynamic single-track model at the present speed, with the axle forces
 /// that TyreForces selects. A car without tyre coefficients is modeled as the kinematic car. The
 /// dynamic and the kinematic model both include the steering actuator and the steering lag. The

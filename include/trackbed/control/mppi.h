@@ -28,7 +28,7 @@ namespace trackbed {
 ///   + the remaining cost of lqr behind the horizon, z^T P z.
 /// Obstacles keep their velocity and yaw rate during the horizon.
 ///
-/// The roll-outs vary the better one of two motions: the last plan of MPPI, or the motion of a car
+/// The roll-outs vary the cheaper one of two motions: the last plan of MPPI, or the motion of a car
 /// that lqr steers. The steering rates of the roll-outs have normally distributed deviations,
 /// constant for a tenth of the horizon, in pairs of opposite sign and in four sizes. The candidates
 /// for the new plan are the weighted mean, the middle between the plan and the weighted mean, and

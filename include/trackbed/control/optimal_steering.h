@@ -26,8 +26,8 @@ enum class Matching {
   /// Pose of the primary at the car's station. The car's predicted pose is compared with the
   /// primary's pose S meters ahead of the car's station.
   kArcLength,
-  /// Pose of the primary at the same time, however far the car is from the primary. This comparison
-  /// is the first stage of the published method.
+  /// Pose of the primary at the same time, however far the car is from the primary. The comparison
+  /// at equal times is the first stage of the published method.
   kTime,
 };
 
