@@ -66,10 +66,9 @@ class InternalError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// Makes text safe for terminals and text files: invisible characters except tabs and line feeds,
-/// such as control characters and marks of writing direction, become "<U+001B>", and bytes that are
-/// not UTF-8 become "<0xFF>". WithoutControls is needed because file names and keys may come from
-/// untrusted sources.
+/// Makes text safe for terminals and text files. Replaces invisible characters (IsInvisible) by
+/// their codes, such as "<U+001B>". Replaces bytes that are not UTF-8 by their values, such as
+/// "<0xFF>". WithoutControls is needed because file names and keys may come from untrusted sources.
 std::string WithoutControls(std::string_view text);
 
 [[noreturn]] void ThrowPreconditionError(const std::string& message);

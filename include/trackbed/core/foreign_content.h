@@ -5,18 +5,19 @@
 
 namespace trackbed {
 
-/// Explains that the content of a text file is of another kind, and how to get the text: compressed
-/// data, an archive, a spreadsheet, a bag, a picture, text in UTF-16, or other binary data. Returns
-/// "" for text. Needs only the begin of the content.
+/// Explains what content is if it is not plain text, and how to get the text. Recognizes compressed
+/// data, archives, spreadsheets, bags, pictures, text in UTF-16, and other binary data. Returns ""
+/// for plain text. Needs only the first bytes of the content.
 std::string ForeignBytes(std::string_view content);
 
-/// As ForeignBytes; also explains empty files and web pages.
+/// Same as ForeignBytes, but also explains empty files and web pages.
 std::string ForeignContent(std::string_view content);
 
-/// Explains why content is not of a format: ForeignContent, otherwise the error of its parser.
+/// Explains why content does not have the expected format. Returns the text of ForeignContent; if
+/// this text is empty, returns the parser's error.
 std::string ParseProblem(std::string_view content, std::string_view format, std::string_view error);
 
-/// As ParseProblem for XML, in words for an error of tinyxml2 (XMLDocument::ErrorName).
+/// Same as ParseProblem for XML. States the error of tinyxml2 (XMLDocument::ErrorName) in words.
 std::string XmlProblem(std::string_view content, std::string_view error_name);
 
 }  // namespace trackbed

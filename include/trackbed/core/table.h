@@ -15,8 +15,8 @@ namespace trackbed {
 /// the numbers of one row.
 ///
 /// Guarantees: ToCsv writes each number in the shortest form from which the same double can be
-/// read, and writes a negative zero as 0. ReadCsv therefore reads the same table that ToCsv wrote.
-/// The cells of the table cannot contain text.
+/// read, and writes a negative zero as 0. From the text that ToCsv writes, ReadCsv reads the same
+/// table. The cells of the table cannot contain text.
 class Table {
  public:
   explicit Table(std::vector<std::string> columns);

@@ -4,8 +4,8 @@
 #include <functional>
 
 /// The list of the temporary files and folders of this process (TemporaryFile and TemporaryFolder
-/// in file.h). When a signal ends the process, the destructors of their owners do not run, so
-/// RemoveTemporariesForEver removes what is in the list.
+/// in file.h). When a signal ends the process, the destructors of TemporaryFile and TemporaryFolder
+/// do not run. RemoveTemporariesForEver therefore removes the files and folders in the list.
 namespace trackbed {
 
 /// Adds `path` to the list and calls `create`. If `create` returns false, takes `path` off the list
@@ -16,9 +16,9 @@ bool AddTemporary(const std::filesystem::path& path, const std::function<bool()>
 /// list. Returns the result of `remove`.
 bool DropTemporary(const std::filesystem::path& path, const std::function<bool()>& remove);
 
-/// Removes all files and folders of the list. Call this function right before _exit(): afterwards,
-/// threads that create, publish or remove a temporary file wait for ever. The function takes a
-/// lock, so a signal handler must not call it. Never throws.
+/// Removes all files and folders of the list. Call this function right before _exit(): after the
+/// call, threads that create, publish or remove a temporary file wait for ever. The function takes
+/// a lock, so a signal handler must not call it. Never throws.
 void RemoveTemporariesForEver() noexcept;
 
 }  // namespace trackbed
