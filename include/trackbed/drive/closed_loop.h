@@ -90,14 +90,14 @@ struct LoopConfig {
   /// at the end of the period.
   SteeringInput steering_input = SteeringInput::kActuator;
   SpeedControlOptions speed{};
-  /// Station from which the car coasts [m], unless `speed.braking` has begun; nullopt: none. A run
-  /// of a car that coasts ends as arrived when the whole car has passed the last gate of its plan.
+  /// Station from which the car coasts [m], unless `speed.braking` has begun; nullopt: none. If the
+  /// car coasts, the run ends as kArrived when the whole car has passed the last gate of its plan.
   std::optional<double> coasts_from{};
 
   /// Disturbances and faults of the run, which the loop applies to the plant and the controller.
   /// The loop ignores the payload of the disturbances, because the plant's model already includes
-  /// the payload. The loop also ignores `recovered_within`, a criterion for evaluating the run
-  /// afterwards.
+  /// the payload. The loop also ignores `recovered_within`, a criterion for evaluating a finished
+  /// run.
   Disturbances disturbances{};
   std::uint64_t seed = 0;  ///< Random seed of the measurement noise and of replanning.
   std::optional<ReplanningConfig> replanning{};

@@ -30,7 +30,7 @@ enum class DriveStatus {
   /// The car was commanded to drive, but moved less than a centimeter in ten seconds.
   kStuck,
   kCollided,  ///< The car touched an obstacle; the log continues for one second.
-  /// The car or its trailer rolled over: it leans by more than 60 degrees from the vertical.
+  /// The car or its trailer rolled over, which means a lean of more than 60 degrees.
   kRolledOver,
   kJackknifed,   ///< The hitch angle grew until the trailer touched the car (JackknifeAngle).
   kInterrupted,  ///< The calling program stopped the run.
@@ -62,7 +62,8 @@ struct LogRow {
   std::optional<Pose2> measured;
   /// Diagnostic values of the controller's last update, in the order of RunLog::controller_columns.
   std::vector<double> controller;
-  /// States of the driver aids at the start of the control period; nullopt for a car without them.
+  /// States of the driver aids at the start of the control period; nullopt for a car without driver
+  /// aids.
   std::optional<AidState> aids{};
   /// State of the trailer at the start of the control period; nullopt for a car without a trailer.
   std::optional<TrailerState> trailer{};
@@ -104,9 +105,10 @@ std::optional<OrientedBox> TrailerFootprint(const RunLog& log, const LogRow& row
 /// `origin_y_m` only if the run has a local origin.
 Table ToTable(const RunLog& log);
 
-/// Returns a function that returns the text of `<plant>.csv` in parts, ToTable(log).ToCsv(); an
-/// empty part ends the text. A part has at most 1024 rows, so that neither the table nor the text
-/// of a long log is in memory as a whole. The log must outlive the function.
+/// Returns a function that returns the next part of the text of `<plant>.csv` at each call. The
+/// parts together are equal to ToTable(log).ToCsv(). An empty part marks the end of the text. A
+/// part has at most 1024 rows, so that neither the table nor the text of a long log is in memory as
+/// a whole. The log must outlive the returned function.
 std::function<std::string()> CsvParts(const RunLog& log);
 
 }  // namespace trackbed

@@ -18,7 +18,7 @@ namespace trackbed {
 ///
 /// Guarantees: if every period is stepped by the loop's own controller, the log is the log of
 /// SimulateClosedLoop, bit for bit; both use the same implementation. Different loops may be
-/// stepped by different threads at the same time. Cost: as SimulateClosedLoop.
+/// stepped by different threads at the same time. Cost: the same as SimulateClosedLoop.
 class SteppedLoop {
  public:
   /// Begins the first control period. `controller` steers in Step(). The loop keeps `owner`, for
@@ -36,11 +36,11 @@ class SteppedLoop {
   /// Returns an independent copy of the loop in its present state: for the same commands, both
   /// loops then simulate the same motion and write the same log, bit for bit. The copy shares the
   /// hooks of the configuration. Throws InputError if the plant or the controller cannot be copied
-  /// (Plant::Clone, SteeringController::Clone); all built-in plants and controllers can. Throws
-  /// RunError if there is not enough memory.
+  /// (Plant::Clone, SteeringController::Clone); all built-in plants and controllers can be copied.
+  /// Throws RunError if there is not enough memory.
   [[nodiscard]] SteppedLoop Copy() const;
 
-  /// Returns how the run ended; nullopt if it has not ended.
+  /// Returns how the run ended; nullopt if the run has not ended.
   [[nodiscard]] const std::optional<DriveStatus>& status() const;
   /// Returns the input that a controller receives in the coming control period. The input refers to
   /// this loop, and is valid until the next Step.
@@ -64,7 +64,8 @@ class SteppedLoop {
   /// run has ended.
   void Step(double steering, std::optional<double> acceleration);
 
-  /// Returns a copy of the log so far; its status is kInterrupted if the run has not ended.
+  /// Returns a copy of the log so far. If the run has not ended, the copy has the status
+  /// kInterrupted.
   [[nodiscard]] RunLog log() const;
 
  private:
