@@ -11,7 +11,8 @@
 #include "trackbed/falsify/search_space.h"
 #include "trackbed/falsify/shrink.h"
 
-/// Searches for values of a study's keys with which the run fails, and shrinks this counterexample.
+/// Searches for a counterexample, that is, values of a study's keys with which the run fails. Then
+/// shrinks the counterexample toward the nominal values.
 namespace trackbed {
 
 /// A study that can be searched for a failing run.

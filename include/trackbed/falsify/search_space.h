@@ -42,8 +42,8 @@ class SearchSpace {
   /// Throws InputError, with the line in the study's file, if a key has no range (because it has a
   /// list of values, a distribution without ends, or a condition). Also throws InputError if the
   /// study has `list`, `repeat` or `bisect`. Also throws InputError if the nominal value of a
-  /// searched key is not a number, is missing, or lies outside of the key's range. The study must
-  /// not set a nominal value for a key that is not searched, either.
+  /// searched key is not a number, is missing, or lies outside of the key's range. Also throws
+  /// InputError if the study sets a nominal value for a key that is not searched.
   SearchSpace(const Study& study, const Scenario* scenario);
   /// Makes a search space from a list of keys, for tests and for programs without a study file.
   explicit SearchSpace(std::vector<SearchKey> keys);

@@ -28,9 +28,9 @@ enum class ProbabilityVerdict {
 /// reaches 1/(1 - confidence) after any number of trials is then at most 1 - confidence (Ville
 /// 1939). Likewise, if the true probability is at least P, M is a nonnegative supermartingale with
 /// a mean of at most 1. Unlike this test, Wald's test needs a second probability besides P, and
-/// guarantees nothing if the true probability lies between the two. If the true probability is very
-/// near P, the test needs many trials. If the true probability equals P, the test usually reaches
-/// no verdict.
+/// guarantees nothing if the true probability lies between P and the second probability. If the
+/// true probability is very near P, the test needs many trials. If the true probability equals P,
+/// the test usually reaches no verdict.
 ///
 /// If no trial fails, the test needs 449 trials for the verdict that the probability of success is
 /// at least 0.99, with 95 % confidence. A test with a fixed number of trials needs 299 trials for

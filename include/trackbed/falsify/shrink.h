@@ -16,9 +16,9 @@ struct Evaluation {
   bool violated = false;
 };
 
-/// Evaluates a point. Function that evaluates a run at `point`. Returns nullopt if the allowed
-/// number of runs is used up or the search was interrupted. The function must always return the
-/// same evaluation for the same point.
+/// Function that evaluates a run at `point`. Returns nullopt if the allowed number of runs is used
+/// up or the search was interrupted. The function must always return the same evaluation for the
+/// same point.
 using EvaluatePoint = std::function<std::optional<Evaluation>(const UnitPoint& point)>;
 
 /// How far one key can be moved from its nominal value without a failure, while all other keys have
@@ -32,10 +32,11 @@ struct SingleKeyReach {
 /// The margins of one key: how much the key must change, compared with the counterexample, until
 /// the run passes.
 struct KeyMargin {
-  /// The position of the key nearest to the counterexample, toward the nominal value, at which the
-  /// run passes while all other keys keep the counterexample's values. The distance between
-  /// `holds_to` and the position of the counterexample is at most the tolerance (or the key's
-  /// step). The position is nullopt if the key has its nominal value in the counterexample.
+  /// Position of the key between the counterexample and the nominal value: the position nearest to
+  /// the counterexample at which the run passes. All other keys keep the counterexample's values.
+  /// The distance between `holds_to` and the position of the counterexample is at most the
+  /// tolerance (or the key's step). The position is nullopt if the key has its nominal value in the
+  /// counterexample.
   std::optional<double> holds_to{};
   /// Sensitivity of the robustness to the key: the change of the robustness over the whole range of
   /// the key. The sensitivity is extrapolated from two points, one tolerance below and one
