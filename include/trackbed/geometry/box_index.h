@@ -23,8 +23,9 @@ struct Inflation {
 };
 
 /// Returns the inflation of each rectangle [m]: `most`, or less if the rectangle is nearer than
-/// `most` to one of the points. A line that begins at such a point and does not come nearer to the
-/// rectangle is free. A point inside a rectangle is not free with any inflation.
+/// `most` to one of the `points`. With this inflation, a line is free if it begins at one of the
+/// `points` and comes no nearer to the rectangle. A point inside a rectangle is not free, whatever
+/// the inflation.
 Inflation InflationAt(const std::vector<Vec2>& points, const std::vector<OrientedBox>& boxes,
                       double most);
 
@@ -32,9 +33,9 @@ Inflation InflationAt(const std::vector<Vec2>& points, const std::vector<Oriente
 /// rectangles' axis-aligned bounding boxes. The index cannot be changed after construction.
 ///
 /// The R-tree only selects candidates; Distance() of oriented_box.h then computes the distances,
-/// exact to rounding. Building the tree of n rectangles costs O(n log n): 2 ms for 5000 rectangles.
-/// A query examines only nearby rectangles and takes a few microseconds in a tree of 5000
-/// rectangles.
+/// exactly except for rounding errors. Building the tree of n rectangles costs O(n log n): 2 ms for
+/// 5000 rectangles. A query examines only nearby rectangles and takes a few microseconds in a tree
+/// of 5000 rectangles.
 class BoxIndex {
  public:
   BoxIndex() : BoxIndex(std::vector<OrientedBox>{}) {}

@@ -29,16 +29,17 @@ struct MovingBox {
 /// Whether the point lies within the rectangle or on the rectangle's border.
 bool Contains(const OrientedBox& box, const Vec2& point);
 
-/// Returns the shortest distance between two rectangles [m], exact to rounding. If the rectangles
-/// overlap, returns minus the length of the shortest translation that separates the rectangles.
-/// Returns NaN if a coordinate is NaN.
+/// Returns the shortest distance between two rectangles [m], exact except for rounding errors. If
+/// the rectangles overlap, returns minus the length of the shortest translation that separates the
+/// rectangles. Returns NaN if a coordinate is NaN.
 double Separation(const OrientedBox& a, const OrientedBox& b);
 
 /// Returns the shortest distance between two rectangles [m]; 0 if the rectangles touch or overlap.
 double Distance(const OrientedBox& a, const OrientedBox& b);
 
 /// Returns the shortest distance from the line segment between two points to a rectangle [m], exact
-/// to rounding. Returns 0 if the segment touches the rectangle or lies inside the rectangle.
+/// except for rounding errors. Returns 0 if the segment touches the rectangle or lies inside the
+/// rectangle.
 double Distance(const Vec2& from, const Vec2& to, const OrientedBox& box);
 
 }  // namespace trackbed

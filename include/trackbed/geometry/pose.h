@@ -45,10 +45,10 @@ Vec2 ToWorld(const Pose2& X_WA, const Vec2& p_AQ);
 /// Converts the world coordinates p_WQ of a point to the point's coordinates p_AQ in the frame A.
 Vec2 ToLocal(const Pose2& X_WA, const Vec2& p_WQ);
 
-/// Returns the pose of a frame after a motion along a line or an arc, exact to rounding. The frame
-/// moves by `distance` [m, negative backwards] along its own x axis while it turns by `turn` [rad]
-/// at a constant rate. `slip` [rad] is the constant angle from the x axis to the direction of
-/// motion (the sideslip angle at the moving point).
+/// Returns the pose of a frame after a motion along a line or an arc, exact except for rounding
+/// errors. The frame moves by `distance` [m, negative backwards] along its own x axis while it
+/// turns by `turn` [rad] at a constant rate. `slip` [rad] is the constant angle from the x axis to
+/// the direction of motion (the sideslip angle at the moving point).
 Pose2 MoveOnArc(const Pose2& start, double distance, double turn, double slip = 0.0);
 
 }  // namespace trackbed
