@@ -24,10 +24,11 @@
 ///
 /// Unless the study has `steering_offset: false`, the constant `steering_offset` of the car
 /// (sim/car_parameters.h) is estimated besides the parameters of the study, between -0.1 and 0.1
-/// rad. If the records do not determine the offset and other parameters at once, the offset is
-/// fixed before the others. The offset is left out if the study names it as a parameter or has 40
-/// parameters. The offset is also left out for vehicles without steered wheels, and if a record has
-/// prescribed steering, which bypasses the offset.
+/// rad. If the records do not determine the steering offset together with the other parameters, the
+/// steering offset is the first parameter to be fixed. The steering offset is not added if it is
+/// already a parameter of the study, or if the study has 40 parameters. The steering offset is also
+/// not added for vehicles without steered wheels, and if a record has prescribed steering, which
+/// bypasses the offset.
 ///
 /// With `bank`, the bank of the track that all records were driven on is estimated, too. The bank
 /// consists of the coefficients bank[0], bank[1], … of a closed spline over the station of the
@@ -39,9 +40,9 @@
 /// the gradient of window i, n the number of windows, p the number of parameters, and H the
 /// Gauss-Newton Hessian of J. A parameter is not identified if its standard error exceeds the
 /// standard deviation of a uniform distribution over the parameter's bounds, (to - from)/sqrt(12).
-/// The parameter is then held at its start value, and the other parameters are estimated again. If
-/// several parameters have the same effect on the records, only one of these parameters is
-/// estimated.
+/// A parameter that is not identified is held at its start value, and the other parameters are
+/// estimated again. If several parameters have the same effect on the records, only one of these
+/// parameters is estimated.
 namespace trackbed {
 
 enum class ParameterStatus {
