@@ -37,7 +37,8 @@ struct QuadraticSolution {
 /// solution. If constraints are active, NLopt's SLSQP solves the program with only a subset of the
 /// constraints; violated constraints are added to the subset until no constraint is violated. The
 /// variables are transformed so that H becomes the identity matrix, which SLSQP uses as its initial
-/// Hessian. The first step of SLSQP therefore reaches the solution, from any start point.
+/// Hessian. Because of this transformation, the first step of SLSQP reaches the solution from any
+/// start point.
 ///
 /// Guarantees: the constraints are met to the absolute `tolerance`, and the same quadratic program
 /// always has a bit-identical solution. If no point meets all constraints, `ok` is false, and x is

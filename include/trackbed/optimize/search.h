@@ -15,9 +15,9 @@
 namespace trackbed {
 
 /// A search problem. An optimization problem for the search. The results of the functions
-/// `objective` and `constraints` must depend only on x. A point at which one of the results is not
-/// finite is infeasible. If one of the functions throws an exception, the search ends and rethrows
-/// the exception.
+/// `objective` and `constraints` must depend only on x. A point is infeasible if its objective or a
+/// constraint is not finite. If `objective` or `constraints` throws an exception, the search ends
+/// and rethrows the exception.
 struct SearchProblem {
   std::vector<double> lower;  ///< Lower bounds of the variables, finite, one per variable.
   std::vector<double> upper;  ///< Upper bounds of the variables, finite, >= `lower`.
@@ -56,8 +56,8 @@ struct SearchOptions {
   /// method requests the same point twice in a row, the point is evaluated only once.
   int evaluations = 0;
   /// The search stops when x changes by less than this fraction of the distance between the bounds;
-  /// 0: no such criterion. The methods isres and esch ignore this tolerance and always use the
-  /// maximum number of evaluations.
+  /// 0: the search does not use this criterion. The methods isres and esch ignore this tolerance
+  /// and always use the maximum number of evaluations.
   double tolerance = 1e-9;
   /// Tolerance of the constraints: a point is feasible if all constraints are at most this value.
   double feasible = 1e-9;
@@ -108,8 +108,8 @@ struct SearchResult {
 /// that is smaller than the cells of the method. The method slsqp computes gradients by central
 /// differences, and the evaluations for these differences are counted. The search does not prove
 /// that there is no feasible point, nor that the minimum is global. Throws InternalError for
-/// invalid bounds or options. The cost is that of the evaluations, plus that of NLopt itself (about
-/// 24 ms for isres with its defaults).
+/// invalid bounds or options. Computing time: the time of the evaluations, plus the time of NLopt
+/// itself (about 24 ms for isres with its defaults).
 SearchResult Search(const SearchProblem& problem, const SearchOptions& options, std::uint64_t seed);
 
 /// Returns the name and version of the optimizer, such as "NLopt 2.7.1".
