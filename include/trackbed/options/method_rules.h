@@ -43,8 +43,8 @@ class InputReader {
   virtual void AddError(const std::string& key, std::string message) = 0;
   /// Calls `read` with the path of the file `name`, where `name` is the value of `key`. If the file
   /// must not or cannot be read, adds a problem for `key`. A Problem that `read` reports for a file
-  /// keeps its position in the file. A Problem that `read` reports for another key is added for
-  /// that key.
+  /// keeps its position in the file. If `read` reports a Problem for a key other than `key`, the
+  /// Problem is added for the reported key.
   virtual void ReadFile(const std::string& key, const std::string& name, const Read& read) = 0;
 };
 

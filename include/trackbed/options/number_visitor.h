@@ -11,7 +11,7 @@
 namespace trackbed {
 
 /// Base of the classes that visit the numbers of a struct. Visits the numbers that are set,
-/// including those in sections, in lists and in the options of the selected method. Ignores all
+/// including numbers in sections, in lists and in the options of the selected method. Ignores all
 /// other values.
 class NumberVisitor : public KeyVisitor {
  public:
@@ -33,8 +33,9 @@ class NumberVisitor : public KeyVisitor {
   void Pair(const Key& key, int& first, int& second, Range range) override;
 
  protected:
-  /// Called for each number, also for each number of a list. The function may change a number; it
-  /// gets a copy of a whole number (int).
+  /// Called for each number, also for each number of a list. The function may change a
+  /// floating-point number. For a whole number (int), `value` is a copy, so that changes have no
+  /// effect.
   virtual void Number(const Key& key, double& value, const Range& range) = 0;
   /// Called for each list of pairs. The function may change the pairs.
   virtual void Pairs(const Key& key, std::vector<Vec2>& pairs, const PairShape& shape) = 0;
