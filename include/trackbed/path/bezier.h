@@ -11,9 +11,9 @@ namespace trackbed {
 /// parameter u in [0, 1]. The degree n of the curve is the number of control points minus 1. The
 /// local path in Skackauskas' dissertation (listing F.2) is a Bezier curve of degree 7.
 ///
-/// Points and derivatives of the curve are exact to rounding, because the Bernstein form is
-/// evaluated without finite differences. The curvature is positive where the curve turns to the
-/// left. The curvature is not finite at points without a direction (P'(u) = 0).
+/// Points and derivatives of the curve are exact except for rounding errors, because the Bernstein
+/// form is evaluated without finite differences. The curvature is positive where the curve turns to
+/// the left. The curvature is not finite at points without a direction (P'(u) = 0).
 class BezierCurve {
  public:
   /// Throws InternalError if there are fewer than two control points or a control point is not

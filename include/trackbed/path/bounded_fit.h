@@ -4,12 +4,13 @@
 
 namespace trackbed {
 
-/// Fits a path as FitPathWithin (fit_path.h) does, with a prescribed heading of the car at its
-/// start, `start_yaw` [rad]. A refined fit then begins with the pose of the first fit, at which a
-/// car already stands.
+/// Fits a path as FitPathWithin (fit_path.h) does, but with the prescribed heading `start_yaw`
+/// [rad] of the car at the start. If a path is fitted again, the new fit can thus keep the start
+/// pose, at which a car already stands.
 ///
-/// Guarantees: as FitPathWithin. The heading at the start of an open path is `start_yaw` to
-/// 1e-6 rad, unless the path follows the headings of the points. Throws the same errors.
+/// Guarantees: the same as for FitPathWithin. The heading at the start of an open path is
+/// `start_yaw` to 1e-6 rad, unless the path follows the headings of the points. Throws the same
+/// errors as FitPathWithin.
 FittedPath FitPathWithin(PathPoints given, const PathFitOptions& options, double max_curvature,
                          double start_yaw);
 

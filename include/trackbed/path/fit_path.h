@@ -19,8 +19,8 @@ struct PathPoints {
   std::vector<double> speed;  ///< Speeds of the car at the points [m/s], >= 0, in both gears.
   /// Line numbers of the points in the file, from 1, for error messages.
   std::vector<int> lines{};
-  /// Directions of motion at the points: +1 forwards, -1 backwards, 0 unknown, as where the car
-  /// stands. If the list is empty, the directions follow from the headings.
+  /// Directions of motion at the points: +1 forwards, -1 backwards, 0 unknown, for example where
+  /// the car stands. If the list is empty, the directions follow from the headings.
   std::vector<int> direction{};
   /// Times at which the car is at the points [s], strictly increasing; only differences matter.
   std::vector<double> time{};
@@ -67,11 +67,11 @@ struct FittedPath {
   double bulge_station = 0.0;
   /// Number of points that were dropped because they equal the preceding point.
   std::size_t repeated = 0;
-  /// Number of points that were merged with their neighbors, because steps between them turn back
-  /// within the largest deviation of a spline.
+  /// Number of points that were merged with their neighbors, because the polyline turns back at
+  /// these points within max_deviation.
   std::size_t merged = 0;
-  /// Number of points that were added on straight lines between the given points, beside which a
-  /// spline would swing aside.
+  /// Number of points that were added on straight lines between the given points. Without the added
+  /// points, a spline would deviate too far from the straight lines.
   std::size_t added = 0;
   /// Corners of a polyline at which the direction changes by more than 1e-9 rad.
   std::vector<HeadingJump> jumps;
@@ -106,14 +106,15 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 
 /// Fits a path through or along the points.
 ///
-/// The points are divided into legs of one direction of motion, by their directions and, where
-/// these are missing, by their headings. The car drives in reverse where its heading is opposite to
-/// the step to the next point. A leg that is shorter than max_deviation counts as noise. The car
-/// changes its direction at points, the cusps of the path. Each leg is fitted as a separate curve.
-/// At a cusp, the heading is continuous. The heading at a cusp is the given heading, corrected by
-/// the mean difference of the curves from the given headings, or the mean of the curves' headings.
-/// The curvature may jump at a cusp, where the car stands. A path without directions and headings
-/// has one forward leg.
+/// The points are divided into legs, each driven in one direction of motion. The points' directions
+/// determine the legs; where directions are missing, the headings determine the legs. The car
+/// drives in reverse where its heading is opposite to the step to the next point. A leg that is
+/// shorter than max_deviation counts as noise. The car changes its direction of motion only at
+/// given points, which are the cusps of the path. Each leg is fitted as a separate curve. At a
+/// cusp, the heading is continuous. The heading at a cusp is the given heading, corrected by the
+/// mean difference between curves and given headings. Without suitable given headings, the heading
+/// at a cusp is the mean of the headings of the two curves. The curvature may jump at a cusp, where
+/// the car stands. A path without directions and headings has one forward leg.
 ///
 /// Because a Path has a continuous heading, each corner of a polyline becomes an arc. The arc is at
 /// most 2 mm long, is within 1 mm of the corner, and is far too tight for any car.
@@ -127,37 +128,38 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// max_deviation. Second, Newton's method, which starts at this spline, minimizes over all curves
 ///     sum over i of w_i n_i^2 + l^6 integral of (kappa'(s) - c)^2 ds,
 /// where n_i [m] is the distance of point i from the curve, kappa' is the curvature rate, and c is
-/// its mean: a minimum variation curve (Moreton and Séquin 1992). Lines, arcs and clothoids have
-/// the integral 0, so points on one of them are fitted by the line, arc or clothoid itself.
-/// Curvature and curvature rate are continuous. If the curve exceeds max_deviation, l is shortened.
-/// If no curve converges, the path is the quintic spline itself.
+/// its mean: a minimum variation curve (Moreton and Séquin 1992). The integral is 0 for lines, arcs
+/// and clothoids, so points on a line, arc or clothoid are fitted by exactly this curve. Curvature
+/// and curvature rate are continuous. If the deviation of the curve exceeds max_deviation, the
+/// smoothing length l is reduced. If no curve converges, the path is the quintic spline itself.
 ///
 /// If headings and curvatures of an open path agree with the points as exactly as a planner's own
-/// output, no spline is fitted: the path has these headings and curvatures. Where the curvature is
-/// constant on both sides of a step between two points, and differs, it jumps within the step.
+/// output, no spline is fitted: the path has these headings and curvatures. If the curvature is
+/// constant before a step between two points, and has another constant value after the step, the
+/// curvature jumps within the step.
 ///
-/// Steps that turn back by more than a right angle within max_deviation are noise, as of a recorder
-/// in a car that stands. A spline is fitted to the centers of these points. Successive points with
-/// the speed 0 are fitted as one point if they lie within max_deviation of one place; `given` then
-/// contains this place.
+/// Steps that turn back by more than a right angle within max_deviation count as noise, such as
+/// that of a recorder in a standing car. Noisy points are merged into groups, and a spline is
+/// fitted to the centers of the groups. Successive points with the speed 0 are fitted as one point
+/// if they lie within max_deviation of one place; `given` then contains this place.
 ///
 /// Guarantees: an open path, and each of its legs, begins at the first point and ends at the last
-/// point, to 1e-9 m. At coordinates of 1e6 m and more, the path begins and ends there to the
+/// point, to 1e-9 m. At coordinates of 1e6 m and more, the ends of the path are exact to the
 /// rounding error of the coordinates. If all points lie on one line, arc or clothoid, the path
-/// deviates from it by at most 1e-9 m. No point lies further than max_deviation from the path's
-/// point at the same station, as measured on the fitted path. With `resample`, the deviation is
-/// measured from the resampled points on the straight lines between the given points. Between
+/// deviates from this curve by at most 1e-9 m. No point lies further than max_deviation from the
+/// path's point at the same station, as measured on the fitted path. With `resample`, the deviation
+/// is measured from the resampled points on the straight lines between the given points. Between
 /// widely spaced points, a spline deviates from the straight lines (`bulge`); next to corners, the
-/// deviation is a tenth of the spacing or more. The deviation of a spline from the straight lines
-/// (`bulge`) is at most the larger of two values. These are a fifth of the spacing, and the height
-/// of an arc that turns by the same angle as the points. The fit does not account for obstacles or
-/// the limits of a car.
+/// deviation is a tenth of the spacing or more. The deviation `bulge` of a spline from the straight
+/// lines is at most the larger of two values: a fifth of the spacing, and the height of an arc that
+/// turns by the same angle as the points. The fit does not account for obstacles or the limits of a
+/// car.
 ///
-/// A step that is more than four times as long as the median is a straight line if the points turn
-/// on it by less than a quarter of the curvature beside it, and so is a step on which the spline
-/// would exceed the bound of `bulge`, if the points turn by at most 45 degrees at both ends. The
-/// spline is then fitted to points that are added on the straight line (`added`), and keeps within
-/// max_deviation of them.
+/// A step between two points counts as a straight line in two cases. In the first case, the step is
+/// more than four times as long as the median step, and its curvature is less than a quarter of the
+/// curvature beside the step. In the second case, the spline would exceed the bound of `bulge` on
+/// the step, and the points turn by at most 45 degrees at both ends of the step. Points are added
+/// on straight lines (`added`), and the spline stays within max_deviation of the added points.
 ///
 /// Throws InputError if there are fewer than two different points or more than 200 000 points to be
 /// fitted, or if no spline stays within max_deviation. Throws InputError if the heading of a point
@@ -171,15 +173,16 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 FittedPath FitPath(PathPoints given, const PathFitOptions& options);
 
 /// Fits a path to the points as FitPath does, with a bound on the curvature of a spline. Where the
-/// curvature of the points jumps, as where a line joins an arc, the curve of FitPath exceeds the
-/// curvature of the arc by up to 6 %. FitPathWithin spreads the change of curvature over a longer
-/// part of the curve instead, within PathFitOptions::max_deviation. A car drives such a curve on an
-/// arc near the smallest radius that the car can steer.
+/// curvature of the points jumps, for example where a line joins an arc, the curve of FitPath
+/// exceeds the curvature of the arc by up to 6 %. FitPathWithin spreads the change of curvature
+/// over a longer part of the curve instead, within PathFitOptions::max_deviation. A car can drive
+/// the resulting curve even on an arc near the smallest radius that the car can steer.
 ///
-/// Guarantees: the same as FitPath. The curvature of the path is at most `max_curvature` [1/m], to
-/// a relative 1e-3, if a curve of least variation with this bound stays within max_deviation of the
-/// points. Otherwise, the curvature may exceed the bound; the caller must check the path. The bound
-/// has no effect on a polyline, or on a path with the headings and curvatures of the points.
+/// Guarantees: the same as FitPath. The curvature of the path is at most `max_curvature` [1/m],
+/// with a relative tolerance of 1e-3, if a curve of least variation with this bound stays within
+/// max_deviation of the points. Otherwise, the curvature may exceed the bound; the caller must
+/// check the path. The bound has no effect on a polyline, or on a path with the headings and
+/// curvatures of the points.
 ///
 /// Throws InputError in the same cases as FitPath, and PreconditionError unless max_curvature > 0.
 FittedPath FitPathWithin(PathPoints given, const PathFitOptions& options, double max_curvature);

@@ -65,8 +65,8 @@ std::optional<FrenetState> ToFrenet(const Path& path, const MotionState& motion,
 /// Converts path coordinates to the motion of a car; the inverse of ToFrenet. Returns nullopt if 1
 /// - kappa_r d <= 0, or if the car drives backwards on the path. The returned yaw is not wrapped
 /// and differs from the path's yaw by less than 90 degrees. The error of a conversion to path
-/// coordinates and back is at most 1e-9 if the path's curvature is continuous, and is only rounding
-/// for lines and arcs.
+/// coordinates and back is at most 1e-9 if the path's curvature is continuous. For lines and arcs,
+/// the error is only a rounding error.
 ///
 /// To plan motions, use a path with continuous curvature. Where the path's curvature jumps, the
 /// heading of the converted motion jumps unless d or d' is 0; where the path's sharpness jumps, the

@@ -138,9 +138,10 @@ struct CurvePoint {
 /// neighboring points and has the curve's heading and curvature at both points. Between the points,
 /// the heading of the segments differs from the heading of the curve by at most h^4 k/384. Here, h
 /// is the distance of the points and k the largest third derivative of the curvature. The position
-/// error at the end of the segments is at most h^4 k/720 times the length of the curve, with the
-/// same h and k. This error is about 1e-7 m for points 0.1 m apart on bends that a car can drive.
-/// Throws InternalError unless the distances of the points along the curve increase.
+/// error at the end of the segments is at most h^4 k/720 times the length of the curve, where h and
+/// k have the same meaning as for the heading. The position error is about 1e-7 m for points 0.1 m
+/// apart on bends that a car can drive. Throws InternalError unless the distances of the points
+/// along the curve increase.
 std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points);
 
 }  // namespace trackbed
