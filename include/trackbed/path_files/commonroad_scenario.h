@@ -19,7 +19,7 @@ struct CommonRoadObstacle {
   OrientedBox box;
   /// Times [s] and poses of the box's center along its motion, with increasing times; empty if the
   /// obstacle stands. An obstacle that moves has at least two poses, and leaves the road at the
-  /// last.
+  /// last pose.
   std::vector<std::pair<double, Pose2>> poses;
 };
 
@@ -35,7 +35,8 @@ struct CommonRoadRegion {
 
 /// The goal of a planning problem: conditions for the car's center at one time.
 struct CommonRoadGoal {
-  /// The center is in one of these regions; if empty, anywhere.
+  /// The car's center must be in one of these regions; if the list is empty, any position is
+  /// allowed.
   std::vector<CommonRoadRegion> regions;
   std::pair<double, double> time{0.0, 0.0};              ///< Earliest and latest time [s].
   std::optional<std::pair<double, double>> speed;        ///< Lowest and highest speed [m/s].
@@ -50,8 +51,8 @@ struct CommonRoadScenario {
   double start_speed = 0.0;  ///< Speed at time 0 [m/s], >= 0.
   CommonRoadGoal goal;
   /// Points for the car's center, about 1 m apart [m]. The points lead from the start onto the
-  /// lanelets' centers, along the shortest sequence of lanelets to the goal, and on until a car can
-  /// have stopped.
+  /// lanelets' centers, and along the shortest sequence of lanelets to the goal. Beyond the goal,
+  /// the points continue far enough for a car to stop.
   std::vector<Vec2> route;
   /// The speed nearest to the initial speed at which a car on the route meets the goal in time
   /// [m/s], >= 0.1.
@@ -82,14 +83,14 @@ bool IsCommonRoadScenario(const std::string& text);
 ///
 /// The route changes lanes only between adjacent lanelets with the same driving direction. The
 /// route joins a lanelet's center, after the start or a lane change, along a quintic polynomial.
-/// The lateral acceleration on this polynomial is at most 1.5 m/s^2 where the road is long enough.
+/// The lateral acceleration on the polynomial is at most 1.5 m/s^2 where the road is long enough.
 ///
 /// Properties that Trackbed does not model are approximated, with a note. Discs and polygons become
-/// their smallest enclosing boxes. Sets of occupied places become several boxes, which together
-/// cover each place at the middle of its time. States with intervals become the middle of the
-/// intervals. Does not read traffic signs,
-/// traffic lights, stop lines, speed limits and environment obstacles. If there are several
-/// planning problems or goals, reads the first.
+/// their smallest enclosing boxes. A set of occupied areas becomes several moving boxes, which
+/// together cover each area at the middle of the area's time interval. A value that is given as an
+/// interval becomes the middle of the interval. Does not read traffic signs, traffic lights, stop
+/// lines, speed limits and environment obstacles. If there are several planning problems or goals,
+/// reads the first.
 ///
 /// Throws InputError, with line and element, if the file is not a CommonRoad scenario, if there is
 /// no planning problem, or if a number is not finite or out of range. Also throws InputError if no

@@ -23,20 +23,21 @@ inline constexpr const char* kLanesCsv = "lanes.csv";
 /// The maximum number of points in a file of lanes.
 inline constexpr std::size_t kMaxLanePoints = 1'000'000;
 
-/// Returns the lanes whose bounding box comes within `reach` [m] of a point of the path, and some
-/// at most 5 m farther, up to a total of kMaxLanePoints points. The cost is proportional to the
-/// number of lanes times the length of the path.
+/// Returns the lanes whose bounding box comes within `reach` [m] of a point of the path. May also
+/// return lanes that are up to 5 m farther away. The returned lanes have at most kMaxLanePoints
+/// points in total. The cost is proportional to the number of lanes times the length of the path.
 DrawnLanes LanesNear(const DrawnLanes& lanes, const std::vector<Vec2>& path, double reach);
 
 /// Formats lanes as a CSV file with the columns `lane`, `left_x_m`, `left_y_m`, `right_x_m` and
-/// `right_y_m`: a row for each pair of points of the two bounds. ReadLanesCsv reads equal lanes.
+/// `right_y_m`: a row for each pair of points of the two bounds. ReadLanesCsv reads equal lanes
+/// from this file.
 std::string LanesCsv(const DrawnLanes& lanes);
 
-/// Reads the file that LanesCsv writes. Rows of the same lane stand together.
+/// Reads the file that LanesCsv writes. All rows of a lane must follow each other.
 ///
 /// Throws InputError, with file and line, if a column is missing, or if a cell is not a finite
-/// number of at most 1e7. Also throws InputError if a lane has one row, or if there are more than
-/// kMaxLanePoints rows. Throws RunError if the file cannot be read.
+/// number of at most 1e7. Also throws InputError if a lane has only one row, or if there are more
+/// than kMaxLanePoints rows. Throws RunError if the file cannot be read.
 DrawnLanes ReadLanesCsv(const std::filesystem::path& file);
 
 }  // namespace trackbed

@@ -19,19 +19,20 @@ struct GlobePosition {
   double longitude = 0.0;
 };
 
-/// Largest magnitude of a latitude that can be projected [deg]. The direction of north turns too
-/// fast closer to a pole.
+/// Largest magnitude of a latitude that can be projected [deg]. Closer to a pole, the direction to
+/// the north changes too fast along a path.
 inline constexpr double kMaxLatitude = 89.0;
 /// Largest magnitude of a longitude [deg]; some receivers count from 0 to 360 degrees.
 inline constexpr double kMaxLongitude = 360.0;
 
 /// Returns why no car can be at the position, and the remedy; "" if the position is valid. The text
-/// names swapped coordinates, degrees and minutes of NMEA 0183, and numbers in 1e-7 degrees.
+/// recognizes three mistakes: swapped coordinates, degrees and minutes of NMEA 0183, and numbers in
+/// 1e-7 degrees.
 std::string GlobeProblem(const GlobePosition& position);
 
 /// Returns the numbers of the positions at which a receiver had no fix: latitude and longitude are
-/// exactly 0. Returns none if the other positions are near latitude 0 and longitude 0, so that
-/// the position may be real.
+/// exactly 0. Returns an empty list if the other positions are near latitude 0 and longitude 0, so
+/// that the position may be real.
 std::vector<std::size_t> PositionsWithoutFix(const std::vector<GlobePosition>& positions);
 
 /// Returns the note about skipped positions without a fix.
@@ -41,10 +42,10 @@ std::string NoFixNote(std::size_t count, const std::string& first);
 /// its origin. The x axis points to the east and the y axis to the north at the origin.
 ///
 /// Scale: lengths at the distance x east or west of the origin are too long by the factor 1 +
-/// x^2/(2 R^2) with the earth's radius R. The error is 1.2e-8 at 1 km, 1.2e-6 at 10 km, and 1.2e-4
-/// at 100 km. In a UTM zone, lengths are too short by 4e-4 on the zone's meridian. Heights are
-/// ignored: a road at the height h is longer than its projection by the factor 1 + h/R, 1.6e-4 at 1
-/// km.
+/// x^2/(2 R^2) with the earth's radius R. The relative error of a length is 1.2e-8 for x = 1 km,
+/// 1.2e-6 for 10 km, and 1.2e-4 for 100 km. In a UTM zone, lengths are too short by 4e-4 on the
+/// zone's meridian. Heights are ignored: a road at the height h is longer than its projection by
+/// the fraction h/R, which is 1.6e-4 for h = 1 km.
 class LocalPlane {
  public:
   explicit LocalPlane(const GlobePosition& origin);
@@ -52,8 +53,8 @@ class LocalPlane {
   LocalPlane& operator=(LocalPlane&&) noexcept;
   ~LocalPlane();
 
-  /// Projects a valid position [m]; returns nullopt if it is more than 300 km east or west or
-  /// 5000 km north or south of the origin. Longitudes that differ by 360 degrees are equal.
+  /// Projects a valid position [m]; returns nullopt if the position is more than 300 km east or
+  /// west or 5000 km north or south of the origin. Longitudes that differ by 360 degrees are equal.
   /// Cost: 1 us.
   [[nodiscard]] std::optional<Vec2> ToMeters(const GlobePosition& position) const;
   [[nodiscard]] const GlobePosition& origin() const { return origin_; }
@@ -70,10 +71,10 @@ class LocalPlane {
 
 /// Positions in meters, and how they were projected.
 struct GlobePoints {
-  std::vector<Vec2> points;  ///< Positions [m]; empty if `problem` is not.
+  std::vector<Vec2> points;  ///< Positions [m]; empty if there is a `problem`.
   std::string note;
   std::size_t bad = 0;  ///< Number of the position that cannot be projected.
-  std::string problem;  ///< Why this position cannot be projected; empty if all can.
+  std::string problem;  ///< Reason for `bad`; empty if all positions can be projected.
 };
 
 /// Projects valid positions to a plane about `origin`, by default the first position.

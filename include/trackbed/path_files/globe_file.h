@@ -34,16 +34,16 @@ struct GlobeFile {
   std::size_t single_points = 0;
 };
 
-/// Returns whether a file is GPX, KML, KMZ or GeoJSON by the ending of its name. Files ending with
-/// .json are not.
+/// Returns whether a file is GPX, KML, KMZ or GeoJSON by the ending of its name. Returns false for
+/// a name that ends with .json.
 bool IsGlobeFile(const std::filesystem::path& file);
 
 /// Reads a GPX, KML or GeoJSON file of at most 64 MiB and kMaxPathPoints points, with XML nested at
 /// most 64 levels deep.
 ///
 /// Throws InputError, with file and line, if the text is malformed, if the file has no line, or if
-/// it is a KMZ archive. Also throws InputError if a position does not exist (GlobeProblem) or is no
-/// number (NumberProblem). Throws RunError in the same cases as ReadFile.
+/// the file is a KMZ archive. Also throws InputError if a position does not exist (GlobeProblem) or
+/// is not a number (NumberProblem). Throws RunError in the same cases as ReadFile.
 GlobeFile ReadGlobeFile(const std::filesystem::path& file);
 
 }  // namespace trackbed

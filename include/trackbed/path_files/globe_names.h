@@ -41,7 +41,7 @@ GlobeColumns FindGlobeColumns(const std::vector<std::string>& names);
 
 /// Explains why a text is not a number, with the number to write instead. The text may have a
 /// decimal comma ("48,137"), degrees with minutes and seconds ("48°08'14.3\"N") or a letter for the
-/// hemisphere ("48.137N"). For other texts: "'...' is not a finite number".
+/// hemisphere ("48.137N"). For other texts, returns "'...' is not a finite number".
 std::string NumberProblem(const std::string& text);
 
 }  // namespace trackbed

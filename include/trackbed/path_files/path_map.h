@@ -44,7 +44,7 @@ struct PathColumns {
   std::optional<std::string> speed;
   std::optional<std::string> time;
   std::optional<std::string> direction;  ///< Column of the direction of motion, or of the gear.
-  /// Unit of the position columns: "m", "cm", "mm" or "km"; "deg" or "rad" of latitude and
+  /// Unit of the position columns: "m", "cm", "mm" or "km"; "deg" or "rad" for latitude and
   /// longitude.
   std::optional<std::string> position_unit;
   std::optional<std::string> yaw_unit;    ///< Unit of the yaw column: "rad" or "deg".
@@ -93,7 +93,7 @@ struct PathColumnName {
 
 /// Returns the usual column names of a quantity ("x", "y", "yaw", "curvature", "speed", "time" or
 /// "direction"), in order of preference. The unit of a column of directions is "direction", "gear",
-/// "forward" or "reverse": what the numbers in the column mean.
+/// "forward" or "reverse", and states the meaning of the numbers in the column.
 const std::vector<PathColumnName>& PathColumnNames(std::string_view quantity);
 
 }  // namespace trackbed

@@ -20,9 +20,9 @@ struct UsualColumn {
 std::optional<UsualColumn> FindUsualColumn(const std::vector<std::string>& names,
                                            std::string_view quantity);
 
-/// Columns of a pose. The names of these columns consist of a usual name and words that describe a
-/// pose, such as "pose_x", "pose_y" and "pose_theta", "odom.pose.position.x", "posX", "x_pos",
-/// "X (m)" or "utm_x_cm". Other names of x and y are "px" and "py", "east" and "north".
+/// Columns of a pose. The names of pose columns consist of a usual name and words that describe a
+/// pose, such as "pose_x", "pose_y" and "pose_theta", "odom.pose.position.x", "posX", "x_pos", "X
+/// (m)" or "utm_x_cm". Other names of x and y are "px" and "py", "east" and "north".
 struct PoseColumns {
   std::optional<UsualColumn> x;
   std::optional<UsualColumn> y;
