@@ -15,10 +15,10 @@ namespace trackbed {
 struct LiteralTurn {
   /// If true, samples the arc from the angle theta_turn_dec upwards in steps of 0.01 rad, and
   /// places the obstacle on the nearest sample. In general, none of these samples lies at the end
-  /// angle theta_turn. The sampled arc then starts up to 0.01 rad late, and the safe point lies up
-  /// to 0.01 rad before the obstacle. Swept angles are pi/2 less than the angles of the listing, so
-  /// that the sampled arc starts at the point A only if theta_turn is pi/2. If false, samples the
-  /// whole arc and places the obstacle exactly.
+  /// angle theta_turn. Therefore, the sampled arc starts up to 0.01 rad late, and the safe point
+  /// lies up to 0.01 rad before the obstacle. Swept angles are pi/2 less than the angles of the
+  /// listing, so that the sampled arc starts at the point A only if theta_turn is pi/2. If false,
+  /// samples the whole arc and places the obstacle exactly.
   bool grid = false;
   /// If true, reproduces defect L9 of the listing: shifts the control point P_5 of a right turn
   /// along x by cos(pi/2 - theta_turn_dec) meters.
@@ -60,10 +60,10 @@ void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options);
 /// Options of the local planner `listing`. The planner finds the turn of the plan that contains an
 /// obstacle, and states this turn as the problem of the original code listing (turn_maneuver.h).
 /// The problem consists of the turn's arc, the straights before and after the arc, and the
-/// mission's speed. In this problem, the obstacle is aligned with the maneuver's frame and placed
-/// on the nearest sixth of the turn's arc. If no turn contains the obstacle, the plan ends before
-/// the obstacle. The planner uses the resulting curve regardless of the clearance and the required
-/// steering, even if `plan.infeasible` rejects infeasible plans.
+/// mission's speed. In the problem of the code listing, the obstacle is aligned with the maneuver's
+/// frame and placed on the nearest sixth of the turn's arc. If no turn contains the obstacle, the
+/// plan ends before the obstacle. The planner uses the resulting curve regardless of the clearance
+/// and the required steering, even if `plan.infeasible` rejects infeasible plans.
 struct ListingAvoidanceOptions {
   double safe_distance = 1.5;  ///< Safe distance SD [m], >= 0.
   double delay = 0.9;  ///< System delay t_d [s], >= 0, during which the car follows the old plan.
