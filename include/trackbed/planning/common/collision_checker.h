@@ -17,19 +17,20 @@ class CollisionChecker {
   /// Upper bound of the result of farthest(), which applies to long cars [m].
   static constexpr double kMaxClearance = 4.0;
 
-  /// Fraction of the distance at the start that a car which leaves a box must keep. A car that
-  /// turns away from a wall beside it cannot keep the whole distance: its rear swings toward the
-  /// wall.
+  /// Fraction of its distance from a box at the start that a car must keep while it leaves the box.
+  /// A car that turns away from a wall beside it cannot keep the whole distance: its rear swings
+  /// toward the wall.
   static constexpr double kShareOfStart = 0.5;
 
   /// `distance` [m], >= 0, is the required distance of the footprint from every box. Throws
   /// PreconditionError if a box has a number that is not finite. The required memory grows with the
-  /// area over which the boxes are spread, but no further beyond an extent of about 2 km for a car.
+  /// area over which the boxes are spread, up to an extent of about 2 km for a car.
   CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance);
 
-  /// Same as above, for a car that may leave the pose `start`. From a box that is nearer to the
-  /// footprint at `start` than `distance`, the car need only keep the fraction kShareOfStart of the
-  /// distance it has there. The start is free unless a box overlaps the footprint there.
+  /// Same as the constructor without `start`, but for a car that may leave the pose `start`. If a
+  /// box is nearer than `distance` to the footprint at `start`, the car need only keep the fraction
+  /// kShareOfStart of this smaller distance from the box. The pose `start` is free unless a box
+  /// overlaps the footprint at `start`.
   CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance,
                    const Pose2& start);
 
@@ -40,12 +41,12 @@ class CollisionChecker {
   /// footprint [m]; 0 if the rear axle is not inside the footprint.
   [[nodiscard]] double inner_radius() const;
 
-  /// Returns whether the car may be clear of all boxes with the middle of its rear axle at
-  /// `position`: the circle of inner_radius() is. If not, no heading is free there.
+  /// Returns whether the circle of the radius inner_radius() around `position` is clear of all
+  /// boxes. If not, a car with the middle of its rear axle at `position` is free at no heading.
   [[nodiscard]] bool MayBeFree(const Vec2& position) const;
 
-  /// Returns the largest value that Clearance can return [m]: the car's length, or kMaxClearance if
-  /// the car is longer.
+  /// Returns the largest value that Clearance can return [m]: the car's length, but at most
+  /// kMaxClearance.
   [[nodiscard]] double farthest() const { return farthest_; }
 
   /// Returns the clearance of the footprint from the nearest box minus the required distance [m].

@@ -82,13 +82,14 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
 /// adjacent first or last leg. On the first leg, the curve begins only after the distance that a
 /// rolling car needs to slow down. The planned speed in each corner is as high as the lengths of
 /// the legs allow. If the car's footprint on the rounded path is too near to a box, the function
-/// lowers the speed in the nearest corner. The path then stays closer to that corner. In a corner
-/// at a waypoint, the speed is so low that the curve stays within `max_gap` of the corner; if no
-/// speed is low enough, the status is kWaypointMissed. Guarantees for the status kOk: the path
-/// starts at the first point along the first leg, and ends at the last point. The curvature of the
-/// rounded path is continuous and at most `max_curvature`. At the capped speeds, the steering rate
-/// is within the car's limit. The car's footprint is clear of all boxes (CollisionChecker). If the
-/// status is not kOk, the reason names the corner or the place of the collision.
+/// lowers the speed in the nearest corner. At the lower speed, the path stays closer to the corner.
+/// In a corner at a waypoint, the speed is so low that the curve stays within `max_gap` of the
+/// corner; if no speed is low enough, the status is kWaypointMissed. Guarantees for the status kOk:
+/// the path starts at the first point along the first leg, and ends at the last point. The
+/// curvature of the rounded path is continuous and at most `max_curvature`. At the capped speeds,
+/// the steering rate is within the car's limit. The car's footprint is clear of all boxes
+/// (CollisionChecker). If the status is not kOk, the reason names the corner or the place of the
+/// collision.
 RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
                             const CornerLimits& limits, const CollisionChecker& clear);
 

@@ -35,9 +35,9 @@ struct SteeringRamp {
 /// Returns, in order, the steering ramps at all steps of curvature at which the car does not stop.
 /// The car is assumed to drive at `speed` [m/s], or more slowly within `caps`. Each ramp is as long
 /// as the wheels need at the car's speed, but covers at most half of each adjacent piece, so that
-/// ramps never overlap. On a ramp that is shortened for this reason, the car drives more slowly.
-/// Changes of direction and the stations `stops` have no ramp, because the wheels turn there while
-/// the car stands.
+/// ramps never overlap. If a ramp is shortened to half of a piece, the car drives more slowly on
+/// the ramp. Changes of direction and the stations `stops` have no ramp, because the wheels turn
+/// there while the car stands.
 std::vector<SteeringRamp> RampsOfSteps(const VehicleParams& vehicle,
                                        const std::vector<Segment>& segments, double speed,
                                        const std::vector<SpeedCap>& caps = {},

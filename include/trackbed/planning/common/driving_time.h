@@ -2,7 +2,7 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// Times of driving a plan and of turning the wheels.
+/// Computes the times that a car needs for driving a plan and for turning its wheels.
 namespace trackbed {
 
 /// Returns the time that the wheels need to turn from the end of a segment to the start of the next

@@ -35,8 +35,8 @@
 ///
 /// Gravity never raises a limit: the help of a bank in a bend, or of an uphill slope in braking, is
 /// ignored. A plan with speeds at the car's limit (PlanRequest::limits), or the remainder of such a
-/// plan, must stay within its g-g-v diagram. This condition replaces those on acceleration, slope
-/// and top speed.
+/// plan, must stay within its g-g-v diagram. For plans with speeds at the car's limit, the g-g-v
+/// diagram replaces the conditions on acceleration, slope and top speed.
 namespace trackbed {
 
 /// The change that would bring a plan back within a limit.
@@ -71,8 +71,8 @@ std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request);
 /// How much MakeFeasible finds out about the cause of a refusal.
 enum class Refusal {
   kBrief,  ///< Lists the exceeded limits.
-  /// If the car starts too fast, also finds the highest feasible start speed. A refusal then takes
-  /// up to ten times as long.
+  /// If the car starts too fast, also finds the highest feasible start speed. With kExplained, a
+  /// refusal takes up to ten times as long.
   kExplained,
 };
 
@@ -123,7 +123,7 @@ FeasiblePlan MakeFeasibleFromHere(Plan plan, const PlanRequest& request);
 void SetSpeeds(Plan& plan, double start_speed, const SpeedLimits& limits);
 
 /// Formats an exceeded limit, for example "steering rate 0.95 rad/s exceeds 0.151 rad/s at s = 42
-/// m". The hint follows in parentheses.
+/// m". If there is a hint (Excess::hint), the hint follows in parentheses.
 std::string ToString(const Excess& excess);
 
 }  // namespace trackbed

@@ -6,23 +6,25 @@
 
 #include "trackbed/path/path.h"
 
-/// Finds where a path takes a long way from one waypoint to the next.
+/// Finds the waypoints between which a path makes a long detour.
 namespace trackbed {
 
 /// The part of a path between two successive waypoints.
 struct LongLeg {
-  std::size_t to = 0;     ///< Index of the waypoint at its end in the route, >= 1.
+  std::size_t to = 0;     ///< Index in the route of the waypoint at the part's end, >= 1.
   double length = 0.0;    ///< Length of the path between the waypoints [m].
   double straight = 0.0;  ///< Distance between the waypoints [m].
 };
 
-/// Returns the leg on which the path exceeds the straight line between its waypoints by the largest
-/// length; nullopt if no leg exceeds it by `excess` [m] > 0, or if there are fewer than two
-/// waypoints. The path passes the waypoints in their order, each where the sum of all distances is
-/// smallest; it starts at the first waypoint and ends at the last one. The lengths are multiples of
-/// a spacing of at most a sixteenth of `excess`, or of a ten thousandth of the path.
-/// Cost: proportional to the number of waypoints times length/excess; nothing but the lengths of
-/// the lines if the whole path is short enough.
+/// Returns the leg with the largest extra length, which is the length of the path minus the length
+/// of the straight line between the leg's waypoints. Returns nullopt if every extra length is below
+/// `excess` [m], > 0, or if there are fewer than two waypoints. The path starts at the first
+/// waypoint, passes the waypoints in their order, and ends at the last waypoint. The stations of
+/// the waypoints are those for which the sum of the distances between path and waypoints is
+/// smallest. Lengths are multiples of a spacing, which is at most a sixteenth of `excess` or, if
+/// larger, a ten thousandth of the path. Cost: proportional to the number of waypoints times
+/// length/excess. If the whole path exceeds the straight lines by less than `excess`, the function
+/// returns at once.
 std::optional<LongLeg> LongestLeg(const Path& path, const std::vector<Vec2>& waypoints,
                                   double excess);
 

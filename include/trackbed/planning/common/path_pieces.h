@@ -27,7 +27,8 @@ struct PathPiece {
   Stations stations;
   double curvature = 0.0;  ///< Largest curvature |kappa| on the piece [1/m].
   int direction = 1;       ///< Direction of travel, 1 or -1.
-  /// Curvature at both ends of the piece and, if it has an extremum within the piece, also there.
+  /// Curvature at both ends of the piece and, if the curvature has an extremum within the piece,
+  /// also at the extremum.
   std::array<Bend, 3> samples{};
   std::size_t count = 0;  ///< Number of samples, 2 or 3.
 
@@ -46,16 +47,16 @@ struct PieceSpeed {
 /// |kappa'|/(1 + (L kappa)^2) [rad/m].
 double SteeringSlope(const VehicleParams& vehicle, const Bend& bend);
 
-/// Returns the largest magnitude of the steering rate |d delta/dt| that the car needs in one of the
-/// bends [rad/s], on its tyres or as a kinematic car without slip.
+/// Returns the largest magnitude of the steering rate |d delta/dt| that the car needs in any of the
+/// `bends` [rad/s], on its tyres or as a kinematic car without slip.
 double SteeringRateOn(const VehicleParams& vehicle, std::span<const Bend> bends,
                       const PieceSpeed& speed);
 
 /// Returns a speed of at most `at.speed` with which the car needs at most the steering rate `rate`
-/// [rad/s] in all of the bends; infinite if `at.speed` needs no more. For a car that understeers,
-/// the result is the largest such speed, to nine digits, because the steering rate increases with
-/// the speed. Takes the acceleration of the car and the friction of the road from `at`. A rate of 0
-/// means no limit.
+/// [rad/s] in all of the `bends`. Returns infinity if the car needs no higher steering rate than
+/// `rate` at `at.speed`. For a car that understeers, the result is the largest of these speeds, to
+/// nine digits, because the steering rate increases with the speed. Takes the acceleration of the
+/// car and the friction of the road from `at`. A rate of 0 means no limit.
 double SpeedForSteeringRate(const VehicleParams& vehicle, std::span<const Bend> bends, double rate,
                             const PieceSpeed& at);
 

@@ -15,16 +15,16 @@ namespace trackbed {
 [[nodiscard]] double ExtraLength(const Plan& plan, const PlanRequest& request);
 
 /// Returns whether the path is longer than the straight lines from the start through the waypoints
-/// by the car's smallest turning radius or more. A refused plan is a detour.
+/// by the car's smallest turning radius or more. A refused plan counts as a detour.
 [[nodiscard]] bool IsDetour(const Plan& plan, const PlanRequest& request);
 
 /// Returns whether `plan` is shorter than `best` by the car's smallest turning radius or more, and
-/// takes no longer to drive. Every path is better than a refusal.
+/// takes no longer to drive. Any plan with a path counts as better than a refused plan.
 [[nodiscard]] bool IsShorterAndNotSlower(const Plan& plan, const Plan& best,
                                          const VehicleParams& car);
 
 /// Adds a note to a detour of a rolling car if `plan` makes a path for a car at rest that is
-/// shorter and not slower. The note gives both lengths. Calls `plan` at most once.
+/// shorter and not slower. The note states the lengths of both paths. Calls `plan` at most once.
 void NoteDetourOfRollingStart(const PlanRequest& request, Plan& detour,
                               const std::function<Plan(const PlanRequest&)>& plan);
 

@@ -38,8 +38,8 @@ struct AvoidedStretch {
   /// Largest lateral acceleration on the new stretch at `speed` [m/s^2].
   double lateral_acceleration_max = 0.0;
   std::vector<Vec2> control_points;  ///< Control points of the new stretch's Bezier curve [m].
-  /// Errors at the end of the stretch of a simulated kinematic car that drives the stretch open
-  /// loop.
+  /// Errors of a simulated kinematic car at the end of the stretch, after the car has driven the
+  /// stretch open loop.
   double end_distance = 0.0;  ///< Distance of the simulated car from the end of the stretch [m].
   /// Heading of the simulated car minus heading of the path [rad].
   double end_heading_error = 0.0;

@@ -96,8 +96,9 @@ class RoadHold {
 
   /// Computes grip and required accelerations at a station; `side` has the sign of the curvature.
   [[nodiscard]] Demand DemandAt(const Path& path, double s, double along, double side) const;
-  /// Returns the acceleration `along` the path [m/s^2], or what the friction ellipse leaves of it
-  /// beside gravity's pull across the path. `road` is the factor on the tyres' friction.
+  /// Returns the acceleration `along` the path [m/s^2], reduced to the part that the friction
+  /// ellipse allows in addition to gravity's pull across the path. `road` is the factor on the
+  /// tyres' friction.
   [[nodiscard]] double BesideSlope(double along, double road, const Tilt& tilt) const;
   [[nodiscard]] double Factor(const Pose2& pose) const;
   [[nodiscard]] Tilt TiltAt(const PathPoint& at) const;

@@ -29,16 +29,16 @@ Plan Refused(PlanStatus status, std::string reason);
 Plan CheckRoute(const PlanRequest& request);
 
 /// Same as CheckRoute, for a planner that meets the headings at the waypoints. If the request has
-/// headings, a leg needs no length: between two headings at one point, the car turns in place. The
-/// leg is not valid only if its two poses are equal, except for rounding errors.
+/// headings, a leg needs no length: between two headings at one point, the car turns in place. With
+/// headings, a leg is only invalid if its two poses are equal, except for rounding errors.
 Plan CheckPoses(const PlanRequest& request);
 
 /// Returns a rejected plan if the requested turning radius is too small for the car.
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius);
 
 /// Returns the checker for plans that keep `safe_distance` [m] from the obstacles of the request.
-/// From an obstacle that is nearer to the car at its start, the car may leave: it keeps at least
-/// half the distance that it has at the start.
+/// An obstacle may be nearer than `safe_distance` to the car at its start. From this obstacle, the
+/// car keeps at least half of the distance at the start.
 CollisionChecker CheckerFromStart(const PlanRequest& request, double safe_distance);
 
 /// Returns the waypoints after the first at which the car may be clear of obstacles.

@@ -22,8 +22,8 @@ struct WaypointMiss {
   double station = 0.0;      ///< Station at which the path is nearest to the waypoint [m].
 };
 
-/// Distances that differ by less count as equal [m], because rounding errors of a path that is far
-/// from the origin may be as large.
+/// Distances that differ by less than this value [m] count as equal, because rounding errors of a
+/// path that is far from the origin may reach this value.
 inline constexpr double kSameMiss = 1e-6;
 
 /// Returns the waypoint from which the path is farthest, or the first of several such waypoints
