@@ -46,7 +46,7 @@ struct LaneChangePlannerOptions {
   double leave = 0.0;
   double join = 0.0;
   /// Distance of the car's front behind the beginning of section 1 at which the driver releases the
-  /// throttle [m], >= 0. From there on, the car coasts, and the run ends when the whole car has
+  /// throttle [m], >= 0. Beyond this place, the car coasts, and the run ends when the whole car has
   /// passed the last gate. If nullopt, the car keeps its speed through the course.
   std::optional<double> release{};
 };

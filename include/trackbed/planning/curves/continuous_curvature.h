@@ -14,10 +14,10 @@
 /// omega.
 ///
 /// A turn consists of a clothoid from the present curvature to 1/r, an arc of the radius r, and a
-/// clothoid to the curvature 0. All turns to one side that begin in one state follow the same
-/// circle of radius R > r around one center, on which they end with the curvature 0. Turns are
-/// joined by straights, or directly where two of these circles touch. A turn that is too short for
-/// the curvature 1/r has two clothoids of a smaller peak.
+/// clothoid to the curvature 0. All turns to one side that begin in the same state end, with the
+/// curvature 0, on one circle of radius R > r. Turns are joined by straights, or directly where two
+/// circles of radius R touch. A turn that is too short for the curvature 1/r has two clothoids with
+/// a smaller peak curvature.
 namespace trackbed {
 
 /// A pose of the car and the curvature of its path at this pose.
@@ -32,8 +32,8 @@ struct CurveLimits {
   double sharpness = 1.0;  ///< Largest sharpness sigma [1/m^2], > 0.
 };
 
-/// The circle that all turns to one side follow that begin in one state of curvature 0, in units of
-/// r.
+/// The circle on which all turns to one side end if they begin in the same state of curvature 0.
+/// Lengths are in units of r.
 struct TurnCircle {
   double sharpness = 1.0;  ///< Largest sharpness, sigma r^2.
   double least = 0.0;      ///< Deflection of a clothoid between the curvatures 0 and 1/r [rad].
@@ -45,13 +45,13 @@ struct TurnCircle {
 ///
 /// Guarantees, for distances up to 1e3 r: the curve starts with the pose and curvature of the state
 /// `from`. The curve ends within 1e-9 m and 1e-9 rad of the state `to`. The curvature never exceeds
-/// 1/r, and the sharpness never exceeds sigma, except for rounding errors. Mirrored states have the
-/// mirrored curve. The lengths are at least those of Dubins and Reeds-Shepp curves of radius r, and
-/// approach these lengths as sigma grows. The curve is the shortest of its families of words, which
-/// is not always the shortest possible curve of continuous curvature.
+/// 1/r, and the sharpness never exceeds sigma, except for rounding errors. For mirrored states, the
+/// result is the mirrored curve. The lengths are at least those of Dubins and Reeds-Shepp curves of
+/// radius r, and approach these lengths as sigma grows. The curve is the shortest among the tested
+/// families of words. The result is not always the shortest possible curve of continuous curvature.
 ///
 /// All functions throw PreconditionError if a pose is not finite, or if the magnitude of a
-/// curvature is above 1/r by more than rounding.
+/// curvature is above 1/r by more than rounding errors.
 class ContinuousCurves {
  public:
   /// Throws InternalError unless the radius and the sharpness are positive and finite.
@@ -67,17 +67,20 @@ class ContinuousCurves {
                                                        const CurveState& to) const;
 
   /// Returns the shortest word for a car that drives forwards and backwards, with continuous
-  /// curvature also at cusps (CC-Reeds-Shepp). The curve is never longer than that of Dubins.
+  /// curvature also at cusps (CC-Reeds-Shepp). The curve is never longer than the curve that Dubins
+  /// returns.
   [[nodiscard]] ShortestCurve ReedsShepp(const CurveState& from, const CurveState& to) const;
   [[nodiscard]] std::vector<ShortestCurve> ReedsSheppWords(const CurveState& from,
                                                            const CurveState& to) const;
 
   /// Returns the shortest word for a car that drives forwards and backwards, and whose curvature
-  /// may step at a cusp, where the car stands (HC-Reeds-Shepp). If the car leaves or reaches a
-  /// state of full curvature by a cusp at once, the curvature steps at this state. The curve is
-  /// never longer than that of ReedsShepp, and is that curve if no word with steps is shorter.
+  /// may step at a cusp, where the car stands (HC-Reeds-Shepp). If the curve has a cusp right at
+  /// its start or end, and the state there has the full curvature 1/r, the curvature steps at this
+  /// state. The curve is never longer than the curve that ReedsShepp returns. If no word with steps
+  /// is shorter, both curves are equal.
   [[nodiscard]] ShortestCurve HybridReedsShepp(const CurveState& from, const CurveState& to) const;
-  /// Returns the words with steps at all cusps; those without steps are in ReedsSheppWords.
+  /// Returns only the words whose curvature steps at all cusps. ReedsSheppWords returns the words
+  /// without steps.
   [[nodiscard]] std::vector<ShortestCurve> HybridReedsSheppWords(const CurveState& from,
                                                                  const CurveState& to) const;
 

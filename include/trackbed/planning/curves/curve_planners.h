@@ -12,8 +12,8 @@ namespace trackbed {
 
 /// How the curvature of a path of curves may change.
 enum class CurveCurvature {
-  /// The curvature is continuous, except at cusps, if the car can drive such a path; otherwise it
-  /// steps. A note of the plan says why the curvature steps.
+  /// The curvature is continuous, except at cusps, if the car can drive such a path; otherwise, the
+  /// curvature steps. A note of the plan says why the curvature steps.
   kAuto,
   kSteps,       ///< Steps between straights and arcs, at a speed that the steering can follow.
   kContinuous,  ///< Continuous curvature (continuous_curvature.h).
@@ -34,14 +34,15 @@ struct DubinsOptions {
   double safe_distance = 0.3;
   /// Lowest speed of the car at a step of curvature, or on turns of continuous curvature [m/s].
   double min_speed = 0.3;
-  CurveCurvature curvature = CurveCurvature::kAuto;  ///< kAuto, kSteps or kContinuous.
+  /// How the curvature may change: kAuto, kSteps or kContinuous.
+  CurveCurvature curvature = CurveCurvature::kAuto;
   /// Largest lateral acceleration on curves of continuous curvature [m/s^2], > 0; at most half of
   /// the tyres' grip applies anyway.
   double max_lateral_acceleration = 3.0;
   /// Fraction of the car's steering rate that curves of continuous curvature use, in (0, 1].
   double max_steering_rate_fraction = 0.9;
   CurveObjective objective =
-      CurveObjective::kTime;  ///< Minimized by curves of continuous curvature.
+      CurveObjective::kTime;  ///< Quantity that curves of continuous curvature minimize.
 };
 void Visit(KeyVisitor& keys, DubinsOptions& options);
 

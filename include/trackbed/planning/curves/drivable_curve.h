@@ -15,10 +15,10 @@
 /// kappa its curvature [1/m]; S = v L kappa/omega length of a ramp from straight to kappa [m], from
 /// above, since atan(L kappa) <= L kappa.
 ///
-/// An arc of a shortest curve is short if it has no room for its ramps. The car then turns by phi
-/// on an arc of the smaller curvature kappa = sqrt(omega phi/(4 L v)), whose length is 4 S. If phi
-/// tends to zero, the length and the curvature of this arc tend to zero. Turns due to rounding
-/// therefore need no threshold.
+/// An arc of a shortest curve is short if it has no room for its ramps. Instead of a short arc, the
+/// car turns by phi on an arc of the smaller curvature kappa = sqrt(omega phi/(4 L v)), whose
+/// length is 4 S. If phi tends to zero, the length and the curvature of this arc tend to zero.
+/// Therefore, no threshold is needed to ignore tiny turns that are due to rounding errors.
 namespace trackbed {
 
 /// States how the car drives a curve between two poses.
@@ -28,7 +28,7 @@ struct CurveDrive {
   double radius = 0.0;        ///< Radius of the arcs of shortest curves [m], > 0.
   double road = 1.0;          ///< Factor on the tyres' friction, > 0.
   double start_speed = 0.0;   ///< Speed of a car that rolls at the start [m/s], >= 0.
-  double deceleration = 1.0;  ///< Braking before the first ramp [m/s^2], > 0.
+  double deceleration = 1.0;  ///< Deceleration before the first ramp [m/s^2], > 0.
   PathBend before{};          ///< Bend of the path before the curve.
   PathBend after{};           ///< Bend of the path after the curve.
 };

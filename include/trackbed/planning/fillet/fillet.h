@@ -63,15 +63,16 @@ enum class RadiusObjective {
   /// needs no search.
   kLargest,
   /// Chooses radii by the two passes of listing F.1 (Skackauskas, dissertation). The first pass
-  /// simulates a run with the smallest radii. For each turn, this run yields the time t and the
-  /// heading change dpsi of an interval. The interval begins when the wheels turn back at the end
-  /// of the previous turn, and ends at the same moment of this turn. The second pass is a search
-  /// that minimizes (psi'(r) t - dpsi)^2, where psi'(r) is the yaw rate on the radius r. The time t
-  /// includes the straight before the turn; therefore, the optimum for the first turn always lies
-  /// on the constraint.
+  /// simulates a run with the smallest radii. For each turn, the first pass yields the time t and
+  /// the heading change dpsi of an interval. The interval of a turn begins when the wheels turn
+  /// back at the end of the previous turn, and ends when they turn back at the end of the turn
+  /// itself. The second pass is a search that minimizes (psi'(r) t - dpsi)^2, where psi'(r) is the
+  /// yaw rate on the radius r. The time t includes the straight before the turn; therefore, the
+  /// optimum for the first turn always lies on the constraint.
   kLiteral,
-  /// Same as kLiteral, but t and dpsi cover only the turn itself, from D_{2k-1} to D_2k. The chosen
-  /// radius is then the radius that the rate-limited car actually drove in the first run.
+  /// Same as kLiteral, but t and dpsi cover only the turn itself, from D_{2k-1} to D_2k. With
+  /// kTurnLocal, the chosen radius is the radius that the rate-limited car actually drove in the
+  /// first run.
   kTurnLocal,
   /// Optimizes all radii and the distances D_{2k-1}, D_2k and D_end together (the complete eq.
   /// (C.20)). The objective J (DrivenWeights) penalizes the distance between the simulated car and
@@ -98,8 +99,8 @@ struct FilletOptions {
   /// radius L/tan(d_0) between turns.
   double neutral_steering = 0.0;
   /// Upper bound of the radii that the search considers [m]. The default of 154 m is taken from
-  /// listing F.1 and corresponds to a steering angle of one degree. The radius is larger at a turn
-  /// of less than a degree for which only a larger radius meets eq. (C.40).
+  /// listing F.1 and corresponds to a steering angle of one degree. Radii above this bound are only
+  /// used in turns of less than a degree for which no smaller radius meets eq. (C.40).
   double max_radius = 154.0;
   InfeasibleTurnPolicy without_room = InfeasibleTurnPolicy::kSlowDown;
   double min_speed = 0.5;  ///< Lowest speed of the car in a turn [m/s].
@@ -198,9 +199,9 @@ inline constexpr std::size_t kMinFilletWaypoints = 2;
 
 /// Plans a path along a route of N >= 2 waypoints. The car drives at `speed` [m/s], and more slowly
 /// in turns that require a lower speed. A waypoint at which the route continues straight is no
-/// turn. If a turn has no room, the route leaves out waypoints that it then passes within a quarter
-/// of the car's width and FilletOptions::max_waypoint_miss. All turns must then have room. The
-/// argument `seed` initializes the random numbers of the search.
+/// turn. If a turn has no room, the route leaves out waypoints, but still passes them within a
+/// quarter of the car's width and FilletOptions::max_waypoint_miss. All remaining turns must have
+/// room. The argument `seed` initializes the random numbers of the search.
 ///
 /// Guarantees: the path is continuous in position and heading to 1e-9, starts at the first waypoint
 /// along the first leg and ends at the last waypoint. Every radius meets the constraint of its
