@@ -25,15 +25,15 @@ namespace trackbed {
 /// adds the cost K_s (s - S_1)^2, where S_1 is the desired station when the car arrives at the
 /// node.
 ///
-/// Guarantees: the guarantees of PlanFrenet also hold here, with edges in place of candidates.
-/// Every edge of the resulting path was checked for the time at which the car drives the edge. With
-/// one layer, the result is the cheapest of PlanFrenet's candidates with the same end states and
-/// durations. With more layers, the result costs at most as much as the cheapest single edge to the
-/// last layer. If no obstacle moves, the result is optimal among all paths through the lattice.
-/// With moving obstacles, the result is optimal among the paths on which the part up to each node
-/// is the cheapest path to this node. Throws the same exceptions as PlanFrenet. Computing time: 3
-/// ms with the default options. The planner computes the costs of O((layers x offsets x speeds)^2)
-/// edges, and checks edges in order of cost.
+/// Guarantees: the guarantees of PlanFrenet also hold for PlanLattice, with edges in place of
+/// candidates. Every edge of the resulting path was checked for the time at which the car drives
+/// the edge. With one layer, the result is the cheapest of PlanFrenet's candidates with the same
+/// end states and durations. With more layers, the result costs at most as much as the cheapest
+/// single edge to the last layer. If no obstacle moves, the result is optimal among all paths
+/// through the lattice. With moving obstacles, the result is optimal among the paths on which the
+/// part up to each node is the cheapest path to this node. Throws the same exceptions as
+/// PlanFrenet. Computing time: 3 ms with the default options. The planner computes the costs of
+/// O((layers x offsets x speeds)^2) edges, and checks edges in order of cost.
 FrenetPlan PlanLattice(const Path& reference, const FrenetRequest& request,
                        const LatticeOptions& options);
 

@@ -45,7 +45,7 @@ double ReachBeyond(const RoadEdges& edges, const VehicleParams& vehicle, const P
 
 /// Computes the edges of a track relative to a path along the track, for a car whose footprint
 /// keeps `distance` [m] from the edges. Where a car exactly on the path would be closer to an edge
-/// than `distance`, other cars may come as close to this edge as the car on the path. A car on the
+/// than `distance`, the car may come as close to this edge as it would on the path. A car on the
 /// path is therefore always within the computed edges, even where the path leaves the track. Beyond
 /// the path's end, the edges keep their distance from the path at the end.
 ///
