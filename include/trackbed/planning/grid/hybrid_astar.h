@@ -21,26 +21,27 @@
 /// curvature 0, +-1/(2r) or +-1/r. The cost of a path is its length [m], where reverse stretches
 /// count `reverse_cost` times. Every change of direction adds `switch_cost` to the cost of the
 /// path. Every joint between arcs adds `steering_cost` times the change of curvature divided by
-/// 1/r. The search estimates the cost from a pose to the goal as the larger of two lengths: that of
-/// the shortest Reeds-Shepp curve, and that of the shortest grid path around the obstacles, divided
-/// by 1.0824. The divisor 1.0824 is needed because a path on an empty grid is up to 1.0824 times as
-/// long as a straight line.
+/// 1/r. The search estimates the cost from a pose to the goal as the larger of two lengths: the
+/// length of the shortest Reeds-Shepp curve, and the length of the shortest grid path around the
+/// obstacles, divided by 1.0824. The divisor 1.0824 is needed because a path on an empty grid is up
+/// to 1.0824 times as long as a straight line.
 ///
 /// Steps are as long as the larger of 1.5 cells and one heading cell times r, so that no step of
-/// curvature 1/r shares a cell with a straight step. If the search at the requested cells finds no
-/// path, other searches follow at a fixed series of resolutions, from the start and from the goal.
-/// The series depends only on r and on the problem: finer cells or headings lose no path that the
-/// series finds.
+/// curvature 1/r shares a cell with a straight step. If the search with the requested cells finds
+/// no path, other searches follow with a fixed series of cell sizes, from the start and from the
+/// goal. The series depends only on r and on the problem. Therefore, a request for finer cells or
+/// headings loses no path that the series finds.
 ///
 /// With clothoids (CurveCurvature::kContinuous and kCuspSteps), the curvature of the path is
 /// continuous. The state of the search includes the curvature. Each step is an arc of the present
-/// curvature, or a clothoid to the next of the five curvatures. The length of a clothoid is the one
-/// that the steering needs at one of a few speeds, from the speed v of the mission down to the
-/// lowest speed. The last curve is a curve of continuous curvature (continuous_curvature.h) for one
-/// of these speeds. A stretch on which the car drives at w < v counts v/w times. Each change of
-/// speed and each turn of the wheels at rest counts the distance that the car would drive at v in
-/// the lost time. If the search finds the first path after n expansions, it ends at the latest
-/// after n + 1500 further expansions. The cost may therefore be above `weight` times the optimum.
+/// curvature, or a clothoid to the next of the five curvatures. Each clothoid is as long as the
+/// steering needs at one of a few speeds, from the speed v of the mission down to the lowest speed.
+/// The last curve, which ends at the goal, is a curve of continuous curvature
+/// (continuous_curvature.h) for one of these speeds. The cost of a stretch on which the car drives
+/// at w < v is multiplied by v/w. Each change of speed and each turn of the wheels at rest adds the
+/// distance that the car would drive at v in the lost time. If the search finds the first path
+/// after n expansions, it ends at the latest after n + 1500 further expansions. Because of this
+/// limit, the cost may be above `weight` times the optimum.
 namespace trackbed {
 
 struct HybridAStarOptions {
@@ -67,7 +68,7 @@ struct HybridAStarOptions {
   /// the tyres' grip applies anyway.
   double max_lateral_acceleration = 3.0;
   /// Fraction of the car's steering rate that paths of continuous curvature use, in (0, 1]. The
-  /// rest is left for the corrections of controllers close to obstacles.
+  /// remaining steering rate is left for the corrections of controllers close to obstacles.
   double max_steering_rate_fraction = 0.6;
 };
 void Visit(KeyVisitor& keys, HybridAStarOptions& options);
@@ -92,8 +93,8 @@ struct HybridAStarProblem {
   std::vector<OrientedBox> obstacles{};
   /// Whether the car rolls forwards at the start, so that the path cannot begin backwards.
   bool rolls = false;
-  /// How the car drives the last curve, whose short arcs then become gentler (drivable_curve.h). If
-  /// empty, the last curve is a shortest curve.
+  /// How the car drives the last curve; gentler arcs then replace short arcs of this curve
+  /// (drivable_curve.h). If empty, the last curve is a shortest curve.
   std::optional<CurveDrive> drive{};
   ClothoidDrive clothoids{};  ///< How the car drives a path of continuous curvature.
 };
@@ -111,12 +112,13 @@ struct HybridAStarResult {
 
 /// Searches for a path by Hybrid A*. Guarantees for the status kOk: the path ends within 1e-9 m and
 /// 1e-9 rad of the goal pose. The last part of the path is a Reeds-Shepp curve, or a Dubins curve
-/// if the car may not drive backwards. If the search from the goal found the path, this curve is
-/// the first part of the path instead. With `drive`, short arcs of this curve are gentler. The
-/// curvature of the path never exceeds 1/r. With clothoids, the last or first part is a curve of
-/// continuous curvature. The path then begins with the curvature `start_curvature` and ends with
-/// straight wheels. The curvature steps at no place except, with kCuspSteps, at cusps and where the
-/// car rests at the start or at the goal. The car's footprint is clear of all obstacles
+/// if the car may not drive backwards. If the search from the goal found the path, the Reeds-Shepp
+/// or Dubins curve is the first part of the path instead. If the problem has `drive`, short arcs of
+/// the Reeds-Shepp or Dubins curve are replaced by gentler arcs. The curvature of the path never
+/// exceeds 1/r. With clothoids, the last or first part is a curve of continuous curvature. A path
+/// with clothoids begins with the curvature `start_curvature` and ends with straight wheels. With
+/// kContinuous, the curvature has no steps. With kCuspSteps, the curvature may only step at cusps,
+/// and at the start or goal if the car rests there. The car's footprint is clear of all obstacles
 /// (CollisionChecker). The same input always yields the same result. The path is not globally
 /// optimal, because the search keeps only one pose per cell, and because the path must contain a
 /// Reeds-Shepp or Dubins curve. If the budget is used up, the function returns the best path found
