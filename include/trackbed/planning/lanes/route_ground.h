@@ -37,11 +37,12 @@ struct RouteGround {
 /// route needs. All other roads are laid on the smooth ground, regardless of their heights. A route
 /// may pass above or below other roads, but not above or below itself.
 ///
-/// `failure` gives the reason. Heights in the file may be of a kind that is not supported. Lanes of
-/// two roads may lie more than 0.1 m above each other at one place. The surface may deviate by more
-/// than 1 cm. Roads may be steeper than 45 degrees, higher than 10 km, wider than 50 m on either
-/// side, or longer than 20 km together. The roads may also be spread over more than 8 km along x or
-/// y.
+/// RouteGround::failure states why no ground could be made. The function fails if heights in the
+/// file are of an unsupported kind, or if lanes of two roads lie more than 0.1 m above each other
+/// at one place. The function fails if the surface deviates by more than 1 cm. The function fails
+/// if roads are steeper than 45 degrees, higher than 10 km, wider than 50 m on either side, or
+/// longer than 20 km together. The function also fails if the roads are spread over more than 8 km
+/// along x or y.
 ///
 /// If FindLaneRoute finds no route, the result has neither a terrain nor a failure. Throws
 /// PreconditionError in the same cases as FindLaneRoute. Cost: about 1 s of computing time and 3 MB
