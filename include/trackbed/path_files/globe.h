@@ -74,7 +74,7 @@ struct GlobePoints {
   std::vector<Vec2> points;  ///< Positions [m]; empty if there is a `problem`.
   std::string note;
   std::size_t bad = 0;  ///< Number of the position that cannot be projected.
-  std::string problem;  ///< Reason for `bad`; empty if all positions can be projected.
+  std::string problem;  ///< Why `bad` cannot be projected; empty if there is no `bad` position.
 };
 
 /// Projects valid positions to a plane about `origin`, by default the first position.

@@ -18,7 +18,7 @@ namespace trackbed {
 
 enum class PathFaultKind {
   kReversal,  ///< The path turns back on itself by more than kMaxHeadingJump [rad].
-  /// The heading of a polyline jumps at a corner [rad]. No car can follow such a corner without
+  /// The heading of a polyline jumps at a corner [rad]. No car can follow a corner without
   /// stopping; the planner `path_file` rejects paths with corners.
   kHeadingJump,
   kSteeringAngle,  ///< The steering angle exceeds its limit: |delta| > delta_max [rad].

@@ -16,7 +16,8 @@ namespace trackbed {
 enum class PathSpeeds {
   kMission,  ///< The car drives at the mission's speed.
   /// The car drives at the speeds of the file's points, limited by the mission's speed and the
-  /// car's limits. If the file has times, the car waits where the file's car stands.
+  /// car's limits. If the file has times, the car waits at the places where the car stands
+  /// according to these times.
   kFile,
 };
 
@@ -69,8 +70,8 @@ PathFileDiagnostics DiagnosticsOf(const FittedPath& fitted);
 std::string Describe(const FittedPath& fitted);
 
 /// Returns the remedy, as the end of a message, if the path turns back on itself
-/// (FittedPath::reversals). `noise_key` names the option against noise, to which the message adds
-/// the value.
+/// (FittedPath::reversals). `noise_key` is the text that names the option against noisy points; the
+/// message adds a value for this option.
 std::string ReversalRemedy(const FittedPath& fitted, const std::string& noise_key);
 
 /// Returns the planner `path_file`. The plan follows the path in PathFileOptions from its first
