@@ -30,7 +30,8 @@ struct MinimumCurvatureLine {
   std::string refused;  ///< Reason why no line was found; else empty.
   TrackLine line;
   int iterations = 0;  ///< Number of quadratic programs that were solved.
-  /// Half of the room between the bounds where it is least, plus b [m]: lines exist for smaller b.
+  /// Upper limit of b [m]: lines exist only for smaller b. The limit is half of the smallest
+  /// distance between the bounds, plus b.
   double room = 0.0;
 };
 
@@ -42,9 +43,9 @@ struct MinimumCurvatureLine {
 /// m. The last step changed the integral of kappa^2 by a fraction of less than 1e-6. The problem is
 /// not convex, so that the line is only a local minimum. The car's rear axle follows the line. In a
 /// bend of radius r, a front corner of the car is therefore farther out than the car's side at the
-/// rear axle, by about l_f^2/(2 r). Here, l_f is the distance from the rear axle to the car's front
-/// [m]. Throws RunError if the program was built without IPOPT. Computing time: 0.6 s per kilometer
-/// of track, for track points 5 m apart.
+/// rear axle, by about l_f^2/(2 r). In this formula, l_f is the distance from the rear axle to the
+/// car's front [m]. Throws RunError if the program was built without IPOPT. Computing time: 0.6 s
+/// per kilometer of track, for track points 5 m apart.
 MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside);
 
 struct MinimumCurvatureDiagnostics {

@@ -48,8 +48,8 @@ double LapTime(const Track& track, const TrackLine& line, const LapLimits& limit
 
 enum class MinimumTimeEnd {
   /// The search has converged if the predicted gain of a step is at most 1e-4 of the lap time. The
-  /// search has also converged if this gain is at most 5e-4 of the lap time, and no fraction of the
-  /// step makes the lap faster.
+  /// search has also converged if the predicted gain is at most 5e-4 of the lap time, and no
+  /// fraction of the step makes the lap faster.
   kConverged,
   /// No step makes the lap faster, not even a step that changes the line by only a millimeter.
   kNoGain,
@@ -73,7 +73,8 @@ struct MinimumTimeLine {
   double last_gain = 0.0;  ///< Reduction of the lap time by the last accepted step [s].
   /// MinimumCurvatureLine::room if the track is too narrow; else 0.
   double room = 0.0;
-  /// Least curvature of the tightest bend that was found, if it is above kappa_max; else 0 [1/m].
+  /// Largest curvature |kappa| of the gentlest line that was found [1/m], if this curvature is
+  /// above kappa_max; else 0.
   double sharpest = 0.0;
 };
 
@@ -88,8 +89,9 @@ struct MinimumTimeLine {
 /// function ignores slopes, banks and changes of friction along the track. Throws RunError if the
 /// program was built without IPOPT. Computing time: 5 to 20 quadratic programs, each 1.4 s per
 /// kilometer of track, for track points 5 m apart. If the line of least curvature is too tight for
-/// the car, some 5 programs of the size of FindMinimumCurvature's come before. A track that is too
-/// narrow or too tight is refused without any program for the lap time.
+/// the car, about 5 quadratic programs of the size of those in FindMinimumCurvature are solved
+/// first. A track that is too narrow or too tight is refused before any quadratic program for the
+/// lap time is solved.
 MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimits& limits,
                                 int iterations = 40);
 

@@ -34,10 +34,10 @@ bool MayBePartial(const PlannerOptions& options);
 std::optional<double> PlannerSafeDistance(const PlannerOptions& options);
 
 /// Makes a plan by the planner to which the options belong, and makes the plan feasible
-/// (feasibility.h). If no plan exists for the mission, the status of the returned plan says so;
-/// this is not an exception. Throws InternalError if the mission contains a number that is not
-/// finite, which the caller should have rejected. Throws PreconditionError if an option is outside
-/// the range of its key.
+/// (feasibility.h). If no plan exists for the mission, MakePlan throws no exception; the status of
+/// the returned plan states the failure. Throws InternalError if the mission contains a number that
+/// is not finite, which the caller should have rejected. Throws PreconditionError if an option is
+/// outside the range of its key.
 FeasiblePlan MakePlan(const PlanRequest& request, const PlannerOptions& options);
 
 }  // namespace trackbed
