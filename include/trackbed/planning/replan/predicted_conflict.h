@@ -15,7 +15,7 @@ namespace trackbed {
 /// The first conflict on a plan: time and place at which the car, following the plan, will come too
 /// close to a known obstacle.
 struct PredictedConflict {
-  double time = 0.0;     ///< Time from now until the conflict [s].
+  double time = 0.0;     ///< Time from the prediction until the conflict [s].
   double station = 0.0;  ///< Station of the car on the plan at the conflict [m].
   std::size_t obstacle = 0;
 };
@@ -30,13 +30,13 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
                                                  double distance, double look_ahead,
                                                  double offset = 0.0);
 
-/// Returns whether an obstacle stands in a turn. This means that the path beyond `station` is
-/// curved at a place where the car is closer to the obstacle than `distance` [m].
+/// Returns whether an obstacle stands in a turn. An obstacle stands in a turn if the path beyond
+/// `station` is curved at a place where the car is closer to the obstacle than `distance` [m].
 bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station,
                   const OrientedBox& obstacle, double distance);
 
-/// Returns whether waiting may clear the path. This means that a moving obstacle is closer than
-/// `distance` [m] to the next 30 m of the path now or within a minute.
+/// Returns whether waiting may clear the path. Waiting may clear the path if a moving obstacle is,
+/// at present or within a minute, closer than `distance` [m] to the next 30 m of the path.
 bool MightClear(const VehicleParams& vehicle, const Path& path, double station,
                 const std::vector<MovingBox>& obstacles, double distance);
 

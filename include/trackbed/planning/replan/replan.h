@@ -16,8 +16,8 @@
 /// obstacle if there is no detour.
 ///
 /// During a run, the car drives one plan after the other. A new plan begins at the point of the old
-/// plan nearest to the car. The new plan has the curvature, speed and acceleration that the old
-/// plan has there, so that these quantities do not jump. If the car has strayed from its plan, the
+/// plan nearest to the car. At its start, the new plan has the curvature, speed and acceleration of
+/// the old plan, so that these quantities do not jump. If the car has strayed from its plan, the
 /// new plan begins with the car's actual pose, steering and speed.
 namespace trackbed {
 
@@ -101,11 +101,12 @@ struct Replanned {
 /// feasible is driven anyway, with a note, because no alternative is left.
 ///
 /// Guarantees: a new plan begins with the steering angle that the old plan has at the point nearest
-/// to the car. If the car has strayed, it begins with the actual steering angle. Conflicts are
-/// predicted over at least the time that the car needs to stop from the mission's speed, plus two
-/// replanning periods. The same input always yields a bit-identical result. New plans have no
-/// reverse segments. Throws InternalError if the options contain no method for motions. The
-/// computing time is the sum of the computing times of the motions and detours that are tried.
+/// to the car. If the car has strayed from its plan, the new plan begins with the car's actual
+/// steering angle. Conflicts are predicted over at least the time that the car needs to stop from
+/// the mission's speed, plus two replanning periods. The same input always yields a bit-identical
+/// result. New plans have no reverse segments. Throws InternalError if the options contain no
+/// method for motions. The computing time is the sum of the computing times of the motions and
+/// detours that are tried.
 Replanned Replan(const ReplanRequest& request, const Driving& driving,
                  const ReplanOptions& options);
 
