@@ -81,9 +81,9 @@ bool IsInTheWay(const VehicleParams& vehicle, const Path& path, double station,
 /// assume that these obstacles stand still. MakeFeasible slows down or rejects a new plan that
 /// exceeds the car's limits; plans of `listing` stay unchanged. If the new plan is rejected, the
 /// result is a plan that stops before the first obstacle. If the car is already driving, the
-/// stopping plan may brake harder than the grip of the road allows; a note of the plan then says
-/// so. Throws InternalError if an option is out of range. Computing time of `bezier`: 0.1 to 0.3 s
-/// per replaced stretch, some seconds if there is no solution. Computing time of `listing`: a
+/// stopping plan may brake harder than the grip of the road allows, with a note in the plan. Throws
+/// InternalError if an option is out of range. Computing time of `bezier`: 0.1 to 0.3 s per
+/// replaced stretch, some seconds if there is no solution. Computing time of `listing`: a
 /// millisecond.
 FeasiblePlan PlanAround(const AvoidanceRequest& request, const AvoiderOptions& options);
 

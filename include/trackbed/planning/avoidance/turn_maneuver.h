@@ -58,7 +58,7 @@ struct TurnManeuver {
 /// Whether a maneuver could be laid out.
 enum class TurnStatus {
   kOk,
-  /// The reduced angle of the turn is not positive, or too small for the steps of the grid.
+  /// The reduced angle of the turn is not positive, or so small that the arc has too few points.
   kNoTurn,
   kNoSafePoint,  ///< The turn is too tight to pass the obstacle on the inner side (r_k <= 0).
 };

@@ -16,8 +16,8 @@
 /// A plan is feasible if all of the following hold.
 ///
 ///   * The plan begins at the car's pose and speed and, if the car is rolling, with the curvature
-///     of the car's steering angle. The pose may differ by 1 mm (for a small car, a thousandth of
-///     its wheelbase) and 1 mrad.
+///     of the car's steering angle. The plan's start pose may differ from the car's pose by 1 mm
+///     (for a small car, a thousandth of its wheelbase) and 1 mrad.
 ///   * The steering angle is within its limit: |delta| <= delta_max.
 ///   * The steering rate along the steering schedule is within its limit: v |d delta/ds| <=
 ///     omega_delta.

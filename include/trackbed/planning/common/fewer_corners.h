@@ -19,7 +19,7 @@ struct WaypointChoice {
   std::vector<Vec2> waypoints;  ///< The mission's waypoints, beginning with the start [m].
   double max_gap = 0.0;         ///< Largest distance of the polyline from each waypoint [m].
   /// Returns the least room that a corner needs; the argument is the corner's heading change [rad],
-  /// > 0 and at most pi.
+  /// positive and at most pi.
   std::function<CornerRoom(double)> room;
   /// Share of the first and of the last leg that a corner may use. A corner may use half of any
   /// other leg.

@@ -15,8 +15,9 @@ namespace trackbed {
 
 /// Returns the poses at the stops of a route: the car's start pose, then the pose at every waypoint
 /// except the first. If the request has no headings, the heading at the goal is the direction of
-/// the last leg. The heading at any other waypoint is that of the circle through this waypoint, the
-/// preceding stop and the next stop: the car turns more on the longer leg.
+/// the last leg. The heading at any other waypoint is the direction of the circle through this
+/// waypoint, the preceding stop and the next stop. On this circle, the car turns more on the longer
+/// leg.
 std::vector<Pose2> PlannedStops(const PlanRequest& request);
 
 namespace route {

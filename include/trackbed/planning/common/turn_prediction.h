@@ -32,8 +32,8 @@ TurnError ErrorInTurn(const Path& path, const IsolatedTurn& turn, const Pose2& X
 /// Computes the exact deviation of a kinematic car with rate-limited steering at the middle of a
 /// turn. The steering actuator begins to move at the station `turn.from`, and then holds the
 /// steering angle delta of the arc. The wheels follow the steering actuator with a delay of `lag`
-/// [s]. A steering ramp of the length S = v delta/omega may be centered on the start of the arc.
-/// The heading deficit is then kappa S/2 - (v/(L omega)) (-ln cos delta) + kappa v lag.
+/// [s]. If a steering ramp of the length S = v delta/omega is centered on the start of the arc, the
+/// heading deficit is kappa S/2 - (v/(L omega)) (-ln cos delta) + kappa v lag.
 TurnError PredictTurn(const VehicleParams& vehicle, const Path& path, const IsolatedTurn& turn,
                       double lag);
 
