@@ -91,11 +91,11 @@ class Path {
   [[nodiscard]] PathBend BendAt(double s) const;
 
   /// Finds the point of the path that is nearest to `pose`, at stations in the interval `within`.
-  /// This interval may extend beyond the ends of the path. The station of the nearest point is
-  /// exact for lines and arcs, and has an error of at most 1e-9 m for other segments. On segments
-  /// other than lines and arcs, the returned point may not be the nearest point. This happens if
-  /// the pose is close to a center of curvature (within a tenth of the radius). Callers should
-  /// limit the search to stations near the last known station; otherwise, the result may jump to a
+  /// The interval `within` may extend beyond the ends of the path. The station of the nearest point
+  /// is exact for lines and arcs, and has an error of at most 1e-9 m for other segments. On
+  /// segments other than lines and arcs, the returned point may not be the nearest point if the
+  /// pose is close to a center of curvature (within a tenth of the radius). Callers should limit
+  /// the search to stations near the last known station; otherwise, the result may jump to a
   /// station at which the path crosses itself, or beyond a cusp. If several points are equally
   /// near, the point with the smallest station is returned. The cost is proportional to the number
   /// of segments in the interval `within`. Throws InternalError if `within` is empty. Throws
@@ -136,12 +136,12 @@ struct CurvePoint {
 
 /// Returns segments that follow a smooth curve in the forward direction. Each segment connects two
 /// neighboring points and has the curve's heading and curvature at both points. Between the points,
-/// the heading of the segments differs from the heading of the curve by at most h^4 k/384. Here, h
-/// is the distance of the points and k the largest third derivative of the curvature. The position
-/// error at the end of the segments is at most h^4 k/720 times the length of the curve, where h and
-/// k have the same meaning as for the heading. The position error is about 1e-7 m for points 0.1 m
-/// apart on bends that a car can drive. Throws InternalError unless the distances of the points
-/// along the curve increase.
+/// the heading of the segments differs from the heading of the curve by at most h^4 k/384. In this
+/// bound, h is the distance of the points and k the largest third derivative of the curvature. The
+/// position error at the end of the segments is at most h^4 k/720 times the length of the curve,
+/// where h and k have the same meaning as for the heading. The position error is about 1e-7 m for
+/// points 0.1 m apart on bends that a car can drive. Throws InternalError unless the distances of
+/// the points along the curve increase.
 std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points);
 
 }  // namespace trackbed
