@@ -126,7 +126,7 @@ struct LoopConfig {
 /// A plan that alternates between forward and reverse motion is driven segment by segment. While
 /// the car is at rest at the end of a segment, the wheels turn to the initial angle of the next
 /// segment; then the gear changes. A run along a path ends when the car is at rest, unless another
-/// segment or a new plan follows. DriveStatus lists the other ways in which a run can end.
+/// segment or a new plan follows. DriveStatus lists all ways in which a run can end.
 ///
 /// Guarantees: the same plant, controller, plan, configuration and build always produce the same
 /// log, bit for bit. SimulateClosedLoop modifies only the arguments `plant` and `controller`.

@@ -45,9 +45,9 @@ const char* ToString(DriveStatus status);
 struct LogRow {
   VehicleState state;
   Command command;
-  /// Cross-track and heading error of the car relative to the path; nullopt if there is no path.
-  /// Beyond the end of the path, the errors are relative to the straight extension of the path only
-  /// if the car stops slightly beyond the end.
+  /// Cross-track and heading error of the car relative to the path; nullopt if there is no path. Up
+  /// to the goal tolerance beyond the end of the path, the errors are relative to the straight
+  /// extension of the path. Farther beyond the end, the errors are relative to the end point.
   std::optional<Projection> tracking;
   /// Smallest distance from the footprints of car and trailer to the obstacles [m]; 0 on contact;
   /// nullopt if there are no obstacles.
