@@ -10,7 +10,7 @@
 
 namespace trackbed {
 
-/// A table of numbers with named columns, for the CSV files of a run. The first line of such a CSV
+/// A table of numbers with named columns, for the CSV files of a run. The first line of the CSV
 /// file contains the column names, which include units ("speed_mps"). Each further line contains
 /// the numbers of one row.
 ///

@@ -24,10 +24,10 @@ enum class ProbabilityVerdict {
 ///
 /// Guarantees: if the trials are independent and have the same probability of success, each of the
 /// two verdicts is wrong with a probability of at most 1 - confidence. If the true probability is
-/// at most P, L is a nonnegative supermartingale with a mean of at most 1. The probability that L
-/// reaches 1/(1 - confidence) after any number of trials is then at most 1 - confidence (Ville
-/// 1939). Likewise, if the true probability is at least P, M is a nonnegative supermartingale with
-/// a mean of at most 1. Unlike this test, Wald's test needs a second probability besides P, and
+/// at most P, L is a nonnegative supermartingale with a mean of at most 1. If the true probability
+/// is at most P, L ever reaches 1/(1 - confidence) with a probability of at most 1 - confidence
+/// (Ville 1939). If the true probability is at least P, M is a nonnegative supermartingale with a
+/// mean of at most 1. Unlike SequentialTest, Wald's test needs a second probability besides P, and
 /// guarantees nothing if the true probability lies between P and the second probability. If the
 /// true probability is very near P, the test needs many trials. If the true probability equals P,
 /// the test usually reaches no verdict.

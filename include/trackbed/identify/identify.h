@@ -36,13 +36,13 @@
 /// replayed on the estimated ground (recording/banked_track.h).
 ///
 /// Standard errors are computed as for an M-estimator with windows as independent clusters (Huber
-/// 1967; White 1980). The covariance matrix is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p). Here, g_i is
-/// the gradient of window i, n the number of windows, p the number of parameters, and H the
-/// Gauss-Newton Hessian of J. A parameter is not identified if its standard error exceeds the
-/// standard deviation of a uniform distribution over the parameter's bounds, (to - from)/sqrt(12).
-/// A parameter that is not identified is held at its start value, and the other parameters are
-/// estimated again. If several parameters have the same effect on the records, only one of these
-/// parameters is estimated.
+/// 1967; White 1980). The covariance matrix is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p). In the
+/// covariance matrix, g_i is the gradient of window i, n the number of windows, p the number of
+/// parameters, and H the Gauss-Newton Hessian of J. A parameter is not identified if its standard
+/// error exceeds the standard deviation of a uniform distribution over the parameter's bounds, (to
+/// - from)/sqrt(12). A parameter that is not identified is held at its start value, and the other
+/// parameters are estimated again. If several parameters have the same effect on the records, only
+/// one of these parameters is estimated.
 namespace trackbed {
 
 enum class ParameterStatus {
