@@ -96,9 +96,8 @@ class RoadHold {
 
   /// Computes grip and required accelerations at a station; `side` has the sign of the curvature.
   [[nodiscard]] Demand DemandAt(const Path& path, double s, double along, double side) const;
-  /// Returns the acceleration `along` the path [m/s^2], reduced to the part that the friction
-  /// ellipse allows in addition to gravity's pull across the path. `road` is the factor on the
-  /// tyres' friction.
+  /// Returns the acceleration `along` the path [m/s^2], limited by the friction ellipse, of which
+  /// gravity's pull across the path uses a part. `road` is the factor on the tyres' friction.
   [[nodiscard]] double BesideSlope(double along, double road, const Tilt& tilt) const;
   [[nodiscard]] double Factor(const Pose2& pose) const;
   [[nodiscard]] Tilt TiltAt(const PathPoint& at) const;

@@ -64,8 +64,8 @@ enum class RadiusObjective {
   kLargest,
   /// Chooses radii by the two passes of listing F.1 (Skackauskas, dissertation). The first pass
   /// simulates a run with the smallest radii. For each turn, the first pass yields the time t and
-  /// the heading change dpsi of an interval. The interval of a turn begins when the wheels turn
-  /// back at the end of the previous turn, and ends when they turn back at the end of the turn
+  /// the heading change dpsi of an interval. The interval begins when the wheels turn back at the
+  /// end of the previous turn. The interval ends when the wheels turn back at the end of the turn
   /// itself. The second pass is a search that minimizes (psi'(r) t - dpsi)^2, where psi'(r) is the
   /// yaw rate on the radius r. The time t includes the straight before the turn; therefore, the
   /// optimum for the first turn always lies on the constraint.

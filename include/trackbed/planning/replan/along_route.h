@@ -106,9 +106,9 @@ struct Leader {
 
 /// Plans the next motion along the route. The function tries motions in this order: stop at the end
 /// of the route, if the end is near; continue at the speed V, past obstacles in the way; pull out
-/// beside a moving leader that is slower than V, at a lower speed, but at least the leader's speed;
-/// follow a moving leader; continue at a lower speed, if the car can pass the obstacle at that
-/// speed; stop behind a standing leader; continue for now, as fast as the free space allows. A
+/// next to a moving leader that is slower than V, at a lower speed, but at least the leader's
+/// speed; follow a moving leader; continue at a lower speed, if the car can pass the obstacle at
+/// that speed; stop behind a standing leader; continue for now, as fast as the free space allows. A
 /// motion at lower speed may have a lower cost than a motion that passes the obstacle. The function
 /// nevertheless tries to pass at the speed V first, because slowing down does not remove a standing
 /// obstacle.
