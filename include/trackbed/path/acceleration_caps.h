@@ -21,9 +21,8 @@ struct AccelerationCap {
 /// Makes the speed profile that StopAtEnd makes without acceleration caps, and also keeps the
 /// acceleration and the deceleration within `sections`. The car brakes before a section if the
 /// deceleration on the section is too small. If the start speed is too high for the path ahead, the
-/// profile brakes harder than the maximum decelerations, at a constant deceleration, until the
-/// speed is low enough. Throws PreconditionError if a number is not finite; only the numbers of the
-/// caps may be infinite.
+/// profile brakes at a constant deceleration above the limits until the speed is low enough. Throws
+/// PreconditionError if a number is not finite; only the numbers of the caps may be infinite.
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps,
                        const std::vector<AccelerationCap>& sections);

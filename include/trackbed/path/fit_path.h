@@ -109,8 +109,8 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// The points are divided into legs, each driven in one direction of motion. The points' directions
 /// determine the legs; where directions are missing, the headings determine the legs. The car
 /// drives in reverse where its heading is opposite to the step to the next point. A leg that is
-/// shorter than max_deviation counts as noise. The car changes its direction of motion only at
-/// given points, which are the cusps of the path. Each leg is fitted as a separate curve. At a
+/// shorter than max_deviation counts as noise. The car changes its direction of motion only at some
+/// of the points, which are the cusps of the path. Each leg is fitted as a separate curve. At a
 /// cusp, the heading is continuous. The heading at a cusp is the given heading, corrected by the
 /// mean difference between curves and given headings. Without suitable given headings, the heading
 /// at a cusp is the mean of the headings of the two curves. The curvature may jump at a cusp, where
@@ -156,10 +156,10 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// car.
 ///
 /// A step between two points counts as a straight line in two cases. In the first case, the step is
-/// more than four times as long as the median step, and its curvature is less than a quarter of the
-/// curvature beside the step. In the second case, the spline would exceed the bound of `bulge` on
-/// the step, and the points turn by at most 45 degrees at both ends of the step. Points are added
-/// on straight lines (`added`), and the spline stays within max_deviation of the added points.
+/// more than four times as long as the median step, and has less than a quarter of the curvature
+/// beside it. In the second case, the spline would exceed the bound of `bulge` on the step, and the
+/// points turn by at most 45 degrees at both ends. Points are added on straight lines (`added`),
+/// and the spline stays within max_deviation of the added points.
 ///
 /// Throws InputError if there are fewer than two different points or more than 200 000 points to be
 /// fitted, or if no spline stays within max_deviation. Throws InputError if the heading of a point

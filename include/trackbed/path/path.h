@@ -92,14 +92,14 @@ class Path {
 
   /// Finds the point of the path that is nearest to `pose`, at stations in the interval `within`.
   /// The interval `within` may extend beyond the ends of the path. The station of the nearest point
-  /// is exact for lines and arcs, and has an error of at most 1e-9 m for other segments. On
-  /// segments other than lines and arcs, the returned point may not be the nearest point if the
-  /// pose is close to a center of curvature (within a tenth of the radius). Callers should limit
-  /// the search to stations near the last known station; otherwise, the result may jump to a
-  /// station at which the path crosses itself, or beyond a cusp. If several points are equally
-  /// near, the point with the smallest station is returned. The cost is proportional to the number
-  /// of segments in the interval `within`. Throws InternalError if `within` is empty. Throws
-  /// PreconditionError if the pose is not finite.
+  /// is exact for lines and arcs, and has an error of at most 1e-9 m for other segments. If the
+  /// pose is within a tenth of the radius of a center of curvature, the returned point may not be
+  /// the nearest point, except on lines and arcs. Callers should limit the search to stations near
+  /// the last known station; otherwise, the result may jump to a station at which the path crosses
+  /// itself, or beyond a cusp. If several points are equally near, the point with the smallest
+  /// station is returned. The cost is proportional to the number of segments in the interval
+  /// `within`. Throws InternalError if `within` is empty. Throws PreconditionError if the pose is
+  /// not finite.
   [[nodiscard]] Projection Project(const Pose2& pose, Stations within = {}) const;
 
   /// Returns evenly spaced points of the whole path, at most `spacing` [m] apart, including both
