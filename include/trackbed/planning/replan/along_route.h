@@ -107,11 +107,11 @@ struct Leader {
 /// Plans the next motion along the route. The function tries motions in this order: stop at the end
 /// of the route, if the end is near; continue at the speed V, past obstacles in the way; pull out
 /// next to a moving leader that is slower than V, at a lower speed, but at least the leader's
-/// speed; follow a moving leader; continue at a lower speed, if the car can pass the obstacle at
-/// that speed; stop behind a standing leader; continue for now, as fast as the free space allows. A
-/// motion at lower speed may have a lower cost than a motion that passes the obstacle. The function
-/// nevertheless tries to pass at the speed V first, because slowing down does not remove a standing
-/// obstacle.
+/// speed; follow a moving leader; continue at a lower speed, if the lower speed lets the car pass
+/// the obstacle; stop behind a standing leader; continue for now, as fast as the free space allows.
+/// A motion at lower speed may have a lower cost than a motion that passes the obstacle. The
+/// function nevertheless tries to pass at the speed V first, because slowing down does not remove a
+/// standing obstacle.
 ///
 /// The car passes a moving leader only if it could finish passing at the speed V. The car must be
 /// able to get past the leader, return to the route and brake to a stop before the route's end,
