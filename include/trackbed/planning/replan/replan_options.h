@@ -19,7 +19,7 @@ struct AlongSettings {
   /// Distance that the car's footprint keeps from obstacles [m], >= 0.
   double safe_distance = 0.3;
   RoadWidths road;
-  double gap = 3.0;  ///< Distance to an obstacle ahead when both stand, from bumper to bumper [m].
+  double gap = 3.0;  ///< Distance from a standing car's bumper to a standing obstacle ahead [m].
   double time_gap = 1.5;  ///< Additional time gap to a moving obstacle ahead [s].
   /// Time for which a motion and its continuation must be clear of obstacles [s]. If the horizon of
   /// the method (PlanFrenet or PlanLattice) is longer, the horizon of the method applies.

@@ -15,7 +15,8 @@ namespace trackbed {
 /// (comparator.h). If no tree reaches the goal and partial paths are allowed (Plan::partial), the
 /// result is the path that ends nearest to the first unreached waypoint. A partial path ends at the
 /// tree's node that is nearest to the unreached waypoint. If the car's front is too near to an
-/// obstacle at this node, the path ends at the last earlier node at which the car is clear.
+/// obstacle at the end of a partial path, the path is shortened: it ends at the last node at which
+/// the car is clear.
 struct RrtPlannerOptions {
   Corners corners = Corners::kRound;
   /// Distance that the car's footprint keeps from obstacles [m], >= 0.
@@ -24,7 +25,7 @@ struct RrtPlannerOptions {
   /// [m], >= 0.
   double corner_room = 1.0;
   double margin = 10.0;  ///< Margin of the sampled area around waypoints and obstacles [m].
-  /// Maximum length of a straight stretch at the start of the path [m], >= 0; 0: no such stretch.
+  /// Maximum length of a straight start of the path [m], >= 0; 0: no straight start.
   double lead_in = 4.0;
   double min_speed = 0.5;  ///< Lowest speed of the car in a rounded corner [m/s].
   int trees = 10;          ///< Number of trees that the planner grows, > 0.

@@ -25,7 +25,7 @@ struct RrtStarPlannerOptions {
   /// [m], >= 0.
   double corner_room = 1.0;
   double margin = 10.0;  ///< Margin of the sampled area around waypoints and obstacles [m].
-  /// Maximum length of a straight stretch at the start of the path [m], >= 0; 0: no such stretch.
+  /// Maximum length of a straight start of the path [m], >= 0; 0: no straight start.
   double lead_in = 4.0;
   double min_speed = 0.5;  ///< Lowest speed of the car in a rounded corner [m/s].
   int trees = 3;           ///< Maximum number of trees that the planner grows, > 0.

@@ -11,8 +11,8 @@
 /// the path moves toward its original position and toward the middle of its two neighbors. A point
 /// does not move if an obstacle is in the way or if the wind score would decrease.
 ///
-/// Symbols: x_i are the original points and y_i the smoothed points, whose first and last are
-/// fixed. The weight of the original points is alpha, and the weight of smoothness is beta. The
+/// Symbols: x_i are the original points and y_i the smoothed points. The first and the last point
+/// are fixed. The weight of the original points is alpha, and the weight of smoothness is beta. The
 /// wind is w [m/s], and the airspeed V [m/s].
 namespace trackbed {
 
@@ -49,9 +49,9 @@ struct SmoothingResult {
 };
 
 /// Smooths a path, point by point and coordinate by coordinate: y_i <- y_i + alpha (x_i - y_i) +
-/// beta (y_{i-1} + y_{i+1} - 2 y_i). A move of a point is accepted if both edges at the point are
-/// farther than `inflation` [m] from every obstacle. The wind score of the two edges must not
-/// decrease.
+/// beta (y_{i-1} + y_{i+1} - 2 y_i). A move of a point is accepted under two conditions. Both edges
+/// at the point are farther than `inflation` [m] from every obstacle, and the wind score of these
+/// edges does not decrease.
 ///
 /// Guarantees: the two ends of the path do not move, and a path that is free of obstacles stays
 /// free. Without obstacles and wind, the smoothed points converge to the solution of (alpha + 2
