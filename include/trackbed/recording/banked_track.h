@@ -12,25 +12,26 @@
 /// The ground along a closed or open track with bank and grade, on which recorded drives are
 /// replayed.
 ///
-/// Symbols: s is the station along the track's center line [m], d the offset from it, positive to
-/// the left [m], beta(s) the bank, positive if the road rises to the left [rad], and z(s) the
-/// height of the center line [m]. The height of the road is z(s) + d tan(beta(s)).
+/// Symbols: s is the station along the track's center line [m], d the offset from the center line,
+/// positive to the left [m], beta(s) the bank, positive if the road rises to the left [rad], and
+/// z(s) the height of the center line [m]. The height of the road is z(s) + d tan(beta(s)).
 namespace trackbed {
 
 struct BankedTrack {
   std::vector<TrackPoint> points;  ///< Center line and widths; Track::kMinPoints or more.
   std::vector<double> banks;       ///< Bank at each point [rad], between -pi/4 and pi/4.
   std::vector<double> heights;     ///< Height at each point [m].
-  bool closed = true;              ///< Whether the last point is followed by the first one.
+  bool closed = true;              ///< Whether the line continues from the last to the first point.
 };
 
-/// Returns whether points are a closed line. The gap between the last and the first point must be
-/// at most twice the largest distance between neighboring points. The directions of the first and
-/// the last chord must differ by at most 30 degrees more than the line turns at its second and its
-/// last but one point. Files of tracks do not say whether they are closed.
+/// Returns whether points form a closed line, since track files need not state whether the track is
+/// closed. In a closed line, the gap between the last and the first point is at most twice the
+/// largest distance between neighboring points. The direction changes little across the gap: by at
+/// most 30 degrees plus the sum of the turns at the second point and at the point before the last.
 bool IsClosedLine(const std::vector<TrackPoint>& points);
 
-/// Returns why points cannot be an open line, for people; empty if they can.
+/// Returns the reason why points cannot form an open line, as a text for users; empty if the points
+/// form an open line.
 std::string OpenLineProblem(const std::vector<TrackPoint>& points);
 
 class GroundLine;
@@ -39,15 +40,16 @@ class GroundLine;
 ///
 /// Between the edges of the track and 1.5 m beyond the edges, the terrain is the banked road,
 /// interpolated from points every 0.5 m. Further outside, the terrain blends into smooth ground
-/// within 8 m. Bank and height are smoothed as the center line is (Track). Where parts of the track
-/// are close to each other, each part keeps its height on the road, and the ground in between is
-/// their mean, weighted by proximity. On the inside of bends, the road ends at 0.9 of the bend's
-/// radius. An open road continues straight beyond its ends, with the slope and the bank that it has
-/// there. The road blends into smooth ground between 1.5 m and 9.5 m from its ends.
+/// within 8 m. Bank and height are smoothed in the same way as the center line (Track). Where parts
+/// of the track are close to each other, each part keeps its height on the road. The ground between
+/// these parts has the mean of their heights, weighted by proximity. On the inside of bends, the
+/// road ends at 0.9 of the bend's radius from the center line. Beyond its ends, an open road
+/// continues straight, with the slope and the bank at the end. An open road blends into smooth
+/// ground between 1.5 m and 9.5 m from its ends.
 class BankedGround {
  public:
-  /// Throws InputError if the track spreads over more than 4 km along x or y, or if it is open and
-  /// has an OpenLineProblem. Cost: 0.3 s per kilometer.
+  /// Throws InputError if the track spreads over more than 4 km along x or y, or if the track is
+  /// open and has an OpenLineProblem. Cost: 0.3 s per kilometer.
   explicit BankedGround(std::vector<TrackPoint> points, bool closed = true);
 
   [[nodiscard]] const std::vector<TrackPoint>& points() const;
@@ -57,26 +59,27 @@ class BankedGround {
   [[nodiscard]] double StationOf(std::size_t point) const;
 
   /// Returns the terrain for the bank [rad] and the height [m] at each point of the center line.
-  /// Throws PreconditionError unless there is a number for each point. Cost: 0.1 s per kilometer.
+  /// Throws PreconditionError unless both arguments have a number for each point. Cost: 0.1 s per
+  /// kilometer.
   [[nodiscard]] std::shared_ptr<const Terrain> With(const std::vector<double>& banks,
                                                     const std::vector<double>& heights) const;
 
  private:
-  /// A place of the ground on one part of the track.
+  /// A point of the ground in the coordinates of one part of the track: station and offset.
   struct Place {
     double s = 0.0;
     double d = 0.0;
-    double weight = 0.0;  // by proximity, the sum over the parts is 1
+    double weight = 0.0;  // weight by proximity; the weights of all parts add up to 1
   };
-  /// A node of the terrain: its places on all parts of the track nearby.
+  /// A node of the terrain, with its place relative to each nearby part of the track.
   struct Node {
     std::vector<Place> places{};
-    double share = 0.0;  // weight of the road against the coarse ground
+    double share = 0.0;  // weight of the road; the coarse ground has the weight 1 - share
   };
   struct Block {
     int column = 0;
     int row = 0;
-    std::vector<Node> nodes{};  // in the order in which Terrain::Refine asks for them
+    std::vector<Node> nodes{};  // in the order in which Terrain::Refine evaluates the nodes
   };
 
   void FindNodes();
@@ -87,8 +90,8 @@ class BankedGround {
 
   std::shared_ptr<const GroundLine> line_;
   Terrain::Size size_;
-  std::vector<PathPoint> samples_;  // of the center line
-  std::vector<double> stations_;    // of the samples
+  std::vector<PathPoint> samples_;  // samples of the center line
+  std::vector<double> stations_;    // stations of the samples [m]
   double reach_ = 0.0;              // largest distance of changed ground from the center line
   std::vector<Block> blocks_;
 };
@@ -103,11 +106,12 @@ struct CenterPoints {
   std::vector<int> lines{};  ///< Line of each point in its file.
 };
 
-/// Reads the points of a track file (track/track_file.h), which may be open. The file is open if it
-/// has a column `closed` of zeros, or no such column and not the shape of a closed line
-/// (IsClosedLine). A file without columns of widths is the log of a drive. The path of this drive,
-/// with points 0.5 m or more apart, is the middle of an open road of 10 m. Throws InputError in the
-/// same cases as ReadTrackFile, and if the line is open and has an OpenLineProblem.
+/// Reads the points of a track file (track/track_file.h), which may be open. If the file has a
+/// column `closed`, the line is open if the column contains 0. Otherwise, the line is open unless
+/// it has the shape of a closed line (IsClosedLine). A file without columns of widths is the log of
+/// a drive. The path of the drive, with points 0.5 m or more apart, is then the center line of an
+/// open road, which is 10 m wide. Throws InputError in the same cases as ReadTrackFile, and if the
+/// line is open and has an OpenLineProblem.
 CenterPoints ReadCenterPoints(const std::filesystem::path& file);
 
 /// Reads a track file with the column `bank_rad`, `z_m`, or both; a missing column counts as 0.

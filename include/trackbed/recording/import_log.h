@@ -14,13 +14,14 @@ namespace trackbed {
 /// rows form stretches; a time of more than `gap` between two rows ends a stretch. The measured
 /// pose X_WS of the sensor is converted to the pose of the rear axle, X_WV = X_WS X_VS^-1. At each
 /// point of the time grid, weighted least squares (Eigen) fit a polynomial of the degree `degree`.
-/// The fit uses the rows of the same stretch within the time `half_width` on either side. With the
-/// time difference u, divided by the half width of the window, the weights are (1 - u^3)^3
-/// (Cleveland 1979). Pose, velocity and acceleration are the value and the first and second
-/// derivative of the polynomial. If fewer than `degree` + 1 rows are within `half_width`, the
-/// nearest other rows are added. Columns for speed or yaw rate, if the log has any, are fitted in
-/// the same way and replace the values computed from the pose. Commands and steering angles are
-/// interpolated linearly between rows, or between the updates of a slower control loop.
+/// The fit at a point uses the rows of the same stretch from `half_width` before the point to
+/// `half_width` after the point. The weight of a row is (1 - u^3)^3, where u is the time between
+/// row and point, divided by `half_width` (Cleveland 1979). Pose, velocity and acceleration are the
+/// value and the first and second derivative of the polynomial. If fewer than `degree` + 1 rows are
+/// within `half_width`, the nearest other rows are added. Columns for speed or yaw rate, if the log
+/// has any, are fitted in the same way and replace the values computed from the pose. Commands and
+/// steering angles are interpolated linearly between rows, or between the updates of a slower
+/// control loop.
 ///
 /// Guarantees: the fit adds no phase shift, because the rows on both sides of a point are used
 /// symmetrically (except at the ends of a stretch). If the recorded motion is a polynomial of the
@@ -34,17 +35,19 @@ namespace trackbed {
 /// Throws InputError if the columns that the log map names have more than 5e7 numbers between
 /// `from` and `to`. Throws InputError, with the key of the log map, if columns contradict each
 /// other. Examples of contradicting columns: the yaw or yaw rate has the wrong unit (degrees or
-/// radians), or its sign is opposite to the turns of the path. The measured speed may also differ
-/// from the speed of the position by a factor of 3.6. If `map.check` is false, contradictions
-/// between columns are only listed in the notes. Throws RunError in the same cases as ReadFile.
+/// radians), or its sign is opposite to the turns of the path. Another example is a measured speed
+/// in km/h instead of m/s, which is 3.6 times the rate of change of the position. If `map.check` is
+/// false, contradictions between columns are only listed in the notes. Throws RunError in the same
+/// cases as ReadFile.
 ///
 /// Delays of at most 1 s between the pose and the measured speed, yaw rate and accelerations are
-/// estimated with their standard errors. The delays are noted if they exceed three standard errors
-/// and the mean distance of two rows. If `map.align` is true, these signals are shifted onto the
-/// clock of the pose. The delay of the yaw rate behind the steering is noted, too, but not removed,
-/// because the response of the car is a part of it. A steering signal that lags the yaw rate is
-/// shifted. Drift is not removed. The import takes 1 us per row and 10 us per sample. The file is
-/// read once as a stream, and each number that is kept needs 16 bytes of memory.
+/// estimated with their standard errors. A delay is noted if it exceeds both three standard errors
+/// and the mean time between two rows. If `map.align` is true, the signals with noted delays are
+/// shifted onto the clock of the pose. A delay of the yaw rate behind the steering is noted but not
+/// removed, because the response of the car contributes to this delay. A steering signal that lags
+/// the yaw rate is shifted if `map.align` is true. Drift is not removed. The import takes 1 us per
+/// row and 10 us per sample. The file is read once as a stream, and each number that is kept needs
+/// 16 bytes of memory.
 RecordedDrive ImportLog(const std::filesystem::path& log, const LogMap& map);
 
 }  // namespace trackbed

@@ -13,16 +13,16 @@ namespace trackbed {
 
 /// One series of rows in a log: a CSV file, the tracks of a GPX file, a topic of a bag.
 struct LogTopic {
-  std::string name;  ///< Topic of a bag; else "".
-  std::string type;  ///< Message type of a topic; else the format of the file.
+  std::string name;  ///< Name of a topic of a bag; "" for other files.
+  std::string type;  ///< Message type of a topic of a bag; format of the file for other files.
   std::size_t rows = 0;
-  std::vector<std::string> columns;  ///< Names as a map uses them.
-  std::string problem;               ///< Why the topic cannot be read; empty if it can.
+  std::vector<std::string> columns;  ///< Names of the columns, as in a log map.
+  std::string problem;               ///< Why the topic cannot be read; empty if it is readable.
 };
 
 struct LogListing {
   std::vector<LogTopic> topics;
-  /// A map that reads the log, if its columns have usual names.
+  /// Log map that reads the log; nullopt unless the log's columns have usual names.
   std::optional<LogMap> map;
   std::string problem;  ///< Why the log has no map, such as missing columns; empty if `map` is set.
   std::vector<std::string> notes;  ///< Damaged parts of the log.

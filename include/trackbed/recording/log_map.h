@@ -62,11 +62,12 @@ struct LogPosition {
   std::string y{};
   std::optional<std::string> latitude{};
   std::optional<std::string> longitude{};
-  /// "m", "cm" or "mm", by default "m"; "deg" or "rad" of latitude and longitude, by default "deg".
+  /// Unit of x and y: "m", "cm" or "mm", by default "m". Unit of latitude and longitude: "deg" or
+  /// "rad", by default "deg".
   std::optional<std::string> unit{};
-  /// Latitude of the drive's coordinate origin [deg]; default: the first row's.
+  /// Latitude of the drive's coordinate origin [deg]; default: the latitude in the first row.
   std::optional<double> origin_latitude{};
-  /// Longitude of the drive's coordinate origin [deg]; default: the first row's.
+  /// Longitude of the drive's coordinate origin [deg]; default: the longitude in the first row.
   std::optional<double> origin_longitude{};
 };
 
