@@ -106,12 +106,12 @@ struct CenterPoints {
   std::vector<int> lines{};  ///< Line of each point in its file.
 };
 
-/// Reads the points of a track file (track/track_file.h), which may be open. If the file has a
-/// column `closed`, the line is open if the column contains 0. Otherwise, the line is open unless
-/// it has the shape of a closed line (IsClosedLine). A file without columns of widths is the log of
-/// a drive. The path of the drive, with points 0.5 m or more apart, is then the center line of an
-/// open road, which is 10 m wide. Throws InputError in the same cases as ReadTrackFile, and if the
-/// line is open and has an OpenLineProblem.
+/// Reads the points of a track file (track/track_file.h), which may be open. In a file with a
+/// column `closed`, the line is open if the column contains 0. In a file without this column, the
+/// line is open unless it has the shape of a closed line (IsClosedLine). A file without columns of
+/// widths is the log of a drive. The path of the drive, with points 0.5 m or more apart, is then
+/// the center line of an open road, which is 10 m wide. Throws InputError in the same cases as
+/// ReadTrackFile, and if the line is open and has an OpenLineProblem.
 CenterPoints ReadCenterPoints(const std::filesystem::path& file);
 
 /// Reads a track file with the column `bank_rad`, `z_m`, or both; a missing column counts as 0.

@@ -36,9 +36,9 @@ namespace trackbed {
 /// `from` and `to`. Throws InputError, with the key of the log map, if columns contradict each
 /// other. Examples of contradicting columns: the yaw or yaw rate has the wrong unit (degrees or
 /// radians), or its sign is opposite to the turns of the path. Another example is a measured speed
-/// in km/h instead of m/s, which is 3.6 times the rate of change of the position. If `map.check` is
-/// false, contradictions between columns are only listed in the notes. Throws RunError in the same
-/// cases as ReadFile.
+/// with the wrong unit (km/h or m/s), which differs from the speed of the position by a factor of
+/// 3.6. If `map.check` is false, contradictions between columns are only listed in the notes.
+/// Throws RunError in the same cases as ReadFile.
 ///
 /// Delays of at most 1 s between the pose and the measured speed, yaw rate and accelerations are
 /// estimated with their standard errors. A delay is noted if it exceeds both three standard errors
