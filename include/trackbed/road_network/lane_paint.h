@@ -5,9 +5,9 @@
 
 namespace trackbed {
 
-/// Returns the surfaces and bounds of lanes, for drawing. Each lane is a band. The bound of two
-/// lanes of the same direction is a broken line, dashes of 3 m every 9 m; other bounds are solid.
-/// Bounds that two lanes share, with the same ends to 1 cm, are drawn once.
+/// Returns the surfaces and bounds of lanes, for drawing. Each lane is a band. The bound between
+/// two lanes of the same direction is a broken line with dashes of 3 m every 9 m. All other bounds
+/// are solid lines. A bound that two lanes share is drawn once; its ends must agree to 1 cm.
 RoadPaint PaintLanes(const DrawnLanes& lanes);
 
 }  // namespace trackbed

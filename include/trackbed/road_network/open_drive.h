@@ -56,7 +56,7 @@ inline constexpr const char* kRoadNetworkXodr = "road_network.xodr";
 RoadNetwork ParseOpenDrive(std::string_view xml, const std::string& name);
 
 /// Parses a text like ParseOpenDrive, and also returns the text and the header's offset. The
-/// coordinates of the roads count from the place `origin` of the file [m].
+/// coordinates of the roads are relative to the point `origin` in the coordinates of the file [m].
 OpenDriveFile ParseOpenDriveFile(std::string text, const std::string& name,
                                  const Vec2& origin = Vec2::Zero());
 
