@@ -56,12 +56,13 @@ enum class RobustLoss {
 /// The bank of a track or an open road on which all records were driven, as a function of the
 /// station: a spline (track/closed_spline.h).
 struct BankEstimation {
-  /// File of the track; nullopt: the path of the first fitted record, or its first lap.
+  /// File of the track; nullopt: the path of the first fitted record, or the first lap of this
+  /// path.
   std::optional<std::string> track{};
-  /// Distance between two knots of the bank along the track [m]; nullopt: an eighth of its length.
+  /// Distance between two knots of the bank along the track [m]; nullopt: an eighth of the track.
   std::optional<double> spacing{};
-  /// Standard deviation of the bank at each knot before the fit, the deviation of a normal
-  /// distribution about 0 [rad], > 0.
+  /// Standard deviation of the prior distribution of the bank at each knot, which is normal with
+  /// the mean 0 [rad], > 0.
   double deviation = 0.1;
   double largest = 0.5;  ///< Bound of the magnitude of the bank at each knot [rad], > 0.
 

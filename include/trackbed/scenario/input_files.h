@@ -22,8 +22,9 @@ std::vector<std::string> InputFileNames();
 bool HasOwnVehicle(const VehicleSpec& vehicle);
 
 /// Returns the scenario like ResolvedYaml, but without the members of the start and the duration
-/// that the scenario does not set. An override of another key of this YAML therefore has the same
-/// effect as in the scenario's own file: the start moves with the first waypoint, for example.
+/// that the scenario does not set. An override of a key in this YAML therefore has the same effect
+/// as in the scenario's own file. For example, an override of the first waypoint also moves the
+/// start.
 std::string PortableYaml(const Scenario& scenario);
 
 /// Returns the options with which ComposeScene makes the scenario's car. Reads the tyre files of

@@ -37,7 +37,7 @@ struct RecordSpec {
 
   // Data of the recorded drive, which copies of the scenario share; not a key of the scenario file.
   std::shared_ptr<const RecordedDrive> data{};
-  // Content of the file `ground`, which copies of the scenario share, too.
+  // Content of the file `ground`, which copies of the scenario share.
   std::shared_ptr<const BankedTrack> ground_data{};
 };
 

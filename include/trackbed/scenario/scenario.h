@@ -42,7 +42,7 @@ struct VehicleSpec {
   /// Tyre property file (*.tir) of the tyres of both axles, relative to the scenario file; replaces
   /// the tyre coefficients in the car model.
   std::optional<std::string> tyre_file{};
-  std::optional<std::string> tyre_file_rear{};  ///< For the rear tyres; default: tyre_file.
+  std::optional<std::string> tyre_file_rear{};  ///< File of the rear tyres; default: tyre_file.
   /// Maximum steering rate of the road wheels [rad/s]; overrides the limit in the car model.
   std::optional<double> steering_rate;
   std::optional<AidOptions> aids{};         ///< Driver aids of the plant `mujoco`; nullopt: none.
@@ -63,7 +63,7 @@ struct StartSpec {
   /// The default steering angle is the initial angle of the recorded drive, or of a recording with
   /// prescribed steering; otherwise the planner's neutral angle.
   std::optional<double> steering;
-  std::optional<double> hitch_angle{};  ///< Yaw of the trailer minus the car's [rad]; default: 0.
+  std::optional<double> hitch_angle{};  ///< Yaw of trailer minus yaw of car [rad]; default: 0.
 };
 
 struct MissionSpec {
@@ -184,8 +184,8 @@ struct RenderSpec {
 struct Scenario {
   std::string name;
   std::uint64_t seed = 0;
-  /// Local origin: the place, in the coordinates of the scenario file, from which all coordinates
-  /// in the other members count [m]. ReadScenario moves a scenario there; nullopt: no origin.
+  /// Local origin, in the coordinates of the scenario file [m]; nullopt: (0, 0). ReadScenario makes
+  /// the coordinates in all other members relative to the local origin.
   std::optional<Vec2> origin{};
   VehicleSpec vehicle;
   MissionSpec mission;
@@ -230,14 +230,14 @@ using MetricPaths = std::function<std::vector<std::string>(const Scenario& scena
 /// (Scenario::origin). The origin is the middle of the places, rounded to 1000 m, or the key
 /// `origin`. Places are the coordinates of keys, of files and of the start. Throws InputError if a
 /// place is more than 1e5 m from the origin, because then the inputs are in different coordinates.
-/// The coordinates of the header's <offset> are added to those of a road network if only then the
-/// roads are near the other places.
+/// The <offset> in the header of a road network is added to the roads' coordinates if only the
+/// shifted roads are near the other places.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {}, const MetricPaths& metrics = {},
                       const std::vector<std::filesystem::path>& asset_folders = {});
 
-/// Returns the scenario's local origin [m], in the coordinates of its file; (0, 0) without one.
-/// A coordinate of the file is the coordinate in the Scenario plus the origin.
+/// Returns the scenario's local origin [m], in the coordinates of its file; (0, 0) if there is no
+/// local origin. A coordinate in the file equals the coordinate in the Scenario plus the origin.
 Vec2 OriginOf(const Scenario& scenario);
 
 /// Reads a scenario like ReadScenario, but from the text `yaml`. Error messages use `name` as the

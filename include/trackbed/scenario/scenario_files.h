@@ -15,11 +15,12 @@ enum class FolderContent { kScenarios, kScenariosAndStudies };
 /// scenarios/validation, whose recordings are not installed.
 std::vector<std::filesystem::path> ShippedScenarios(FolderContent content);
 
-/// Finds the scenario file or study file that a name refers to. FindScenario
-/// returns an existing file, or a name with an extension, unchanged. Any other name refers to a
-/// shipped scenario or study, such as "three_turns", "studies/robustness" or "robustness". Throws
-/// InputError if several shipped files match the name. For an unknown name, FindScenario throws
-/// InputError that suggests the most similar name. FindScenario reads only files of this name.
+/// Finds the scenario file or study file that a name refers to. FindScenario returns an existing
+/// file, or a name with an extension, unchanged. Any other name refers to a shipped scenario or
+/// study, such as "three_turns", "studies/robustness" or "robustness". Throws InputError if several
+/// shipped files match the name. For an unknown name, FindScenario throws InputError that suggests
+/// the most similar name. If shipped files match the name, FindScenario reads only the matching
+/// files.
 std::filesystem::path FindScenario(const std::filesystem::path& name);
 
 /// Returns the scenario files that `paths` name, without duplicates. Each path that is not a folder
