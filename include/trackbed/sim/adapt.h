@@ -13,7 +13,7 @@ namespace trackbed {
 /// Answers to questions that the geometry of a model leaves open. Options of `trackbed model
 /// --adapt` have the same names.
 struct AdaptOptions {
-  std::vector<std::filesystem::path> asset_folders{};  ///< As SceneOptions::asset_folders.
+  std::vector<std::filesystem::path> asset_folders{};  ///< See SceneOptions::asset_folders.
   /// Name of the body that is the vehicle, or that contains it, if the file has several vehicles.
   std::string body{};
   std::optional<double> wheel_radius{};    ///< Radius of all wheels [m].
@@ -29,8 +29,8 @@ struct AdaptOptions {
 struct AdaptGuess {
   std::string what;   ///< Part or parameter of the car, such as "wheel fl" or "steering limit".
   std::string value;  ///< The proposed value, with its unit.
-  /// The parts of the model from which the value follows. Begins with "assumed" if nothing in the
-  /// model determines the value.
+  /// The parts of the model from which the value follows. The text begins with "assumed" if nothing
+  /// in the model determines the value.
   std::string evidence;
 };
 
@@ -38,31 +38,34 @@ struct AdaptGuess {
 struct AdaptedModel {
   VehicleKind kind = VehicleKind::kSteered;
   std::string xml;                  ///< MJCF text of the car file, without references to files.
-  std::vector<AdaptGuess> guesses;  ///< In the order of the parts of the car.
-  /// Properties of the given model that a run would have been wrong with, such as tyres that touch
-  /// the chassis. The proposed file does not have them.
+  std::vector<AdaptGuess> guesses;  ///< Decisions, in the order of the car's parts.
+  /// Faults of the given model that would disturb a run, such as tyres that touch the chassis. The
+  /// proposed file does not contain these faults.
   std::vector<std::string> notes;
 };
 
 /// Reads a vehicle from an MJCF file or a URDF file, finds its parts by their geometry, and writes
-/// a new car file with these parts. Names of joints and bodies appear only in the evidence.
+/// a new car file with these parts. Joints and bodies may have any names; AdaptGuess::evidence
+/// states the names.
 ///
-/// Wheels are hinge joints with a nearly horizontal axis whose body carries a round geom around the
-/// axis that touches the ground. Steered wheels turn about a nearly vertical hinge, too; the
-/// steered axle is in front. Four wheels make a car, of which one axle must steer. Two driven
-/// wheels that do not steer make a vehicle with differential drive; casters or skids of the model
-/// support it. The proposed file has the total mass, center of gravity and inertia of the model at
-/// its initial configuration qpos0. Other joints are locked.
+/// A wheel is a body on a hinge joint with a nearly horizontal axis. The body carries a geom that
+/// is round about this axis and touches the ground. A steered wheel also turns about a nearly
+/// vertical hinge; the steered axle is the front axle. A vehicle with four wheels is a car, and one
+/// axle of a car must steer. A vehicle with two driven wheels that do not steer has differential
+/// drive, and is supported by casters or skids of the model. The proposed file has the total mass,
+/// center of gravity and inertia of the model at its initial configuration qpos0. Joints other than
+/// those of wheels, steering and suspension are locked.
 ///
 /// MuJoCo reads URDF files. The meshes of a URDF file must be .stl or .obj files in the folder of
-/// the file, in the ROS package that contains the file, or in AdaptOptions::asset_folders. Other
-/// meshes are dropped, with a note.
+/// the file, in the ROS package that contains the file, or in AdaptOptions::asset_folders. Meshes
+/// of other types or in other folders are dropped; a note lists the dropped meshes.
 ///
 /// Errors: throws InputError if the file cannot be read or does not compile. Throws InputError,
 /// with a question and the option that answers it, if the model has no vehicle with four wheels or
-/// with two driven wheels. Also throws InputError if its axles cannot be told apart, or if a limit
-/// is missing that nothing in the model suggests. The limits of size and of the separate process
-/// are those of ComposeScene and CompileScene. Cost: that of compiling the model twice.
+/// with two driven wheels. Also throws InputError if the steered axle cannot be determined, or if
+/// nothing in the model suggests a value for a missing limit. The limits of size and of the
+/// separate process are those of ComposeScene and CompileScene. Cost: that of compiling the model
+/// twice.
 AdaptedModel AdaptModel(const std::filesystem::path& file, const AdaptOptions& options);
 
 }  // namespace trackbed

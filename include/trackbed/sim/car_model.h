@@ -122,8 +122,8 @@ struct TrailerParts {
 /// The model is compiled without visual geoms (MuJoCo's `discardvisual`). Visual geoms (without
 /// collisions, and not referenced by other elements of the MJCF) are only in scene(). Without
 /// visual geoms, a simulation step takes less time, and masses and motion are bit for bit the same.
-/// There is one exception: if the model specifies the density of a medium, MuJoCo's ellipsoid fluid
-/// forces on visual geoms are lost.
+/// The motion differs only if the model specifies the density of a medium: MuJoCo's ellipsoid fluid
+/// forces on visual geoms are then missing.
 ///
 /// Errors: throws InputError if the MJCF does not compile, if a named part is missing, or if a part
 /// does not follow the rules in docs/models.md. The error message lists the file and all problems.
@@ -141,7 +141,7 @@ class CarModel {
   /// Returns the indices of the parts that every vehicle has.
   [[nodiscard]] const ChassisParts& chassis() const;
   /// Returns the indices of the parts of a car with steered front wheels. Throws InternalError if
-  /// the vehicle is not such a car.
+  /// the vehicle has no steered front wheels.
   [[nodiscard]] const CarParts& parts() const;
   /// Returns the indices of the parts of a vehicle with differential drive. Throws InternalError if
   /// the vehicle has no differential drive.

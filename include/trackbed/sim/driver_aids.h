@@ -22,8 +22,8 @@ struct AidOptions {
   /// Largest difference between the torques of the two wheels without drive torque [N m], >= 0;
   /// only for kLimitedSlip. Default: 0.02 m g R.
   std::optional<double> differential_preload{};
-  /// Increase of this difference per drive torque of the axle [1], from 0 to 1; only for
-  /// kLimitedSlip. Default: 0.25.
+  /// Increase of the largest torque difference per drive torque of the axle [1], from 0 to 1; only
+  /// for kLimitedSlip. Default: 0.25.
   std::optional<double> differential_ramp{};
 
   /// Whether the car has any aid.

@@ -103,10 +103,10 @@ struct PlantEntry {
 /// (scenario/record.h). No plant in the registry may have the name kRecordedPlant.
 inline constexpr const char* kRecordedPlant = "recorded";
 
-/// Returns all plants, beginning with the built-in plants. These are `kinematic` (KinematicCar with
-/// the rear axle as reference point), `single_track` (SingleTrackCar) and `mujoco` (the MJCF car,
-/// with the tyre law of the setup). The plants `mujoco:contact` and `mujoco:magic_formula` use the
-/// tyre law in their name instead of the tyre law of the setup.
+/// Returns all plants, beginning with the built-in plants. The built-in plants are `kinematic`
+/// (KinematicCar with the rear axle as reference point), `single_track` (SingleTrackCar) and
+/// `mujoco` (the MJCF car, with the tyre law of the setup). The plants `mujoco:contact` and
+/// `mujoco:magic_formula` use the tyre law in their name instead of the tyre law of the setup.
 ///
 /// The plants `kinematic` and `single_track` follow the commanded acceleration exactly, and ignore
 /// the obstacles, friction, grades and wind of the world. In `single_track`, a tyre has a constant

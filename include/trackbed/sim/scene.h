@@ -64,8 +64,9 @@ std::vector<std::string> ModelNames();
 /// following that applies: (1) the folder in the environment variable TRACKBED_DATA; (2)
 /// ../share/trackbed relative to the program's folder, if that folder contains models; (3) the data
 /// of the installed package, for a program that links the package; (4) the source tree, for
-/// programs in Trackbed's build. Only (1) and (2) work for a program that was linked to the
-/// installed static libraries without CMake. Throws InputError if none of the four folders applies.
+/// programs in Trackbed's build. A program that was linked to the installed static libraries
+/// without CMake finds only the folders (1) and (2). Throws InputError if none of the four folders
+/// applies.
 std::filesystem::path DataFolder();
 
 /// Reads a car's MJCF file, resolves its includes, collects the asset files, and sets the

@@ -4,18 +4,18 @@
 
 namespace trackbed {
 
-/// Returns the scene of a car with a trailer. The car stands on level ground as before: its springs
-/// get the preload that carries the trailer's nose.
+/// Returns the scene of a car with a trailer. On level ground, the car stands as it does without
+/// the trailer: a preload of the car's springs carries the trailer's nose.
 ///
-/// The trailer is the body `trailer` below the chassis. Three hinges at the hitch, hitch_yaw,
-/// hitch_pitch and hitch_roll, turn it as a ball joint does. Wheels, tyres, spring travel and
+/// The trailer is the body `trailer` below the chassis. Three hinges at the hitch (hitch_yaw,
+/// hitch_pitch and hitch_roll) together act as a ball joint. Wheels, tyres, spring travel and
 /// damping follow from the car's rear axle. Unsprung masses are in proportion to the masses of
 /// trailer and car; the spring deflection at rest is 0.35 wheel radii, and the damping ratio 0.3. A
 /// car without springs gets a trailer without springs. The wheels have neither brakes nor bearing
 /// friction. The numbers of the trailer are in the <custom> numeric `trailer`.
 ///
-/// Throws InputError if the car has no steered front wheels, already has a trailer, or if the yaw
-/// inertia is less than that of the trailer's wheels.
+/// Throws InputError if the car has no steered front wheels, if the car already has a trailer, or
+/// if the trailer's yaw inertia is less than that of the trailer's wheels.
 Scene WithTrailer(const CarModel& car, const TrailerParams& trailer);
 
 }  // namespace trackbed
