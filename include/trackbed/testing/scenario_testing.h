@@ -22,8 +22,8 @@
 ///
 /// If a matcher fails, the test prints the value that violates the expectation, with station and
 /// time. Each matcher checks every plant of the run. A matcher also fails if the run has no plan,
-/// or if it lacks the named plants. A matcher also fails if the quantity was not measured because
-/// there is no path or no obstacle.
+/// or if the run lacks a named plant. A matcher also fails if the checked quantity was not measured
+/// because the run has no path or no obstacle.
 namespace trackbed {
 
 /// Prints a comparison of two plants in GoogleTest: "kinematic and mujoco from 0 m to 138.2 m:
@@ -53,12 +53,12 @@ testing::Matcher<const RunResult&> KeepsClearance(double distance);
 /// Matches if every plant arrives at the goal, at most `distance` [m] from the end of the path.
 testing::Matcher<const RunResult&> ReachesGoal(double distance);
 
-/// Matches if the steering command of no plant oscillates without an end, as in a limit cycle, with
+/// Matches if the steering command of no plant oscillates permanently, as in a limit cycle, with
 /// more than the tolerated amplitude (docs/verdict.md#calm-steering). If the matcher fails, the
 /// test prints amplitude, frequency and times of the oscillation.
 testing::Matcher<const RunResult&> SteersCalmly();
 
-/// Matches if the log of every plant satisfies a formula of temporal logic over its columns
+/// Matches if the log of every plant satisfies a formula of temporal logic over the log's columns
 /// (trackbed/requirement/formula.h): "always abs(cross_track_m) < 0.5". If the matcher fails, the
 /// test prints the robustness, station and time of the sample that violates the formula most. The
 /// matcher also fails if the formula is invalid, or if no sample of the log determines the
