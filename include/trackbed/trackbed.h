@@ -1,6 +1,6 @@
 #pragma once
 
-/// The one include for programs that plan, simulate and compare:
+/// The only include that a program needs to plan, simulate and compare:
 ///
 ///     const trackbed::RunResult run = trackbed::RunScenario("corner.yaml");
 ///     if (const auto car = run.Find("mujoco")) {
@@ -8,8 +8,8 @@
 ///     }
 ///     const trackbed::PlantComparison apart = trackbed::Compare(run, "kinematic", "mujoco");
 ///
-/// RunScenario plans the scenario, simulates it on all its plants, and measures and judges each
-/// drive, as `trackbed run` does. Its steps are functions, too:
+/// RunScenario plans the scenario, simulates it on all plants of the scenario, and measures and
+/// judges each drive, as `trackbed run` does. Each step of RunScenario is also a function:
 ///
 ///     const trackbed::Scenario scenario = trackbed::LoadScenario("corner.yaml");
 ///     const trackbed::CarModel car = trackbed::LoadCar(scenario);

@@ -21,7 +21,7 @@ class ClosedSplineBasis {
   /// The basis functions that are nonzero at a point: indices, values and derivatives.
   struct Local {
     std::array<Eigen::Index, kSupport> index{};
-    /// Derivatives of order 0, 1 and 2 of these basis functions with respect to the parameter.
+    /// Derivatives of order 0, 1 and 2 of the nonzero functions with respect to the parameter.
     std::array<std::array<double, kSupport>, 3> weight{};
   };
 

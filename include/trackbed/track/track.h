@@ -90,9 +90,10 @@ class Track {
   [[nodiscard]] TrackPlace Locate(const Vec2& point, std::optional<double> near = {}) const;
 
   /// Returns a car's state in the Frenet frame of the center line, at the nearest part of the
-  /// center line whose direction is within pi/2 of the car's heading. This part differs from that
-  /// of Locate where the track crosses itself. Returns nullopt if the track has no such part, or if
-  /// the frame is undefined, as in trackbed::ToFrenet. The cost is 0.2 us per meter of the track.
+  /// center line whose direction is within pi/2 of the car's heading. Where the track crosses
+  /// itself, Locate may choose another part of the center line. Returns nullopt if no part of the
+  /// center line has a direction within pi/2 of the heading, or if the frame is undefined, as in
+  /// trackbed::ToFrenet. The cost is 0.2 us per meter of the track.
   [[nodiscard]] std::optional<FrenetState> ToFrenet(const MotionState& motion) const;
 
   /// Returns the left edge as points whose stations are at most kEdgeSpacing apart.
@@ -110,7 +111,7 @@ class Track {
   void PlaceEdges(const CenterLine& line);
   [[nodiscard]] TrackPlace LocateWithin(const Vec2& point, double near, double reach) const;
   [[nodiscard]] TrackPlace PlaceOf(const Projection& found) const;
-  /// Returns the stations of path_ that contain the part of ToFrenet.
+  /// Returns the range of stations of path_ that contains the part of the center line for ToFrenet.
   [[nodiscard]] std::optional<Stations> StretchAlong(const Pose2& pose) const;
 
   std::vector<TrackPoint> points_;
@@ -136,7 +137,7 @@ struct TrackFold {
   /// distance exceeds 95 % of the radius unless `turn` is set.
   double width = 0.0;
   /// Lower bound on the angle by which the center line turns within a quarter of the mean distance
-  /// between neighboring points [rad]. Only the FindFold for a list of points sets this member.
+  /// between neighboring points [rad]. Only FindFold(points, smoothing) sets this member.
   double turn = 0.0;
 };
 

@@ -11,7 +11,7 @@ namespace trackbed {
 
 /// How to read a track.
 struct TrackReading {
-  std::optional<double> smoothing{};  ///< Argument of Track's constructor [m].
+  std::optional<double> smoothing{};  ///< Wavelength of the smoothing (Track) [m].
   /// Width of a track whose file has no widths [m], > 0: half on either side of the center line.
   std::optional<double> width{};
 };
@@ -22,8 +22,9 @@ struct TrackFile {
   /// Differences from the file, with line numbers: narrowed edges, a repeated first point, and the
   /// columns if their names are not those of TUM.
   std::vector<std::string> notes;
-  /// Wavelength with which the same track is read from its own points [m], if the reader has chosen
-  /// one or has narrowed an edge; nullopt: with the same argument.
+  /// Wavelength with which the same track can be read again from the points of `track` [m]. Set if
+  /// the reader has chosen a wavelength or has narrowed an edge; nullopt: TrackReading::smoothing
+  /// applies.
   std::optional<double> chosen_smoothing{};
 };
 
@@ -31,29 +32,30 @@ struct TrackFile {
 ///   # x_m,y_m,w_tr_right_m,w_tr_left_m
 /// The file is read as by ReadCsvTable: cells are separated by commas, semicolons or tabs, the
 /// header may begin with '#', and there may be comments. Columns may have any order and several
-/// usual names, and other columns are ignored. Without names, four columns are x, y, and the widths
-/// to the right and to the left; two columns are x and y. The rows are points in the order of
-/// driving, from the start line on. The track is closed; if the last row repeats the first point,
-/// this row is dropped. If there are no columns of widths, `reading.width` is the width of the
-/// track.
+/// usual names, and other columns are ignored. In a file without column names, four columns are x,
+/// y, and the widths to the right and to the left; two columns are x and y. The rows are points in
+/// the order of driving, from the start line on. The track is closed; if the last row repeats the
+/// first point, this row is dropped. If there are no columns of widths, `reading.width` is the
+/// width of the track.
 ///
-/// Without `reading.smoothing`, the wavelength of the smoothing is the default of Track. Another
-/// wavelength is taken if an edge folds over with the default, or if a point is moved by more than
-/// a tenth of the narrowest width. For a file that needs another wavelength, points are added on
-/// straight lines between points that are more than four times the median distance apart. The
-/// default is then multiplied by the power of 2 nearest to 1 (1/64 to 64) at which neither happens,
-/// if one exists.
+/// Without `reading.smoothing`, the wavelength of the smoothing is the default of Track. The
+/// default is rejected if an edge would have to be narrowed to less than half. The default is also
+/// rejected if the smoothing moves the center line by more than a tenth of the narrowest width.
+/// After a rejection, points are added on straight lines between points that are more than four
+/// times the median distance apart. If the default is rejected again, it is multiplied by the power
+/// of 2 nearest to 1 (1/64 to 64) that gives an acceptable wavelength, if one exists.
 ///
-/// The inner edge may fold over in a bend (TrackFold). The inner edge is then narrowed to 95 % of
-/// the bend's radius, to no less than half of its width in the file.
+/// The inner edge may fold over in a bend (TrackFold). An inner edge that folds over is narrowed to
+/// 95 % of the bend's radius, but must keep at least half of its width in the file.
 ///
 /// Throws InputError, which lists up to twenty problems with file and line, including the problems
 /// that ReadCsvTable finds. A point is a problem if its position is beyond 1e7 m, or if a width is
 /// not above 0 or exceeds 1000 m. A point that coincides with the previous point is also a problem,
 /// and so is a point at which the center line turns by more than 150 degrees. The track as a whole
 /// has a problem if a lap is longer than 200 km, or if there are fewer than Track::kMinPoints or
-/// more than Track::kMaxPoints points. A file of more than 16 MB is a problem, and so is an edge
-/// that would have to be narrowed to less than half. Throws RunError if the file cannot be read.
+/// more than Track::kMaxPoints points. A file of more than 16 MB is a problem. An edge that would
+/// have to be narrowed to less than half of its width is also a problem. Throws RunError if the
+/// file cannot be read.
 TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& reading = {});
 
 /// The points of a track file, each with its line in the file.
@@ -65,8 +67,8 @@ struct TrackFilePoints {
 
 /// Reads the points of a track file whose line may be open. Throws the same errors as ReadTrackFile
 /// about single rows and the size of the file, but does not check the shape of the line. Without
-/// columns of widths, the file may be the log of a drive. Rows nearer than `log_spacing` [m] to the
-/// last point are skipped, and the road is 2 `log_half_width` wide [m].
+/// columns of widths, the file may be the log of a drive. In a log, rows nearer than `log_spacing`
+/// [m] to the previous point are skipped, and the road is 2 `log_half_width` [m] wide.
 TrackFilePoints ReadTrackPoints(const std::filesystem::path& file, double log_spacing,
                                 double log_half_width);
 
