@@ -58,13 +58,14 @@ struct GripModel {
 /// lateral force m f_y. The lateral force is divided between the axles in proportion to their
 /// weights. The axle that slides first limits the forces of the car.
 ///
-/// In a turn with f_y on a level road, the front wheels have the steering angle delta =
-/// atan(L f_y/v^2) + s_f - s_r, with the slip angles s_f and s_r of the axles, at most
-/// `steering_limit`. The forces of the front wheels act along and across the wheels, and the outer
-/// wheel has more lateral force than the inner one. Both effects reduce the moment that turns the
-/// car, so the largest f_y is smaller in tight turns: for a Prius by 5 % at a radius of 17 m. This
-/// reduction is computed for the largest f_y at each speed. At the same fraction of the largest
-/// f_y, the diagram has the f_x of a car with straight wheels.
+/// In a turn with f_y on a level road, the front wheels have the steering angle delta = atan(L
+/// f_y/v^2) + s_f - s_r, with the slip angles s_f and s_r of the axles, at most `steering_limit`.
+/// The forces of the front wheels act along and across the wheels, and the outer wheel has more
+/// lateral force than the inner one. The direction and the unequal size of these forces reduce the
+/// moment that turns the car. The largest f_y is therefore smaller in tight turns: for a Prius by 5
+/// % at a radius of 17 m. At each speed, the reduction by tight turns is computed only for the
+/// largest f_y. At the same fraction of the largest f_y, the diagram has the f_x of a car with
+/// straight wheels.
 ///
 /// The longitudinal force f_x is the sum of the forces along the wheels minus the cornering drag.
 /// The cornering drag is f_y times the mean slip angle of the axles, where each axle is weighted by

@@ -20,8 +20,9 @@
 /// factor G is a cosine function of the slip in the other direction, with the coefficients r_*.
 ///
 /// A friction factor `road` of the road multiplies mu_x, mu_y, S_vx and S_vy. For the factors G and
-/// S_vyk, the slips kappa + S_hx and alpha + S_hy are divided by `road`, or by as much as makes
-/// kappa or alpha the slip of full sliding, |kappa| = 1 or |alpha| = pi/2. Up to full sliding,
+/// S_vyk, the slips kappa + S_hx and alpha + S_hy are divided by `road`. The divisor is larger than
+/// `road` if kappa or alpha would otherwise be enlarged beyond full sliding, |kappa| = 1 or |alpha|
+/// = pi/2. Up to full sliding,
 ///   F(road, kappa, alpha) = road F(1, (kappa + S_hx)/road - S_hx, (alpha + S_hy)/road - S_hy),
 /// as in the similarity method (Pacejka 2012, section 4.2). A tyre therefore uses the same fraction
 /// of the friction ellipse on every road.
@@ -31,10 +32,10 @@ namespace trackbed {
 /// file does not specify is 0 and has no effect.
 struct MagicFormula {
   /// The equations to which the coefficients belong: 0 for CommonRoad's, 5.2 for PAC2002 and MF5.2,
-  /// 6.1 for MF6.1. With 0, p_hy1 and p_vy1 have the sign of the camber. With 5.2 and 6.1, p_hy1
-  /// and p_vy1 are constant. The coefficients assume that gamma is positive if the top of the wheel
-  /// leans to the right, as in ISO 8855; EvaluateTyreForce reverses the sign of gamma. With 6.1,
-  /// tan(alpha) and sin(gamma) replace alpha and gamma in F_y and G.
+  /// 6.1 for MF6.1. In version 0, p_hy1 and p_vy1 have the sign of the camber. In versions 5.2 and
+  /// 6.1, p_hy1 and p_vy1 are constant. The coefficients assume that gamma is positive if the top
+  /// of the wheel leans to the right, as in ISO 8855; EvaluateTyreForce reverses the sign of gamma.
+  /// In version 6.1, tan(alpha) and sin(gamma) replace alpha and gamma in F_y and G.
   double version = 0.0;
   double p_cx1 = 0.0;  ///< Shape factor C of the formula, > 0.
   double p_dx1 = 0.0;  ///< Longitudinal friction coefficient mu_x at nominal load, > 0.
@@ -144,18 +145,18 @@ struct TyreForce {
 /// Guarantees: the tyre force is 0 if the tyre has no load (F_z <= 0). The lateral force F_y is an
 /// odd function of (alpha, gamma), except for the r_* shifts, which represent the asymmetry of a
 /// tyre. With r_* coefficients, the combined force may exceed the friction ellipse, for example by
-/// 12 % for an upright tyre of CommonRoad's BMW, at every friction factor. This excess is a
-/// property of the coefficients. For a tyre without r_* coefficients, a force outside the friction
-/// ellipse is scaled back onto the ellipse. The shifts depend on the sign of gamma; this dependence
-/// is smoothed over half a mrad, because a jump would be unphysical. The aligning moment and turn
-/// slip are not modeled. Cost: about 0.2 us.
+/// 12 % for an upright tyre of CommonRoad's BMW, at every friction factor. The excess over the
+/// friction ellipse is a property of the r_* coefficients. For a tyre without r_* coefficients, a
+/// force outside the friction ellipse is scaled back onto the ellipse. The shifts depend on the
+/// sign of gamma; this dependence is smoothed over half a mrad, because a jump would be unphysical.
+/// The aligning moment and turn slip are not modeled. Cost: about 0.2 us.
 TyreForce EvaluateTyreForce(const MagicFormula& tyre, double load, double road,
                             const TyreSlip& slip);
 
 /// Returns the fraction of the friction ellipse that `force` uses, hypot(F_x/D_x, F_y/D_y) with D =
 /// mu F_z. The friction factor of the road is `road` > 0, and the camber is `camber` [rad]. The
-/// fraction is 0 for a tyre without load (F_z <= 0). A sliding tyre uses about 1. The fraction of a
-/// tyre with r_* coefficients may exceed 1 (EvaluateTyreForce).
+/// fraction is 0 for a tyre without load (F_z <= 0). For a sliding tyre, the fraction is about 1.
+/// The fraction of a tyre with r_* coefficients may exceed 1 (EvaluateTyreForce).
 double FrictionUse(const MagicFormula& tyre, double load, double road, double camber,
                    const TyreForce& force);
 

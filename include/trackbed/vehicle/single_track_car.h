@@ -41,7 +41,7 @@ SingleTrackState RollingWithoutSlip(const VehicleParams& params, const Kinematic
 /// exactly the same as in KinematicCar, including the rules for standstill and gears. The ratios
 /// v/u and r/u are integrated by the Radau IIA method of fifth order, in substeps of at most 2 ms.
 /// When the speed u passes through zero, v and r decay infinitely fast, but the ratios v/u and r/u
-/// have a finite limit. Because these ratios have a limit, the model needs no blending or switching
+/// have a finite limit. Because v/u and r/u have a limit, the model needs no blending or switching
 /// at low speed. A slow single-track car moves as the kinematic car except for terms of O(u^2) and
 /// O(u'). A step is split at the time when the steering reaches its target, and at the time when
 /// the car comes to rest. Changing the step size changes the result by less than 1e-9 m and 1e-9

@@ -9,8 +9,9 @@ namespace trackbed {
 /// on the car.
 ///
 /// Guarantees: the hitch angle is exact except for rounding errors while the steering angle is
-/// constant, for any duration and acceleration. While the steering angle changes, its error is that
-/// of a fourth-order integrator: below 1e-10 rad for steps up to 20 ms at 3 m/s.
+/// constant, for any duration and acceleration. While the steering angle changes, the error of the
+/// hitch angle is that of a fourth-order integrator: below 1e-10 rad for steps up to 20 ms at 3
+/// m/s.
 class TowingCar {
  public:
   /// `angle` is the hitch angle at the start [rad].

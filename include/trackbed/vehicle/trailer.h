@@ -13,7 +13,7 @@
 /// Symbols: b distance of the hitch behind the car's rear axle [m], l distance from the hitch to
 /// the trailer's axle [m], theta hitch angle: the trailer's yaw minus the car's yaw [rad], positive
 /// if the trailer is turned to the left, v speed of the car's rear axle [m/s], kappa curvature of
-/// its path [1/m]. In a steady left turn, the hitch angle is negative.
+/// the path of the car's rear axle [1/m]. In a steady left turn, the hitch angle is negative.
 namespace trackbed {
 
 /// The keys of vehicle.trailer in a scenario; a value that is not set follows from the car
@@ -60,7 +60,7 @@ struct TrailerParams {
 
 /// Returns the numbers of a trailer, in the order of TrailerParams.
 std::array<double, 13> TrailerNumbers(const TrailerParams& trailer);
-/// Returns the trailer with these numbers; the inverse of TrailerNumbers.
+/// Returns the trailer with the given numbers; the inverse of TrailerNumbers.
 TrailerParams TrailerFromNumbers(const std::array<double, 13>& numbers);
 
 /// Returns the trailer that a scenario describes. Default values, with the car's wheelbase L,
@@ -103,8 +103,8 @@ double RollingHitchRate(const TrailerParams& trailer, double angle, double speed
 
 /// Returns the hitch angle after the car's rear axle has moved by `distance` [m], negative in
 /// reverse, on a path of constant curvature. The wheels do not slip. The solution is exact except
-/// for rounding errors: u = tan(theta/2) meets a Riccati equation with constant coefficients. The
-/// returned angle is continuous with `angle` as long as it changes by less than pi.
+/// for rounding errors: u = tan(theta/2) satisfies a Riccati equation with constant coefficients.
+/// The returned angle is continuous with `angle` as long as it changes by less than pi.
 double RolledHitchAngle(const TrailerParams& trailer, double angle, double curvature,
                         double distance);
 
