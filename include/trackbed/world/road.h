@@ -8,8 +8,8 @@
 #include "trackbed/world/terrain.h"
 
 /// The friction coefficient and the height of the road. A bump or a superelevation is a feature of
-/// the road, and covers a rectangular area. In the coordinate frame of this area, u counts along
-/// the length L and v counts to the left along the width W, both from the middle of the area.
+/// the road, and covers a rectangular area. In the coordinate frame of a feature's area, u counts
+/// along the length L and v counts to the left along the width W, both from the middle of the area.
 /// Smooth transitions use the function C(q) = cos^2(pi/2 q), which is 1 at q = 0; for q >= 1, C is
 /// 0.
 namespace trackbed {

@@ -84,10 +84,10 @@ bool HasObstacles(const World& world);
 /// Returns the walls of the world's map; empty if the world has no map.
 const std::vector<OrientedBox>& MapWalls(const World& world);
 
-/// Returns the road's factor on the tyres' friction coefficient at a point. This is the factor of
-/// the last patch in the list that contains the point, or `friction` if no patch contains the
-/// point. The cost is proportional to the number of patches. Throws PreconditionError if the point
-/// is not finite.
+/// Returns the road's factor on the tyres' friction coefficient at a point. The returned factor is
+/// that of the last patch in the list that contains the point, or `friction` if no patch contains
+/// the point. The cost is proportional to the number of patches. Throws PreconditionError if the
+/// point is not finite.
 double RoadFactor(const World& world, const Vec2& point_W);
 
 /// Returns the same factor as RoadFactor above, for a given `friction` and given `patches`.
