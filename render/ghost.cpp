@@ -23,8 +23,8 @@ constexpr float kGhostTint = 0.7F;
 constexpr float kGhostDetail = 0.125F;
 // Distance by which a ghost is drawn farther from the camera than its true position [m]. A ghost
 // that coincides with the car is therefore hidden by the car and does not flicker on the car's
-// surface. Smaller differences between car and ghost are visible by the ghost's footprint and
-// trail.
+// surface. Differences between car and ghost below kGhostBehind are visible only by the ghost's
+// footprint and trail.
 constexpr double kGhostBehind = 0.10;
 constexpr double kFootprintWidth = 0.06;  // Width of the lines of a ghost's footprint [m].
 // Maximum number of pieces in the outline of a footprint; enough for pieces of 0.25 m around a car

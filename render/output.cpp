@@ -27,9 +27,9 @@ constexpr std::size_t kHeaderSize = 33;
 /// Writes one PNG file per frame, into a hidden folder until the film is complete. On completion,
 /// the PNG files of an earlier film of the same name are removed, so that frames of two films are
 /// never mixed. The PNG files of an earlier film are those that are numbered from 0 without a gap.
-/// Throws RunError if one of these PNG files was not written by Trackbed. If neither Finish() nor
-/// Keep() is called, the PNG files of the earlier film stay. If neither is called and there is no
-/// earlier film, the new PNG files written so far stay.
+/// Throws RunError if a PNG file of an earlier film was not written by Trackbed. If neither
+/// Finish() nor Keep() is called, the PNG files of the earlier film stay. Without an earlier film,
+/// the new PNG files written so far stay, even if neither Finish() nor Keep() is called.
 class FrameOutput : public FilmOutput {
  public:
   explicit FrameOutput(fs::path output) : output_(std::move(output)), frames_(output_) {
