@@ -125,8 +125,8 @@ struct RoadNetwork {
   std::map<std::string, Road, std::less<>> roads;          ///< Roads by id.
   std::map<std::string, Junction, std::less<>> junctions;  ///< Junctions by id.
   /// Parts of the file that cannot be read and are left out, such as "road 7", "road 7 successor",
-  /// "junction 2" and "junction 2 connection", each with the reason for people: its first problem
-  /// and the line.
+  /// "junction 2" and "junction 2 connection", each with a text for users: the first problem of the
+  /// part and its line.
   std::map<std::string, std::string, std::less<>> broken;
   /// Notes on parts of the file that are not used: broken roads, links to missing roads, junctions
   /// or lanes, invalid road marks, and heights that are not read.
