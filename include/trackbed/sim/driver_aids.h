@@ -19,7 +19,7 @@ struct AidOptions {
   bool abs = false;  ///< Anti-lock brakes: slip control of each wheel, select-low on the rear axle.
   bool esc = false;  ///< Electronic stability control: brakes single wheels and reduces the drive.
   Differential differential = Differential::kOpen;
-  /// Largest difference between the torques of the two wheels without drive torque [N m], >= 0;
+  /// Largest difference between the torques of the two wheels at zero drive torque [N m], >= 0;
   /// only for kLimitedSlip. Default: 0.02 m g R.
   std::optional<double> differential_preload{};
   /// Increase of the largest torque difference per drive torque of the axle [1], from 0 to 1; only
