@@ -57,7 +57,8 @@ struct AccelerationLimit {
 ///
 /// Steering angles are angles of the front wheel of the bicycle model, which is at the middle of
 /// the front axle. With differential drive, the steering angle delta represents a ratio of wheel
-/// speeds. In this case, L is the track b of the driven wheels, so that kappa = tan(delta)/L means
+/// speeds. With differential drive, L is the track b of the driven wheels, so that kappa =
+/// tan(delta)/L means
 ///   tan(delta) = (v_R - v_L)/v,  v = (v_R + v_L)/2.
 /// A vehicle with differential drive is thus a unicycle with the yaw rate (v_R - v_L)/b. All code
 /// that uses the steering angle of the bicycle model works for both kinds of vehicles.
@@ -98,8 +99,8 @@ struct VehicleParams {
 
   /// Friction coefficient mu: the largest force of a tyre divided by its load. The value is the
   /// minimum over all tyres at their static loads. For a car with tyre coefficients, the value is
-  /// the smaller one of its two tyre models (contacts and Magic Formula), because a plan must suit
-  /// both tyre models.
+  /// the smaller one of the values for the two tyre models (contacts and Magic Formula), because a
+  /// plan must suit both tyre models.
   double friction_longitudinal = 0.0;  ///< Longitudinal friction coefficient mu_x [1].
   double friction_lateral = 0.0;       ///< Lateral friction coefficient mu_y [1].
   /// Limit of the car's deceleration by braking, without the help of drag and rolling resistance.

@@ -30,8 +30,8 @@ struct WheelState {
 /// Yaw and steering angles are positive to the left. Roll is positive with the right side down, and
 /// pitch is positive with the nose down. Speeds along x and y are measured in a frame on the ground
 /// that turns with the car's yaw, but not with roll and pitch. Accelerations are along the axes of
-/// that frame, refer to the center of gravity at its height, and include the effects of roll and
-/// pitch.
+/// the frame on the ground. Accelerations refer to the center of gravity at its height, and include
+/// the effects of roll and pitch.
 struct VehicleState {
   double time = 0.0;  ///< Time [s].
   /// Pose of the rear-axle center on the ground, in world coordinates; the yaw is not wrapped.

@@ -65,9 +65,10 @@ TrailerParams TrailerFromNumbers(const std::array<double, 13>& numbers);
 
 /// Returns the trailer that a scenario describes. Default values, with the car's wheelbase L,
 /// length, width, height, mass m and wheel radius R: hitch 2 % of the length behind the rear end,
-/// hitch_height 1.2 R, tongue L, track of the rear axle, body 0.6 lengths long and as wide as the
-/// car, height 0.8 of the car's, body_ahead 0, mass 0.4 m, yaw inertia of a uniform box as large as
-/// the body, cg_ahead 6 % of the tongue, cg_height 1.75 R, wheel_radius R.
+/// hitch_height 1.2 R, tongue L, track of the rear axle, body length 0.6 times the car's length,
+/// body width equal to the car's width, height 0.8 times the car's height, body_ahead 0, mass 0.4
+/// m, yaw inertia of a uniform box as large as the body, cg_ahead 6 % of the tongue, cg_height 1.75
+/// R, wheel_radius R.
 ///
 /// Throws InputError, with the key below vehicle.trailer and the allowed values, if the hitch is
 /// not behind the car, or if the body reaches ahead of the hitch. Also throws InputError if the
