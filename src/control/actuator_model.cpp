@@ -17,7 +17,8 @@
 #include "trackbed/vehicle/steering_response.h"
 
 // Compensates the delay of the steering actuator for every control law:
-//   1. Predict the car's state at the end of the dead time from the commands on their way.
+//   1. Predict the car's state at the end of the dead time, from the commands that have not taken
+//      effect yet.
 //   2. Call the control law with the predicted state.
 //   3. Convert the wanted wheel angle to a command: dead zone, backlash, lead, inverse curve.
 namespace trackbed {
@@ -26,42 +27,43 @@ namespace {
 /// Largest half-width of the dead zone around the steady turn, as a fraction of half the backlash.
 constexpr double kDeadZone = 0.5;
 
-/// Offset [L] from the path that the dead zone may leave. Within the dead zone, a law that steers
-/// to a point at the distance R leaves an offset of up to R^2/(2 L) times the half-width, which
-/// grows with the square of the speed.
+/// Largest offset from the path due to the dead zone, as a fraction of the wheelbase L. A law that
+/// steers to a point at the distance R leaves an offset of up to R^2/(2 L) times the half-width of
+/// the dead zone. The offset grows with the square of the speed.
 constexpr double kDeadOffset = 0.04;
 
 /// Reversal of the wanted angle below which the actuator stays at rest, as a fraction of the
 /// half-width of the dead zone.
 constexpr double kReversal = 0.25;
 
-/// Remaining way of the wheels through the play below which the play counts as crossed, as a
+/// The play counts as crossed if the actuator's remaining angle to its target is at most this
 /// fraction of half the backlash.
 constexpr double kPassed = 0.125;
 
-/// Ratio of the actuator's lag to the lag of actuator and lead, and the factor by which the lead
-/// amplifies the noise of the wanted angle.
+/// Factor by which the lead shortens the lag of the actuator and amplifies the noise of the wanted
+/// angle.
 constexpr double kLead = 3.0;
 
-/// Largest amplification of a step through the play. If possible, the actuator passes the play
-/// within a control period: a small step beyond the play would otherwise take many times the lag.
+/// Largest amplification of a step that crosses the play. If possible, the amplified step crosses
+/// the play within a control period. Without amplification, a step that barely exceeds the play
+/// would take many times the lag.
 constexpr double kCrossingLead = 6.0;
 
-/// Timesteps of the modeled actuator in a control period. With steps of the control period, the lag
-/// of the model would differ from that of the actuator, and the feedback of the difference would
-/// move the command through the play and back.
+/// Timesteps of the modeled actuator in a control period. With a single timestep per control
+/// period, the lag of the model would differ from the lag of the actuator. The feedback of this
+/// difference would move the command through the play and back.
 constexpr int kSubsteps = 10;
 
 constexpr double kSameTime = 1e-9;  // [s]
 
-/// Speed below which the kinematic car predicts the motion [m/s].
+/// Speed below which the motion is predicted with the kinematic car [m/s].
 constexpr double kMinDynamicSpeed = 1.0;
 
 /// Returns the command for which the calibration curve has the value `angle` [rad], by bisection.
 double CommandFor(const MonotoneCurve& curve, const std::vector<Vec2>& points, double angle) {
   double low = points.front().x();
   double high = points.back().x();
-  constexpr int kHalvings = 50;  // to rounding
+  constexpr int kHalvings = 50;  // down to the rounding error
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (low + high);
     (curve.At(middle) < angle ? low : high) = middle;
@@ -77,13 +79,14 @@ double DeadZone(const VehicleParams& vehicle, double speed, double period) {
   return std::min(kDeadZone * 0.5 * vehicle.steering_response.backlash, harmless);
 }
 
-/// The response without its calibration curve: the wrapper passes angles after the curve.
+/// Returns the response without its calibration curve, because the filter receives angles to which
+/// the curve has already been applied.
 SteeringResponse WithoutCurve(SteeringResponse response) {
   response.curve.clear();
   return response;
 }
 
-/// The steering actuator as the controller knows it.
+/// Model of the steering actuator, with the parameters that the controller knows.
 class ActuatorModel {
  public:
   ActuatorModel(const VehicleParams& vehicle, double period, double angle)
@@ -117,12 +120,12 @@ class ActuatorModel {
   /// Returns the last wanted angle [rad].
   [[nodiscard]] double wanted() const { return wanted_; }
   [[nodiscard]] const SteeringFilter& filter() const { return filter_; }
-  /// Returns the last angle of the calibration curve, before backlash [rad].
+  /// Returns the last output of the calibration curve, to which the backlash is applied [rad].
   [[nodiscard]] double target() const { return target_; }
 
-  /// Advances by a control period in which the actuator is to come to rest at `wanted` [rad], and
-  /// returns the command. `steady` is the angle of the steady turn on the path, and `zone` the
-  /// half-width of the dead zone around it [rad].
+  /// Advances by a control period and returns the command, with which the actuator shall come to
+  /// rest at `wanted` [rad]. `steady` is the angle of the steady turn on the path. `zone` is the
+  /// half-width of the dead zone around `steady` [rad].
   double Command(double wanted, double steady, double zone) {
     wanted_ = std::clamp(wanted, -limits_.angle, limits_.angle);
     const double rest = wanted_ - std::clamp(wanted_ - steady, -zone, zone);
@@ -151,15 +154,15 @@ class ActuatorModel {
   double half_;     // Half of the backlash.
   double highest_;  // Limits of the angle before lag and backlash.
   double lowest_;
-  double moved_ = 1.0;          // Fraction of a step response reached after a control period.
-  double crossing_lead_ = 1.0;  // Amplification of a step through the play.
+  double moved_ = 1.0;          // Fraction of a step that the lag lets through in a control period.
+  double crossing_lead_ = 1.0;  // Amplification of a step that crosses the play.
   bool crosses_ = false;        // Whether the actuator is within the play after a reversal.
-  double lead_ = 1.0;           // Amplification of a step before the lag.
+  double lead_ = 1.0;           // Amplification of any other step.
   double wanted_;               // Last wanted angle.
-  double target_;               // Angle of the calibration curve, before backlash.
+  double target_;               // Output of the calibration curve, before backlash.
   double resting_;              // Angle at which the actuator comes to rest after the last command.
   double play_ = 0.0;           // Half of the backlash on the side to which the actuator turns.
-  double lagged_;               // Angle before backlash, after dead time and lag.
+  double lagged_;  // Angle after the lag and before backlash, at the end of the dead time.
   double angle_;
 };
 
@@ -289,8 +292,8 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
             .speed_gain = input.speed_gain};
   }
 
-  /// Returns the station of the predicted state, which is at most the moved distance and a quarter
-  /// of the wheelbase away from the car's station.
+  /// Returns the station of the predicted state. The station is searched within the moved distance
+  /// plus a quarter of the wheelbase around the car's station.
   static double StationOf(const ControlInput& input, const VehicleState& state, double moved) {
     if (moved == 0.0) {
       return input.station;
@@ -322,9 +325,9 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
   std::unique_ptr<SteeringController> inner_;
   ActuatorKnowledge knowledge_;
   std::optional<ActuatorModel> model_;
-  VehicleParams vehicle_;  // The car that `inner` receives, kept for its memory.
+  VehicleParams vehicle_;  // The car that `inner` receives; reuses its heap memory.
   bool slips_ = false;     // Whether the rear axle has ever moved sideways.
-  double road_ = 1.0;      // Factor of the road on the friction of the tyres, in the coming period.
+  double road_ = 1.0;  // Factor by which the road scales the tyres' friction in the coming period.
 };
 
 }  // namespace

@@ -6,49 +6,49 @@
 
 namespace trackbed {
 
-/// Wraps the path-following controller `inner` in a model of what the steering does. The control
-/// law then accounts for the dead time, the lag, the backlash and the calibration curve of
-/// SteeringResponse, and for the limits of angle and rate. With kModel as with kIgnore:
+/// Wraps the path-following controller `inner` in a model of the steering actuator. The control law
+/// then accounts for the dead time, the lag, the backlash and the calibration curve of
+/// SteeringResponse, and for the limits of angle and rate. Both with kModel and with kIgnore:
 ///   * The angle that `inner` wants is clamped to AllowedSteering (steering_limit.h). `inner` plans
 ///     with this limit as VehicleParams::steering_limit.
 ///   * The friction coefficients that `inner` receives are those on the road under the car, if the
 ///     wrapper sees the surroundings.
 ///   * As long as no measured state had a lateral speed of the rear axle, `inner` receives a car
-///      without tyre coefficients: the car is kinematic.
+///     without tyre coefficients: the car is kinematic.
 ///
 /// With kModel, the wrapper predicts the car's state at the time t + T_d at which the coming
 /// command takes effect, and calls `inner` with the predicted state (a Smith predictor, Smith
 /// 1957). T_d is the dead time. The prediction has these steps:
-///   1. A SteeringFilter keeps the commands that are on their way to the actuator.
+///   1. A SteeringFilter keeps the commands that have not reached the actuator yet.
 ///   2. The predicted car starts at the measured state. The predicted car is the linear
-///      single-track car, or the kinematic car without tyre coefficients or below 1 m/s.
-/// 3. The car drives for T_d at constant speed. The wheels of the predicted car follow the output
-/// of the filter plus
-///      the difference between the measured and the modeled actuator angle at t. Through this
-///      difference, the feedback corrects errors of the model, for example of the steering ratio.
+///      single-track car. Without tyre coefficients, or below 1 m/s, it is the kinematic car.
+///   3. The predicted car drives for T_d at constant speed. Its wheels follow the output of the
+///      filter plus the difference between the measured and the modeled actuator angle at t.
+///      Through this difference, the feedback corrects errors of the model, for example of the
+///      steering ratio.
 /// The predicted state has the wheel angle at t + T_d, and the last wanted angle as the angle of
-/// the actuator. The station is that of the path point nearest to the predicted pose. The times
-/// `state.time` and `period` stay unchanged.
+/// the actuator. The predicted station is the station of the path point nearest to the predicted
+/// pose. The times `state.time` and `period` stay unchanged.
 ///
 /// The angle that `inner` returns is converted to a command in these steps:
-///   1. A dead zone to both sides of the steady turn on the path. Without the dead zone, the
-///   command
-///      would cross the play for ever, because errors decay but never vanish. The half-width is a
-///      quarter of the backlash, or 0.08 (L/R)^2 if that is less, where R is ShortestPreview: a law
-///      that steers to a point at the distance R then stays within 0.04 L of its path. Reversals of
-///      the wanted angle below a quarter of the half-width are ignored, because with noise, the
-///      command would cross the play, too.
+///   1. Within a dead zone to both sides of the steady turn on the path, the angle of the steady
+///      turn is commanded. Without the dead zone, the command would cross the play forever, because
+///      errors decay but never vanish. The half-width is a quarter of the backlash, or
+///      0.08 (L/R)^2 if that is less, where R is ShortestPreview. A law that steers to a point at
+///      the distance R then stays within 0.04 L of its path. Reversals of the wanted angle below a
+///      quarter of the half-width are ignored, because noise would otherwise make the command
+///      cross the play.
 ///   2. Half of the backlash is added on the side to which the actuator turns.
-///   3. A lead that divides the lag by 3. The lead amplifies noise by the same factor. Within the
-///      play, the amplification is up to 6.
-///   4. The inverse of the calibration curve.
+///   3. A lead divides the lag by 3 and amplifies noise by 3. While the wheels cross the play, the
+///      amplification is up to 6.
+///   4. The inverse of the calibration curve is applied.
 /// The vehicle that `inner` receives has a third of the lag as SteeringResponse::time_constant, and
-/// no dead time, backlash or curve.
+/// no dead time, backlash or calibration curve.
 ///
 /// With kIgnore, `inner` receives the measured state, and a vehicle with an ideal response and
-/// without steering lag. With an ideal response and kModel, the wrapper passes the measured
-/// state unchanged, bit for bit, and angles within the limits. Cost per control period: ten steps
-/// of the car model for each control period within T_d, about 20 us.
+/// without steering lag. With an ideal response and kModel, the wrapper passes on the measured
+/// state and all angles within the limits without any change, bit for bit. Cost per control period:
+/// ten steps of the car model for each control period within T_d, about 20 us.
 std::unique_ptr<SteeringController> WithActuatorModel(std::unique_ptr<SteeringController> inner,
                                                       ActuatorKnowledge knowledge);
 

@@ -37,7 +37,7 @@ void BoundedRegulator::Begin(const ErrorModel& model, const Regulator& regulator
     largest = std::max(largest, std::abs(step.slope));
     adjoint = (excess * regulator.gain.transpose() + model.a.transpose() * adjoint).eval();
   }
-  // The derivative plus the upper minus the lower multiplier is 0.
+  // Stationarity: the derivative plus the upper multiplier minus the lower multiplier is 0.
   for (Step& step : steps_) {
     const double both = 0.1 * largest;
     step.input = 0.0;
@@ -127,7 +127,7 @@ double BoundedRegulator::Input(const ErrorModel& model, const Regulator& regulat
     return inputs_[0];
   }
   Begin(model, regulator, most);
-  // Half of the duality gap is the sum of the products.
+  // The sum of the complementarity products is half of the duality gap.
   const double last = 0.5 * kGap / static_cast<double>(2 * count);
   double product = MeanProduct(0.0);
   for (; iterations_ < kMaxIterations && product > last; ++iterations_) {
@@ -136,8 +136,8 @@ double BoundedRegulator::Input(const ErrorModel& model, const Regulator& regulat
     ComputeStep(model, 0.0, false);
     const double ratio = MeanProduct(StepToBound()) / product;
     ComputeStep(model, product * ratio * ratio * ratio, true);
-    // Stop a fraction of the way before the nearest bound. The fraction falls with the
-    // complementarity products.
+    // Stop slightly before the nearest bound. The omitted fraction of the step is the predicted
+    // ratio of the new to the old complementarity products, within limits.
     const double part = (1.0 - std::clamp(ratio, 1e-6, 0.01)) * StepToBound();
     for (Step& step : steps_) {
       step.input += part * step.turn;

@@ -10,17 +10,17 @@ namespace trackbed {
 ///
 /// The deviation z of a car from its path follows
 ///   z(k+1) = A z(k) + b w(k) + g(k),  abs(w(k)) <= w_max for k < n,
-/// with known disturbances g(0) to g(n-1), the effect of the path ahead; g is 0 after that. Without
-/// bounds, the cost of the Regulator (gain K, cost P) is minimized by
+/// with known disturbances g(0) to g(n-1), the effect of the path ahead; g(k) is 0 for k >= n.
+/// Without bounds, the cost of the Regulator (gain K, cost P) is minimized by
 ///   w*(k) = -K z*(k) - b' s(k)/(R + b'Pb),  s(k) = P g(k) + (A - b K)' s(k+1).
-/// With q = w - w* and x = z - z*, any other input costs (R + b'Pb) J more, where
+/// With q = w - w* and x = z - z*, any other input exceeds the minimum cost by (R + b'Pb) J, where
 ///   J = sum over k of (q(k) + K x(k))^2,  x(k+1) = A x(k) + b q(k),  x(0) = 0.
-/// If a w*(k) exceeds w_max, BoundedRegulator minimizes J subject to the bounds of w. This strictly
-/// convex quadratic program is solved by a primal-dual interior-point method, whose Newton steps
-/// are Riccati recursions (Rao et al. 1998; Mehrotra 1992). The start keeps all bounds, and its
-/// multipliers make the Lagrangian stationary. Each iteration keeps the bounds and the
-/// stationarity, because the steps of inputs and multipliers have the same length. The duality gap
-/// therefore bounds how much J exceeds its minimum.
+/// If abs(w*(k)) exceeds w_max for some k, BoundedRegulator minimizes J subject to the bounds of w.
+/// This strictly convex quadratic program is solved by a primal-dual interior-point method, whose
+/// Newton steps are Riccati recursions (Rao et al. 1998; Mehrotra 1992). The starting point
+/// satisfies all bounds, and its multipliers make the Lagrangian stationary. Each iteration
+/// preserves the bounds and the stationarity, because inputs and multipliers take steps of the same
+/// length. The duality gap therefore bounds how much J exceeds its minimum.
 ///
 /// Guarantees: w(0) is within the bounds; J is within kGap w_max^2 of its minimum, unless the
 /// method needs more than kMaxIterations. With a preview of 100 steps, 8 to 14 iterations are
@@ -36,8 +36,8 @@ class BoundedRegulator {
   void Append(const ErrorModel::Vector& push) { pushes_.push_back(push); }
 
   /// Returns the input w(0) within [-most, most], for the deviation z(0). `most` is w_max, > 0. The
-  /// result does not depend on calls before. Cost O(n) per iteration. Takes heap memory only if
-  /// there are more steps than in each call before.
+  /// result does not depend on earlier calls. Cost O(n) per iteration. Allocates heap memory only
+  /// if there are more steps than in all earlier calls.
   double Input(const ErrorModel& model, const Regulator& regulator, const ErrorModel::Vector& z,
                double most);
 
@@ -65,13 +65,13 @@ class BoundedRegulator {
                             const ErrorModel::Vector& z);
   void Begin(const ErrorModel& model, const Regulator& regulator, double most);
   void Factor(const ErrorModel& model, const Regulator& regulator);
-  /// Computes the Newton step to complementarity products of `product`. If `corrects`, the products
-  /// of the former Newton step are taken into account.
+  /// Computes the Newton step toward a point at which all complementarity products equal `product`.
+  /// If `corrects` is set, accounts for the second-order terms of the previous Newton step.
   void ComputeStep(const ErrorModel& model, double product, bool corrects);
-  /// Returns the part of the Newton step, at most 1, at which an input or a multiplier reaches its
-  /// bound.
+  /// Returns the fraction of the Newton step, at most 1, at which the first input or multiplier
+  /// reaches its bound.
   [[nodiscard]] double StepToBound() const;
-  /// Returns the mean complementarity product at a part of the Newton step.
+  /// Returns the mean complementarity product after the fraction `part` of the Newton step.
   [[nodiscard]] double MeanProduct(double part) const;
 
   std::vector<ErrorModel::Vector> pushes_;

@@ -1,11 +1,11 @@
 // Error model of lqr and mpc: the single-track car beside its path, and the path ahead.
 //
 // The continuous model (Rajamani 2012, ch. 2) is linear in the state, the steering rate, the
-// curvature and a constant. The exponential of its augmented matrix is the exact time step. Ahead
-// moves a point along the path as the plan does: between two knots of the speed profile, the
-// acceleration a is constant, so the point drives v T + a T^2/2 in a step T, until it stands. The
-// difference to the planned speed that the car has now remains. The regulator is found by doubling
-// (Chu et al. 2004), with a weight of the rate that grows with the errors (Megretski 1996).
+// curvature and a constant. The exponential of the model's augmented matrix yields the exact time
+// step. Ahead moves a point along the path at the planned speed plus the car's present excess
+// speed. Between two knots of the speed profile, the acceleration a is constant, so the point
+// drives v T + a T^2/2 in a step T, until the point stops. The regulator is found by doubling (Chu
+// et al. 2004). The weight of the steering rate grows with the errors (Megretski 1996).
 #include "src/control/error_model.h"
 
 #include <Eigen/LU>
@@ -239,7 +239,7 @@ Vector Ahead::Next(const ErrorModel& model) {
   }
   station_ += stride;
   // Mean curvature over the step, computed from the heading change so that it includes curvature
-  // jumps. The heading of a car that hardly rolls is rounded.
+  // jumps. For a shorter step, rounding errors would dominate the heading change.
   constexpr double kLeastStride = 1e-6;  // [m]
   const double mean = stride > kLeastStride
                           ? AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride)

@@ -103,12 +103,13 @@ ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options) {
           .steering_rate = options.steering_rate.value_or(scale.time * scale.time)};
 }
 
-/// As above, for a car at `speed` u [m/s] with a lag of its steering response, that is controlled
-/// every `period` T [s]. The closed loop of a car without slip has the bandwidth w_0 = ((u^2/L)^2
-/// cross_track/steering_rate)^(1/6), if the heading has no weight. The default weight of the
-/// steering rate is increased until 1/w_0 is at least twice SteeringResponse::time_constant, and at
-/// least kPeriods T. With a faster loop, small errors of the actuator, such as backlash, would
-/// oscillate through the lag, and the limited steering rate would oscillate from period to period.
+/// Converts the options to weights, for a car at `speed` u [m/s] with a steering lag and the
+/// control period `period` T [s]. The closed loop of a car without slip has the bandwidth w_0 =
+/// ((u^2/L)^2 cross_track/steering_rate)^(1/6), if the heading has no weight. The default weight of
+/// the steering rate is increased until 1/w_0 is at least twice SteeringResponse::time_constant,
+/// and at least kPeriods T. With a faster loop, the lag would turn small actuator errors, such as
+/// backlash, into oscillations. The limited steering rate would change its sign from period to
+/// period.
 template <typename Options>
 ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options, double speed,
                         double period) {
@@ -145,11 +146,11 @@ ErrorModel::Vector StateCost(const ErrorModel& model, const ErrorWeights& weight
 /// Computes, step by step, the disturbance g with which the path ahead acts on the error model. Let
 /// x_0(k) be the steady turn at the path's curvature k steps ahead. The deviation z = x - x_0 from
 /// the steady turn satisfies z(k+1) = a z(k) + b w(k) + g(k). The speed on the path ahead is the
-/// planned speed plus the amount by which the car now exceeds the planned speed. It determines the
-/// length of a step and the steady turn x_0(k). A car that is much slower than planned is assumed
-/// to reach the smaller one of the planned speed and the least speed of the model. Cusps end the
-/// path ahead. With `path`, the car follows the ramped path instead of the path, and `tracking` is
-/// RampedPath::Track.
+/// planned speed plus the amount by which the car now exceeds the planned speed. This speed
+/// determines the length of a step and the steady turn x_0(k). A car that is much slower than
+/// planned is assumed to reach the planned speed or the minimum speed of the model, whichever is
+/// smaller. The path ahead ends at the next cusp. With `path`, the car follows the ramped path
+/// instead of the path, and `tracking` is RampedPath::Track.
 class Ahead {
  public:
   Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model,
@@ -161,7 +162,8 @@ class Ahead {
   [[nodiscard]] Motion Now() const { return MotionOn(curvature_); }
   /// Advances by one step of the error model and returns the disturbance g of this step. The
   /// disturbance g is zero while the curvature and the planned speed are constant. Without an
-  /// argument, the model is the one of the constructor, otherwise it must describe Now.
+  /// argument, Next uses the model of the constructor. A given `model` must be made for the motion
+  /// that Now returns.
   ErrorModel::Vector Next() { return Next(model_); }
   ErrorModel::Vector Next(const ErrorModel& model);
 

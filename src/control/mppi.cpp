@@ -19,22 +19,22 @@
 
 // MPPI in each control period:
 //   1. Shift the last plan, a steering rate for each step, by the control period.
-//   2. Take the motion of a car that lqr steers instead if its cost is lower.
+//   2. Replace the plan by the motion of a car that lqr steers, if this motion costs less.
 //   3. Compute the costs of roll-outs with deviations from the plan, on the threads of oneTBB.
 //   4. Average the deviations, weighted by exp(-cost/lambda), in a fixed order.
-//   5. Replace the plan by the average, half of the change, or the cheapest roll-out if this lowers
-//      the cost.
+//   5. Add the average deviation or half of it to the plan, or replace the plan by the cheapest
+//      roll-out, if this lowers the cost.
 namespace trackbed {
 namespace {
 
-/// Number of constant deviations in a roll-out.
+/// Number of intervals of a roll-out in which the deviation is constant.
 constexpr std::size_t kHolds = 10;
-/// Number of sizes of deviations, and the ratio of a size to the next smaller one. Small deviations
-/// refine the plan near its optimum; large ones find ways around obstacles.
+/// Number of sizes of deviations, and the ratio of a size to the next smaller size. Small
+/// deviations refine the plan near its optimum; large deviations find ways around obstacles.
 constexpr std::size_t kSizes = 4;
 constexpr double kSizeRatio = 4.0;
-/// Fraction of the roll-outs whose costs define the spread of the costs. The other roll-outs may
-/// collide.
+/// Fraction of the roll-outs whose costs define the spread of the costs. The costs of all other
+/// roll-outs, which may collide, do not affect the spread.
 constexpr double kSpreadShare = 0.1;
 /// Cost per step below which a plan is optimal up to rounding.
 constexpr double kNoCost = 1e-20;
@@ -59,7 +59,7 @@ double NormalNumber(std::uint64_t seed, std::uint64_t counter) {
          std::cos(2.0 * kPi * uniform(2 * counter + 1));
 }
 
-/// Returns MppiOptions::horizon of a car at its present speed [s].
+/// Returns the default of MppiOptions::horizon for the car's present speed [s].
 double DefaultHorizon(const ControlInput& input) {
   constexpr double kShortest = 1.0;  // [s]
   constexpr double kLongest = 5.0;   // [s]
@@ -99,7 +99,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
 
   [[nodiscard]] std::unique_ptr<SteeringController> Clone() const override {
     auto copy = std::make_unique<Mppi>(*this);
-    copy->surroundings_ = nullptr;  // the copy belongs to another loop
+    copy->surroundings_ = nullptr;  // the surroundings belong to the loop of the original
     return copy;
   }
 
@@ -119,7 +119,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
          .margin = options_.margin.value_or(0.25 * input.vehicle.width),
          .grip = options_.grip});
     if (Stands(input)) {
-      // The roll-outs would drive off at once, but the drive waits until the actuator rests.
+      // Roll-outs assume that the car drives off at once, but a car at rest waits for its actuator.
       std::fill(plan_.begin(), plan_.end(), 0.0);
       elapsed_ = 0.0;
       return angle_.Turn(input, roll_out_.StartRate());
@@ -127,7 +127,8 @@ class Mppi final : public SteeringController, public SeesSurroundings {
     cost_ = CostOf(plan_);
     FollowRegulator();
     if (cost_ > kNoCost * static_cast<double>(steps_)) {
-      // A random motion of the rates of `kHolds` holds ends at the grip, on average.
+      // After `kHolds` random rates with the deviation grip/sqrt(hold horizon), the steering angle
+      // has the standard deviation `grip`.
       const double grip = SteeringAtGrip(input.vehicle, input.state.speed);
       const double hold = horizon / static_cast<double>(kHolds);
       Improve(options_.noise *
@@ -168,8 +169,8 @@ class Mppi final : public SteeringController, public SeesSurroundings {
     return noise_[pair * kHolds + step * kHolds / steps_];
   }
 
-  /// Returns the steering rate of a roll-out in a step. Roll-outs with odd numbers deviate in the
-  /// opposite direction of the roll-out before.
+  /// Returns the steering rate of a roll-out in a step. A roll-out with an odd number has the
+  /// opposite deviation of the preceding roll-out.
   [[nodiscard]] double SampledRate(std::size_t roll_out, std::size_t step, double size) const {
     const double side = roll_out % 2 == 0 ? size : -size;
     const double most = roll_out_.rate_limit();

@@ -77,7 +77,8 @@ void ObstacleCells::FillCells() {
   pairs_.clear();
   for (std::size_t i = 0; i < still_.size(); ++i) {
     const Rectangle& box = still_[i];
-    // A car whose middle is in another cell is farther away than the margin.
+    // If the middle of the car is outside the cells from `low` to `high`, the car is farther away
+    // from the rectangle than the margin.
     const double x = box.half_length * std::abs(box.cosine) + box.half_width * std::abs(box.sine);
     const double y = box.half_length * std::abs(box.sine) + box.half_width * std::abs(box.cosine);
     const double wider = radius_ + margin_;

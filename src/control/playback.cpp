@@ -98,7 +98,7 @@ std::vector<OptionProblem> CheckRecording(const PlaybackOptions& options,
   return problems;
 }
 
-/// Returns the options before a file is read: a recording of straight driving.
+/// Returns the default options, which hold until a file is read: a recording of straight driving.
 PlaybackOptions StraightOn() {
   PlaybackOptions options;
   options.recording.steering = {{{0.0, 0.0}}};

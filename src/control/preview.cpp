@@ -27,8 +27,8 @@ class Preview final : public SteeringController {
     if (options_.distance) {
       path_.UpdateWithoutRamps(input);
     } else {
-      // A point of the path at the distance R has a station of at most R ahead on a straight path,
-      // and of less than 2 R in a turn of up to 200 degrees.
+      // On a straight path, the station of the point at the distance R is at most R ahead. In a
+      // turn of up to 200 degrees, the station is less than 2 R ahead.
       path_.Update(input, std::max(TimelySteering::Horizon(input),
                                    2.0 * std::max(least, ReturnDistance(input))));
     }

@@ -3,8 +3,8 @@
 #include "trackbed/control/steering_controller.h"
 
 /// Default preview distance R [m] of controllers that steer toward a point of the path. `preview`
-/// steers toward a point of RampedPath, which has no steps of the curvature, and uses the first two
-/// terms alone.
+/// steers toward a point of RampedPath, which has no steps of the curvature, and uses only the
+/// first two terms of R.
 ///
 /// The symbols are:
 ///   L      wheelbase [m]
@@ -35,9 +35,9 @@
 /// the distance S to turn. Ideally, half of the ramp length S lies before the curvature step, and
 /// half behind the step. With a preview distance below S/2, the wheels begin to turn too late, and
 /// the car swings out. In the term 0.65 S, the factor 0.65 instead of 1/2 leaves a margin for model
-/// errors. With this preview distance, a car passes a curvature step of size kappa with a deviation
-/// of about kappa S^2/24, by which a ramp of length S deviates from the step. The distance S is 0
-/// if the wheels can follow the path's curvature.
+/// errors. With the preview distance 0.65 S + v T, a car deviates by about kappa S^2/24 at a
+/// curvature step of size kappa. A curvature ramp of length S deviates by the same distance from
+/// the step. The distance S is 0 if the wheels can follow the path's curvature.
 namespace trackbed {
 
 /// Lower bound for speeds that are used as divisors [m/s].
@@ -63,27 +63,27 @@ double ShortestPreview(const VehicleParams& vehicle, double speed, double period
 double PreviewDistance(const ControlInput& input, double delay = 0.0);
 
 /// The preview distance of a controller over time. PreviewDistance grows when a curvature step
-/// comes within reach, and shrinks at once when the step leaves it. A preview point that moved
-/// backwards would make the steering command jump. This distance therefore shrinks by at most the
-/// distance that the car drives, so the preview point never moves backwards. After a change of the
-/// direction of motion, the distance is PreviewDistance.
+/// comes within reach, and shrinks at once when the step is no longer within reach. A preview point
+/// that moved backwards would make the steering command jump. HeldPreviewDistance therefore shrinks
+/// by at most the distance that the car drives, so the preview point never moves backwards. After a
+/// change of the direction of motion, the result is that of PreviewDistance.
 class HeldPreviewDistance {
  public:
   /// Returns the preview distance R [m] for the car's present state, with `delay` [s] added to the
-  /// response time. Call it once per control period.
+  /// response time. Call Next once per control period.
   double Next(const ControlInput& input, double delay = 0.0);
 
  private:
-  double distance_ = 0.0;  // [m]; 0 before the first call.
+  double distance_ = 0.0;  // Last preview distance [m]; 0 before the first call.
   int direction_ = 0;      // Direction of motion on the path.
 };
 
 /// Returns the shortest preview distance [m] with which a rate-limited car at `speed` returns from
 /// `offset` [m] to its path without oscillation and without sliding. At the maximum steering rate,
 /// the curvature of the car's track changes by c = omega/(L v) per meter. Returning from an offset
-/// e takes a distance proportional to cbrt(e/c), and the distance v T in which the car does not yet
-/// answer, with the response time T without the control period. If `speed` is below 5/4 L omega,
-/// the function uses 5/4 L omega instead for c. The result is at least v sqrt(2 e/a): a car that
+/// e takes a distance proportional to cbrt(e/c), plus the distance v T that the car drives before
+/// it responds. T is the response time without the control period. If `speed` is below 5/4 L omega,
+/// c is computed with 5/4 L omega instead of v. The result is at least v sqrt(2 e/a): a car that
 /// steers on an arc toward a point at the distance R has the lateral acceleration 2 e v^2/R^2,
 /// which must not exceed a, the fraction kReturnGripShare of LateralGrip (steering_limit.h).
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset);

@@ -62,8 +62,8 @@ class PreviewIntegral final : public SteeringController {
     UpdatePath(input, TimelySteering::Horizon(input));
     const Tracking tracking = path_.Track();
     const double distance = Distance(input, direction, tracking.cross_track);
-    // A point of the path at the distance R has a station of less than 2 R ahead in a turn of up to
-    // 200 degrees.
+    // In a turn of up to 200 degrees, the station of the point at the distance R is less than 2 R
+    // ahead.
     UpdatePath(input, std::max(TimelySteering::Horizon(input), 2.0 * distance));
     const Pose2& pose = input.state.pose;
     const double angle = AngleTo(path_, direction, pose, input.station, distance);
@@ -99,8 +99,8 @@ class PreviewIntegral final : public SteeringController {
   };
   using Gauss = boost::math::quadrature::gauss<double, 10>;
 
-  /// Returns the nodes of the quadrature over the preview distance, on a car with the model that
-  /// suits its speed.
+  /// Returns the quadrature nodes over the preview distance. The car's responses at the nodes come
+  /// from the model for its present speed.
   [[nodiscard]] std::array<Node, 10> Nodes(const ControlInput& input, int direction,
                                            double distance) const {
     const bool dynamic = IsDynamic(input, direction);
@@ -122,7 +122,8 @@ class PreviewIntegral final : public SteeringController {
     return direction > 0 && input.state.speed >= kMinDynamicSpeed && HasTyres(input.vehicle);
   }
 
-  /// Finds the ramps within `ahead` [m], unless a preview distance is given.
+  /// Updates the ramped path up to `ahead` [m] ahead of the car. If the options set a preview
+  /// distance, the path has no ramps.
   void UpdatePath(const ControlInput& input, double ahead) {
     if (options_.distance) {
       path_.UpdateWithoutRamps(input);
@@ -161,13 +162,13 @@ class PreviewIntegral final : public SteeringController {
                      DistanceOfEqualGain(input, direction, single)});
   }
 
-  /// Returns the preview distance R [m] for which this law responds to an offset with the gain 2
-  /// L'/R_1^2 of the single-point law with the preview distance R_1 = `single`, where L' is the
-  /// steering angle of a steady turn per curvature. For the kinematic car, L' = L, and R/R_1 is the
-  /// square root of the ratio of the gains at equal distances. Tyres respond late, so A(eta) is
-  /// smaller than for the kinematic car, and the gain int A W/int A^2 W is larger. R is then
-  /// longer: with the kinematic ratio, a car whose steering rate is limited would weave about its
-  /// path for ever.
+  /// Returns the preview distance R [m] at which this law responds to an offset with the same gain
+  /// as the single-point law at the distance R_1 = `single`. This gain is 2 L'/R_1^2, where L' is
+  /// the ratio of steering angle to curvature in a steady turn. For the kinematic car, L' = L, and
+  /// R/R_1 is the square root of the ratio of the gains at equal distances. Tyres respond late, so
+  /// A(eta) is smaller than for the kinematic car, and the gain int A W/int A^2 W is larger. For a
+  /// car with tyres, R is therefore longer: with the kinematic ratio, a car with a limited steering
+  /// rate would oscillate about its path forever.
   [[nodiscard]] double DistanceOfEqualGain(const ControlInput& input, int direction,
                                            double single) const {
     double distance = std::sqrt(KinematicGainRatio()) * single;
@@ -194,9 +195,9 @@ class PreviewIntegral final : public SteeringController {
     return distance;
   }
 
-  /// Returns the ratio of this law's gain on a lateral offset to the gain of the single-point law
-  /// with the same preview distance, for the kinematic car: R^2/2 times the ratio of the integrals
-  /// of A W and A^2 W.
+  /// Returns, for the kinematic car, the ratio of this law's gain on a lateral offset to the gain
+  /// of the single-point law with the same preview distance. The ratio is R^2/2 times the integral
+  /// of A W divided by the integral of A^2 W.
   [[nodiscard]] double KinematicGainRatio() const {
     return options_.weight == PreviewWeight::kNear ? 5.0 / 2.0 : 5.0 / 3.0;
   }

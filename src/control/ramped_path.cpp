@@ -8,13 +8,13 @@
 namespace trackbed {
 namespace {
 
-/// Ratio of the lengths of tail and ramp.
+/// Ratio of the tail's length to the ramp's length.
 constexpr double kTail = 2.0;
-/// Least ratio of the lengths of tail and ramp, with which the tail keeps within 1.25 times the
-/// steering rate.
+/// Minimum ratio of the tail's length to the ramp's length. At this ratio, the tail needs at most
+/// 1.25 times the steering rate.
 constexpr double kShortestTail = 1.0;
 
-/// Offset of the ramped path from the path, and its derivatives by the station.
+/// Offset of the ramped path from the path, and its derivatives with respect to the station.
 struct Offset {
   double e = 0.0;
   double slope = 0.0;
@@ -24,8 +24,8 @@ struct Offset {
 /// Largest second derivative of the polynomial (1 - u)^3 (1 + 3 u + 6 u^2).
 const double kTailBend = 10.0 / std::sqrt(3.0);
 
-/// Returns the offset for a step of height 1, at the distance x from the step. The part `before` of
-/// the offset of the ramp lies ahead of the step.
+/// Returns the offset of the ramped path at the distance x from a curvature step of height 1. The
+/// fraction `before` of the ramp's sideways shift lies ahead of the step.
 Offset OffsetFrom(double x, double ramp, double tail, double before) {
   const double side = x < 0.0 ? -1.0 : 1.0;
   const double half = 0.5 * ramp;

@@ -9,9 +9,9 @@ namespace trackbed {
 /// A path whose steps of the curvature are replaced by ramps that the wheels can follow.
 ///
 /// At a step of the curvature, wheels with a limited rate lag behind the path. A control law that
-/// tracks the path itself then saturates, and feeds back errors that it cannot avoid. A car with a
-/// limited steering rate can drive the ramped path: a control law that tracks this path receives no
-/// unavoidable errors, and commands rates within the limit.
+/// tracks the path itself saturates at the step, and feeds back errors that no command can avoid. A
+/// car with a limited steering rate can drive the ramped path: a control law that tracks the ramped
+/// path receives no unavoidable errors, and commands rates within the limit.
 ///
 /// The symbols are:
 ///   x       distance from the step along the path [m], positive behind the step
@@ -20,33 +20,37 @@ namespace trackbed {
 ///   e       offset of the ramped path from the path [m], positive to the left
 ///   T       length of the tails [m]: 2 S
 ///
-/// The curvature of the ramped path rises linearly at abs(x) < S/2. Such a ramp moves the path to
-/// the side by kappa S^2/24. One part of this distance lies ahead of the ramp, where e < 0 for a
-/// step to the left, and the other one behind it, where e > 0. Beyond the ramp, e returns to 0
-/// within T, along a polynomial of degree 5. If the car can steer the tails on both sides, both
-/// parts are equal. The curvature of the tails is then at most 0.03 kappa, and their steering rate
-/// at most 0.16 omega. A turn at full lock leaves no steering for its tails, so the whole distance
-/// lies on the side of less curvature. The effects of several steps are added.
+/// The curvature of the ramped path rises linearly at abs(x) < S/2. A ramp of length S shifts the
+/// path sideways by kappa S^2/24. For a step to the left, e < 0 ahead of the ramp and e > 0 behind
+/// the ramp. The difference of e across the ramp is the sideways shift. Beyond each end of the
+/// ramp, e returns to 0 along a tail of length T, a polynomial of degree 5. If the car can steer
+/// the tails on both sides, each side gets half of the shift. The curvature of such tails is at
+/// most 0.03 kappa, and their steering rate at most 0.16 omega. A turn at full lock leaves no
+/// steering angle for a tail, so the whole shift lies on the other side of the step. The offsets of
+/// several steps are added.
 ///
-/// A path without steps of the curvature is returned unchanged. The wheels turn at rest at cusps
-/// and at the ends of the path, so steps there remain. S + T/2 is at most the distance from there,
-/// so that the ramped path passes through cusps and ends.
+/// A path without steps of the curvature is returned unchanged. At cusps and at the ends of the
+/// path, the wheels turn at rest, so curvature steps at these points remain. S/2 + T is at most the
+/// distance of a step from the nearest cusp or end, so that the ramped path passes through cusps
+/// and ends.
 class RampedPath {
  public:
-  /// Finds the steps that act between the car's station and `ahead` [m] beyond it. The speed v at a
-  /// step is SpeedAt. `input` must outlive the other calls. Takes heap memory only if the path has
-  /// more segments than each before. Cost O(n) for a path of n segments.
+  /// Finds the curvature steps whose ramps or tails lie between the car's station and `ahead` [m]
+  /// beyond it. SpeedAt returns the speed v at a step. `input` must outlive the calls of all other
+  /// functions. Allocates heap memory only if the path has more segments than all earlier paths.
+  /// Cost O(n) for a path of n segments.
   void Update(const ControlInput& input, double ahead);
 
-  /// Takes the path of `input` as it is.
+  /// Takes the path of `input` without ramps.
   void UpdateWithoutRamps(const ControlInput& input);
 
-  /// Returns the ramped path's point beside station `s` of the path, which is between the stations
-  /// of Update.
+  /// Returns the ramped path's point beside station `s` of the path. The last call of Update must
+  /// have covered `s`.
   [[nodiscard]] PathPoint At(double s) const;
 
-  /// Returns the speed [m/s] at which the car passes station `s`: the planned one, plus the amount
-  /// by which the car now exceeds its plan. Without a plan, it is the car's present speed.
+  /// Returns the speed [m/s] at which the car passes station `s`: the planned speed, plus the
+  /// amount by which the car now exceeds its planned speed. Without a planned speed, returns the
+  /// car's present speed.
   [[nodiscard]] double SpeedAt(double s) const;
 
   /// Returns the position of the car relative to the ramped path.

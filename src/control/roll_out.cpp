@@ -18,13 +18,13 @@
 namespace trackbed {
 namespace {
 
-/// Cost of a collision per step; larger than that of any deviation that a detour needs.
+/// Cost of a collision per step; larger than the cost of any deviation on a detour.
 constexpr double kCollision = 1e4;
-/// Cost of touching an obstacle, relative to a deviation of a wheelbase, for gaps below the margin.
+/// Cost per step of a car that touches an obstacle; falls to 0 at a gap of the margin.
 constexpr double kCloseness = 20.0;
 /// Cost of a lateral acceleration of twice the grip.
 constexpr double kBeyondGrip = 1e3;
-/// Angle to the path at which lqr approaches it from far away [rad]; as in ScheduledRegulator.
+/// Angle at which lqr approaches the path from far away [rad]; as in ScheduledRegulator.
 constexpr double kApproachAngle = 0.6;
 
 double Between(double a, double b, double share) {
@@ -69,7 +69,7 @@ RollOuts::Stage RollOuts::StageAt(double speed, double acceleration) const {
   const double hard = std::abs(acceleration);
   for (std::size_t i = 0; i < 2; ++i) {
     constexpr double kMinShare =
-        0.05;  // least fraction of the load at rest, and of the friction force
+        0.05;  // least ratio of load to static load, and of lateral to friction force
     const AxleGrip& axle = limit.axles[i];
     const double load =
         std::max(kMinShare, 1.0 + direction_ * axle.transfer * hard / (kGravity * axle.weight));
@@ -137,8 +137,8 @@ void RollOuts::PrepareNodes(const ControlInput& input, const Tracking& tracking,
       nodes_[static_cast<std::size_t>(i) - 1].curvature = (node.yaw - last) / spacing_;
     }
     last = node.yaw;
-    // Beyond its ends, a path is straight. There, the car keeps the curvature of the end, because
-    // a car that stands at a cusp must steer as its path begins.
+    // Beyond its ends, a path is straight. The steady turn beyond an end has the curvature at this
+    // end, because a car that stands at a cusp must steer for the start of its path.
     const double within = std::clamp(input.station + station, 0.0, input.reference.path.length());
     node.steady = OperateOn(vehicle_, slips_ ? TyreForces::kBrush : TyreForces::kNone,
                             {.curvature = input.reference.path.BendAt(within).curvature,
@@ -249,7 +249,8 @@ void RollOuts::Project(RolledCar& car) const {
   const double k = node.curvature;
   const double along = dx * node.cosine + dy * node.sine;
   const double aside = dy * node.cosine - dx * node.sine;
-  // The foot of a car beyond the center of curvature would be on the opposite side of the circle.
+  // For a car beyond the center of curvature, the nearest point of the circle would be on the
+  // opposite side.
   constexpr double kMinToCenter = 0.05;
   const double to_center = std::max(1.0 - k * aside, kMinToCenter);
   const double tangent = k * along / to_center;

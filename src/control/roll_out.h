@@ -30,10 +30,10 @@ struct RolledCar {
   double yaw = 0.0;                   ///< Heading [rad].
   double lateral_speed = 0.0;         ///< Lateral speed of the center of gravity [m/s].
   double yaw_rate = 0.0;              ///< [rad/s]
-  double lateral_acceleration = 0.0;  ///< Of the last step [m/s^2].
+  double lateral_acceleration = 0.0;  ///< Lateral acceleration in the last step [m/s^2].
   double actuator = 0.0;              ///< Steering angle of the actuator [rad].
   double wheels = 0.0;                ///< Steering angle of the wheels [rad].
-  double station = 0.0;               ///< Station relative to that of the car at the start [m].
+  double station = 0.0;               ///< Station minus the car's station at the start [m].
   double cross_track = 0.0;           ///< Offset e from the path [m].
   double heading_error = 0.0;         ///< Heading error psi relative to the path [rad].
 };
@@ -48,7 +48,7 @@ class RollOuts {
                const Surroundings* surroundings, const RollOutSettings& settings);
 
   /// Returns the cost of a motion. `rate_of(k, car)` is the wanted steering rate [rad/s] in the
-  /// step k from 0; it is limited to the car's rate.
+  /// step k, counted from 0. Cost clamps this rate to the car's largest steering rate.
   template <typename RateOf>
   [[nodiscard]] double Cost(const RateOf& rate_of) const {
     RolledCar car = start_;

@@ -14,9 +14,10 @@ namespace {
 
 /// Fraction of g b/(2 h) to which a step of the steering angle is limited. The body of the car
 /// leans out of the turn, so the inner wheels lift at less than g b/(2 h) in a steady turn, and the
-/// roll angle overshoots after a step. For steps of the four cars of models/ in MuJoCo, the share
-/// of the steady turn divided by the overshoot is 0.62 (prius) to 0.67 (bmw320i), see
-/// docs/algorithms/control.md. The BMW on contact tyres rolls over after steps to 0.75.
+/// roll angle overshoots after a step. For the four cars of models/ in MuJoCo, the fraction at
+/// which the inner wheels lift in a steady turn, divided by the overshoot of the roll angle after a
+/// step, is 0.62 (prius) to 0.67 (bmw320i), see docs/algorithms/control.md. The BMW on contact
+/// tyres rolls over after steps to a fraction of 0.75.
 constexpr double kRollShare = 0.65;
 
 /// Returns the acceleration g b/(2 h) [m/s^2] at which the inner wheels of a rigid car lift.
@@ -55,14 +56,16 @@ double SlidingAcceleration(const VehicleParams& vehicle) {
                                         : std::numeric_limits<double>::infinity();
 }
 
-/// Returns the lateral acceleration [m/s^2] to which a step of the steering angle from a turn with
-/// `held` may lead before the inner wheels lift; infinite if unknown.
+/// Returns the largest lateral acceleration [m/s^2] after a step of the steering angle that does
+/// not lift the inner wheels; infinite if unknown. The step starts in a steady turn with the
+/// lateral acceleration `held` [m/s^2].
 double RollOverInAStep(const VehicleParams& vehicle, double held) {
   return kRollShare * RigidRollOver(vehicle) + (1.0 - kRollShare) * held;
 }
 
-/// Returns the slip angle [rad] at which the front tyres slide, if they do so before the rear tyres
-/// in the turn of a car that drives forward, and before the car rolls over. Otherwise none.
+/// Returns the slip angle [rad] at which the front tyres slide. Returns none if the rear tyres
+/// slide first or the car rolls over first, if the car does not drive forward, or if its tyres are
+/// unknown.
 std::optional<double> SlidingSlipOfFront(const VehicleParams& vehicle, double speed, double held) {
   const double sliding = SlidingAcceleration(vehicle);
   const std::vector<AxleGrip>& axles = vehicle.braking.axles;
@@ -78,7 +81,7 @@ std::optional<double> SlidingSlipOfFront(const VehicleParams& vehicle, double sp
 }
 
 /// Returns the largest steering angle [rad] to the side of the turn. `rolling` is the direction in
-/// which the front axle moves [rad], positive to this side.
+/// which the front axle moves [rad], positive to the side of the turn.
 double AllowedToOneSide(const VehicleParams& vehicle, double speed, double held, double rolling) {
   const double step = SteeringInAStep(vehicle, speed, held);
   double most = step;

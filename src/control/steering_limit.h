@@ -25,11 +25,11 @@ double SteeringAtGrip(const VehicleParams& vehicle, double speed);
 /// over.
 ///   a = min(mu_y g,  c g b/(2 h) + (1 - c) a_0),  c = 0.65
 /// A step from a_0 to a makes the car lean as in a steady turn with a + (1/c - 1) (a - a_0), which
-/// must not exceed g b/(2 h). `held` is a_0 >= 0 [m/s^2]: the lateral acceleration in which the car
-/// already drives steadily, to the same side. The angle of the turn is the largest one of a car
-/// without slip, of linear tyres, and of the brush model: at the grip, an understeering car needs
-/// more steering than linear tyres, and an oversteering car needs less in the turn than to enter
-/// it.
+/// must not exceed g b/(2 h). `held` is a_0 >= 0 [m/s^2]: the lateral acceleration of the steady
+/// turn, to the same side, that the car already drives. The angle of the turn is the largest of
+/// three angles: without slip, with linear tyres, and with the brush model. At the grip limit, an
+/// understeering car needs more steering than with linear tyres, and an oversteering car needs more
+/// steering to enter the turn than to stay in the turn.
 double SteeringInAStep(const VehicleParams& vehicle, double speed, double held = 0.0);
 
 /// Returns the largest steering angle [rad] with which a car may turn round at `speed` [m/s]: the
@@ -49,16 +49,16 @@ struct SteeringRange {
 /// may always steer into its slide.
 ///
 /// The front tyres of an understeering car slide first. In a turn that the car holds at its limit,
-/// they may need more steering than in the steady turn of the brush model: the true grip is less
-/// than that of the model, by the load transfer and by the drive force on the inner wheel. The
-/// range therefore extends to the direction of the front axle plus the slip angle 3 mu F_z/C_f at
-/// which the front tyres slide, in proportion to a_0/(mu_y g), if a step from a_0 cannot roll the
-/// car over.
+/// the front tyres may need more steering than in the steady turn of the brush model: the load
+/// transfer and the drive force on the inner wheel make the true grip smaller than the model's
+/// grip. The range therefore extends toward the direction of the front axle plus 3 mu F_z/C_f, the
+/// slip angle at which the front tyres slide. The extension is proportional to a_0/(mu_y g). The
+/// range is not extended if a step from a_0 may roll the car over.
 ///
-/// `curvature` is that of the path at the car [1/m]. The lateral
-/// acceleration a_0 of SteeringInAStep is the lesser of those in which the car turns now and in
-/// which its path turns, and 0 if these have opposite signs. A step of the path, or of the car
-/// beside its path, is therefore not held.
+/// `curvature` is the curvature of the path at the car [1/m]. The lateral acceleration a_0 of
+/// SteeringInAStep is the smaller of two: the car's present one, and that of a car on the path. If
+/// both have opposite signs, a_0 is 0. A turn that only the path or only the car has begun is
+/// therefore not a held turn.
 SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& state,
                               double curvature = 0.0);
 

@@ -10,7 +10,7 @@ namespace trackbed {
 namespace {
 
 constexpr int kSteps = 40;  ///< Number of time steps in which the wheels turn from 0 to the limit.
-constexpr int kSwings = 4;  ///< Longest predicted drive, in multiples of this time.
+constexpr int kSwings = 4;  ///< Longest predicted drive, in multiples of kSteps time steps.
 constexpr int kBits = 40;   ///< Relative precision of the solution: 2^-40.
 constexpr double kGentle = 1e-6;  ///< Curvature at which the tyres respond linearly [1/m].
 

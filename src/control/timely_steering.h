@@ -13,16 +13,17 @@ struct GainedErrors {
   double heading = 0.0;
 };
 
-/// Bounds the steering of a control law by what wheels with a limited rate can turn back in time.
+/// Limits the steering angle of a control law so that wheels with a limited rate can turn back in
+/// time.
 ///
-/// A law that feeds back errors assumes that the wheels follow at once. Wheels at an angle delta
-/// other than the steering delta_p(s) of the path return to it at most at their rate omega. If the
-/// path itself turns the wheels at this rate, the difference remains until the path's steering
-/// changes more slowly, and the car gains a heading error all the way. The law then overshoots,
-/// from one side to the other.
+/// A law that feeds back errors assumes that the wheels follow at once. Wheels whose angle delta
+/// differs from the steering angle delta_p(s) of the path return to delta_p(s) at most at their
+/// rate omega. If the path itself turns the wheels at this rate, the difference remains until the
+/// path's steering changes more slowly, and the heading error grows until then. The control law
+/// then overshoots from side to side.
 ///
 /// TimelySteering returns the solution of delta = law(E(delta)). E(delta) are the errors that the
-/// car gains while its wheels turn from delta at the full rate, until they meet delta_p(s):
+/// car gains while its wheels turn from delta at the full rate, until the wheels reach delta_p(s):
 ///   d psi/ds = (tan(delta) - tan(delta_p))/L',   de/ds = psi,   d delta/dt = -+omega,
 /// with L' the ratio of tan(delta) to the curvature in a steady turn [m]: the wheelbase L, and L +
 /// K v^2 for a car with the understeer gradient K. The law adds E to the present errors. The law
@@ -30,21 +31,21 @@ struct GainedErrors {
 /// the full rate suffices (Athans and Falb 1966, ch. 7).
 ///
 /// E(delta_p) is 0. Beside a path of constant curvature, E grows with the square of delta -
-/// delta_p, so small errors are corrected as by the law alone. The solution lies between delta_p
-/// and law(0). The solution does not depend on the present angle of the wheels.
+/// delta_p, so small errors are corrected as without TimelySteering. The solution lies between
+/// delta_p and law(0). The solution does not depend on the present angle of the wheels.
 class TimelySteering {
  public:
   /// Returns the steering angle [rad]. `untimely` is law(0) [rad]. `law` returns an angle within
-  /// the steering limit for a car that has gained errors, and falls with errors to the left. `path`
-  /// was updated for `input`, for the stations up to Horizon ahead. With `slip`, delta_p and L' are
-  /// those of SteadyTurnOn, otherwise those of TurnWithoutSlip. The equation is solved to a
-  /// relative 1e-12. Takes heap memory in the first call alone. Cost: up to 160 points of the path,
-  /// and about ten calls of `law`.
+  /// the steering limit for a car that has gained errors, and decreases if the errors to the left
+  /// increase. `path` was updated for `input`, for the stations up to Horizon ahead. With `slip`,
+  /// delta_p and L' are those of SteadyTurnOn, otherwise those of TurnWithoutSlip. The equation is
+  /// solved to a relative 1e-12. Only the first call allocates heap memory. Cost: up to 160 points
+  /// of the path, and about ten calls of `law`.
   double Steer(const ControlInput& input, const RampedPath& path, bool slip, double untimely,
                const std::function<double(const GainedErrors&)>& law);
 
-  /// Returns the longest distance [m] in which Steer follows the path: the car drives it in the
-  /// time in which the wheels turn four times from 0 to the steering limit.
+  /// Returns the longest distance [m] over which Steer follows the path. The car drives this
+  /// distance in four times the time in which the wheels turn from 0 to the steering limit.
   static double Horizon(const ControlInput& input);
 
  private:
