@@ -84,7 +84,7 @@ std::string ResultThatLists(const fs::path& file) {
   try {
     manifest = ReadManifest(real.parent_path());
   } catch (const InputError&) {
-    return "";  // The manifest of another program.
+    return "";  // Another program wrote the manifest.
   }
   if (error || !manifest || !fs::exists(StatusOf(real))) {
     return "";

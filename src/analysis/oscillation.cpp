@@ -7,29 +7,29 @@
 
 // Finds limit cycles of a control loop in the steering command.
 //
-// 1. A least-squares fit removes what the inputs of the loop explain. The inputs are the steering
-//    of the path (the feed-forward, with any lead, lag and gain) and the noise of the measured
-//    pose.
+// 1. A least-squares fit removes the part of the command that the inputs of the loop explain. The
+//    inputs are the steering angle of the path (the feed-forward, with any lead, lag and gain) and
+//    the noise of the measured pose.
 // 2. The remainder is searched for sustained oscillations, period by period. The autocorrelation of
 //    a linear loop that noise excites has the shape of its free decay (the random decrement of
-//    Cole 1973). A loop with the damping ratio z keeps exp(-2 pi z M) of its amplitude after M
-//    cycles; a limit cycle keeps all of it.
+//    Cole 1973). In a loop with the damping ratio z, the fraction exp(-2 pi z M) of the amplitude
+//    remains after M cycles; a limit cycle keeps its whole amplitude.
 namespace trackbed {
 namespace {
 
 using Series = std::vector<double>;
 
-/// Number of cycles in each of the two halves that are compared. If the second half has half of the
-/// amplitude, the damping ratio is ln 2/(2 pi kCycles) = 0.028.
+/// Number of cycles in each half of an oscillation; the two halves are compared. If the second half
+/// has half of the first half's amplitude, the damping ratio is ln 2/(2 pi kCycles) = 0.028.
 constexpr int kCycles = 4;
 constexpr double kShortestHalf = 2.0;    ///< Shortest half of an oscillation [s].
-constexpr double kHalves = 0.9;          ///< Least correlation of the two halves.
-constexpr double kNeighbors = 0.9;       ///< Least correlation of neighboring cycles.
-constexpr double kLeastRemainder = 0.5;  ///< Least amplitude of the second half over the first.
+constexpr double kHalves = 0.9;          ///< Minimum correlation of the two halves.
+constexpr double kNeighbors = 0.9;       ///< Minimum correlation of neighboring cycles.
+constexpr double kLeastRemainder = 0.5;  ///< Minimum amplitude ratio of second to first half.
 constexpr double kLeastShare =
-    0.5;  ///< Least amplitude in the command, over that in the unexplained part.
+    0.5;  ///< Minimum ratio of the wave's amplitude in the command to that in the unexplained part.
 constexpr double kPeriodStep =
-    1.189207115002721;  ///< Ratio of neighboring periods: a quarter octave.
+    1.189207115002721;  ///< Ratio of two neighboring searched periods: a quarter octave.
 
 /// Adds low-pass filters of the input with time constants in steps of a factor of 2. The time
 /// constants range from one period to 3 s, or to the twentieth part of a short signal. A filter
@@ -51,7 +51,8 @@ void AddLowPasses(const Series& input, double period, bool backward, std::vector
 }
 
 /// Subtracts from the signal its mean over `width` samples around each sample. The mean over a
-/// whole period contains nothing of an oscillation with this period.
+/// whole period of an oscillation is zero, so an oscillation with the period `width` is not
+/// changed.
 Series WithoutSlowPart(const Series& signal, std::size_t width) {
   const std::size_t n = signal.size();
   Series sums(n + 1, 0.0);
@@ -75,15 +76,15 @@ Series EveryNth(const Series& signal, std::size_t stride) {
   return kept;
 }
 
-/// Sums over the last `length` samples of the products of a signal with another or with itself
-/// `lag` samples earlier.
+/// Sums of products over the last `length` samples: each sample of the signal `late` is multiplied
+/// by the sample of the signal `early` that is `lag` samples older.
 class ProductSums {
  public:
   ProductSums(const Series& late, const Series& early, std::size_t lag, std::size_t length)
       : late_(late), early_(early), lag_(lag), length_(length) {}
 
-  /// Adds the products of the sample `i`, and removes those of the sample `i - length`. The samples
-  /// must be visited in order, from `lag` on.
+  /// Adds the products of the sample `i`, and removes the products of the sample `i - length`. The
+  /// samples must be visited in order, from `lag` on.
   void Advance(std::size_t i) {
     Add(i, 1.0);
     if (i >= lag_ + length_) {
@@ -116,8 +117,8 @@ class ProductSums {
   double early_squares_ = 0.0;
 };
 
-/// Compares each stretch of 2 `lag` samples of the unexplained command `x` with itself after `lag`
-/// samples and after one cycle, and with the command `y`.
+/// A stretch of 2 `lag` samples of the unexplained command `x`. Compares the stretch with itself,
+/// shifted by `lag` samples and by one cycle, and with the command `y`.
 class Stretch {
  public:
   Stretch(const Series& x, const Series& y, std::size_t lag, int cycles, bool random)
@@ -147,11 +148,11 @@ class Stretch {
   }
 
   /// Returns whether the second half repeats the first one; with random inputs, also whether each
-  /// cycle repeats the one before.
+  /// cycle repeats the previous cycle.
   [[nodiscard]] bool Repeats() const {
-    // The second half has two sign changes per cycle, of which one may be missing at its ends. A
-    // neighboring period would have an eighth more or fewer sign changes. Neighboring cycles of few
-    // samples are not compared, because the period is not a whole number of samples.
+    // The second half has two sign changes per cycle; one sign change may be missing at the ends of
+    // the half. A wave with a neighboring period would have an eighth more or fewer sign changes.
+    // Cycles of few samples are not compared, because the period is not a whole number of samples.
     constexpr std::size_t kFewSamples = 8;
     const bool compared = random_ && cycle_ >= kFewSamples;
     const double expected = 2.0 * cycles_;
@@ -162,7 +163,7 @@ class Stretch {
            std::abs(crossings_ - expected) <= std::max(1.0, expected / 8.0);
   }
 
-  /// Returns the amplitude of the part that both halves share.
+  /// Returns the amplitude of the signal part that is common to both halves.
   [[nodiscard]] double Amplitude() const {
     return std::sqrt(2.0 * halves_.product() / static_cast<double>(lag_));
   }
@@ -185,7 +186,7 @@ class Stretch {
 };
 
 /// Finds the largest wave of the unexplained command `x` that repeats after `lag` samples, with
-/// `cycles` cycles in each half. The indices of the wave count samples of `x`.
+/// `cycles` cycles in each half. The indices in the returned wave are sample numbers of `x`.
 std::optional<Wave> LargestWave(const Series& x, const Series& y, std::size_t lag, int cycles,
                                 bool random) {
   std::optional<Wave> largest;
@@ -210,8 +211,8 @@ std::optional<Wave> LargestWave(const Series& x, const Series& y, std::size_t la
   return largest;
 }
 
-/// Measures the frequency of the wave from the sign changes of `x`, and corrects its amplitude for
-/// the mean over `width` samples that was subtracted.
+/// Measures the frequency of the wave from the sign changes of `x`, and corrects the wave's
+/// amplitude for the subtraction of the mean over `width` samples.
 Wave Refine(const Wave& wave, const Series& x, double width) {
   std::size_t first = 0;
   std::size_t last = 0;
@@ -254,7 +255,8 @@ std::vector<double> UnexplainedCommand(const LoopSignals& signals) {
   Eigen::Index used = 0;
   for (const Series& input : inputs) {
     const Eigen::VectorXd values = centered(input);
-    constexpr double kNothing = 1e-9;  // Norm of an input that is constant up to rounding.
+    constexpr double kNothing =
+        1e-9;  // Largest norm of an input that is constant up to rounding errors.
     if (const double norm = values.norm(); norm > kNothing) {
       filters.col(used++) = values / norm;
     }
@@ -272,7 +274,7 @@ std::vector<double> UnexplainedCommand(const LoopSignals& signals) {
 
 std::vector<Wave> FindWaves(const std::vector<double>& unexplained,
                             const std::vector<double>& command, double period, bool random) {
-  constexpr std::size_t kSamplesPerCycle = 16;  // Least number of samples per cycle.
+  constexpr std::size_t kSamplesPerCycle = 16;  // Minimum number of samples per cycle.
   std::vector<Wave> waves;
   const double longest = static_cast<double>(unexplained.size()) / (2.0 * kCycles);
   for (double cycle = 2.0; cycle <= longest; cycle *= kPeriodStep) {

@@ -21,9 +21,9 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
 
 /// Returns the fraction of the control periods from `begin` to `end` [s] in which the steering
 /// actuator was saturated, in [0, 1]. A saturated actuator turns at its maximum rate during the
-/// whole period, or is at its maximum angle at the end of the period. A thousandth of the limit may
-/// be missing. The command does not matter: a controller that knows the limits commands angles that
-/// the actuator just reaches. An unknown limit (0) is never reached.
+/// whole period, or is at its maximum angle at the end of the period. The actuator counts as at a
+/// limit from 99.9 % of the limit on. The command does not matter: a controller that knows the
+/// limits commands angles that the actuator just reaches. An unknown limit (0) is never reached.
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin, double end);
 
 }  // namespace trackbed

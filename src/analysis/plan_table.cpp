@@ -91,7 +91,7 @@ Table PlanTable(const Plan& plan) {
                               direction,
                               clock.TimeAt(s) + waited};
       table.AddRow(row);
-      // A second row at the same place ends a wait.
+      // Where the car waits, a second row at the same place gives the time at which the wait ends.
       constexpr double kSamePlace = 1e-9;  // [m]
       for (; wait != plan.waits.end() && wait->s <= s + kSamePlace; ++wait) {
         waited += wait->duration;

@@ -11,7 +11,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kSpacing = 0.5;  // [m] between sampled stations, and between outline points
+constexpr double kSpacing = 0.5;  // distance of sampled stations, and of outline points [m]
 constexpr double kBin = 8.0;      // [m]
 
 Vec2 PointAt(const Road& road, double s, double t) {
@@ -120,7 +120,7 @@ std::optional<double> RoadBands::Inside(const Vec2& point) const {
       BinOf(point.y(), low_.y(), rows_) * columns_ + BinOf(point.x(), low_.x(), columns_);
   for (const std::size_t i : bins_[static_cast<std::size_t>(bin)]) {
     const Piece& piece = pieces_[i];
-    // More than the rounding errors at the common line of two neighboring pieces [m].
+    // Tolerance above the rounding errors at the common line of two neighboring pieces [m].
     constexpr double kOverlap = 1e-6;
     if (LeftOf({piece.left.first, piece.right.first}, point) < -kOverlap ||
         LeftOf({piece.right.second, piece.left.second}, point) < -kOverlap) {

@@ -29,7 +29,8 @@ class RoadBands {
  private:
   /// The part of a band between two neighboring stations.
   struct Piece {
-    std::pair<Vec2, Vec2> right;  // Right border, from the first station to the second.
+    std::pair<Vec2, Vec2>
+        right;  // Right border of the band, from the piece's first station to its second station.
     std::pair<Vec2, Vec2> left;
   };
 

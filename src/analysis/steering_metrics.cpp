@@ -17,15 +17,15 @@
 //    changes of plan are removed.
 // 2. UnexplainedCommand (oscillation.h) removes what these signals explain, and WaveSearch looks
 //    for waves in the rest, in each stretch in which the car moves.
-// 3. The largest wave above ToleratedAmplitude counts. The tolerated steering uses a fifth of the
-//    steering rate, or moves the car by 5 % of its width, whichever is less. At least half of the
-//    backlash is tolerated.
+// 3. The largest wave above ToleratedAmplitude counts. The tolerated oscillation uses a fifth of
+//    the steering rate, or moves the car by 5 % of its width, whichever amplitude is smaller. At
+//    least half of the backlash is tolerated.
 // docs/verdict.md#calm-steering explains the limits.
 namespace trackbed {
 namespace {
 
 constexpr double kRateShare = 0.2;    ///< Share of the steering rate that is tolerated.
-constexpr double kSwayShare = 0.05;   ///< Lateral motion that is tolerated, over the car's width.
+constexpr double kSwayShare = 0.05;   ///< Tolerated lateral motion, relative to the car's width.
 constexpr double kShortest = 0.01;    ///< Shortest sampling period of the search [s].
 constexpr std::size_t kMost = 60000;  ///< Most samples that are searched together.
 
@@ -53,13 +53,13 @@ std::vector<double> PathCurvatures(const RunLog& log, const Plan& plan, std::siz
   return curvatures;
 }
 
-/// Removes the jumps of a signal at changes of plan: shifts the values from each such row on so
-/// that the first of them equals the value before. A new plan every half second makes a wave of
-/// jumps, which does not pass through the loop of controller and car.
+/// Removes the jumps of a signal at changes of plan: shifts all values from the first row of a new
+/// plan on, so that the value in this row equals the value in the previous row. Replanning every
+/// half second makes a wave of jumps, which is no oscillation of the loop of controller and car.
 void RemoveJumps(const RunLog& log, std::vector<double>& values) {
   auto next = log.changes.begin();
   double shift = 0.0;
-  double before = 0.0;  // value of the previous row before the shift
+  double before = 0.0;  // unshifted value of the previous row
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double given = values[i];
     bool is_new = false;
@@ -73,9 +73,9 @@ void RemoveJumps(const RunLog& log, std::vector<double>& values) {
 }
 
 /// Replaces a jump of the steering angle by a ramp if the wheels cannot turn so far between two
-/// rows. The ramp has the steering rate `rate` [rad/s]. The jump is in the middle of the ramp.
-/// Controllers that know the rate respond to steps of the curvature with such ramps, which no
-/// linear filter of the steps explains.
+/// rows. The ramp has the slope `rate` [rad/s], and the jump is in the middle of the ramp.
+/// Controllers that know the rate limit respond to curvature steps with ramps of this slope. No
+/// linear filter of the steps can explain these ramps.
 std::vector<double> Ramped(const std::vector<double>& values, const RunLog& log, double rate) {
   const std::vector<LogRow>& rows = log.rows;
   std::vector<double> ramped = values;
@@ -100,8 +100,8 @@ std::vector<double> Ramped(const std::vector<double>& values, const RunLog& log,
   return ramped;
 }
 
-/// Returns the means of each `count` consecutive values. Values that are left at the end are
-/// ignored.
+/// Returns the means of each `count` consecutive values. Less than `count` remaining values at the
+/// end are ignored.
 std::vector<double> Means(const std::vector<double>& values, std::size_t count) {
   std::vector<double> means;
   for (std::size_t i = 0; i + count <= values.size(); i += count) {
@@ -137,7 +137,8 @@ SteeringSignals MakeSignals(const RunLog& log, const Plan& plan, const VehiclePa
     command.push_back(row.command.steering);
     speed.push_back(std::abs(row.state.speed));
     path.push_back(SteeringForCurvature(vehicle, curvatures[i]));
-    // The lateral acceleration and its cube stand for the steering that the tyres need in addition.
+    // The lateral acceleration and its cube represent the additional steering angle due to the slip
+    // of the tyres.
     const double acceleration = speed.back() * speed.back() * curvatures[i] / kGravity;
     lateral.push_back(acceleration);
     cubic.push_back(acceleration * acceleration * acceleration);

@@ -4,7 +4,8 @@
 
 #include "trackbed/analysis/metric_registry.h"
 
-/// Measures the motion of a trailer (TrailerState). Without a trailer, there are no values.
+/// Measures the motion of a trailer (TrailerState). All functions return none for a car without
+/// trailer.
 namespace trackbed {
 
 /// Returns the largest magnitude of the hitch angle [rad].
@@ -14,8 +15,8 @@ std::optional<MetricReading> LargestHitchAngle(const MetricInput& input);
 std::optional<MetricReading> LargestHitchRate(const MetricInput& input);
 
 /// Returns the largest distance [m] of the middle of the trailer's axle from the line that the
-/// middle of the car's rear axle has driven up to then. The line is extended straight back from the
-/// start.
+/// middle of the car's rear axle has driven so far. The driven line is extended straight back from
+/// the start.
 std::optional<MetricReading> LargestOffTracking(const MetricInput& input);
 
 }  // namespace trackbed

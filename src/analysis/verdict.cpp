@@ -164,8 +164,8 @@ void JudgeOverspeed(const PlantMetrics& metrics, Verdict& verdict) {
   AddCheck(check, verdict);
 }
 
-/// Checks that the steering command does not oscillate without an end, unless an expectation
-/// replaces this check. Adds a note to the verdict if the command oscillates.
+/// Checks that the steering command has no sustained oscillation, unless an expectation replaces
+/// this check. Adds a note to the verdict if the command oscillates.
 void JudgeOscillation(const Expected& expected, const PlantMetrics& metrics, Verdict& verdict) {
   const OscillationMetrics& oscillation = *metrics.oscillation;
   if (oscillation.frequency) {
