@@ -15,7 +15,8 @@
 namespace trackbed {
 namespace {
 
-constexpr std::size_t kStep = std::size_t{1} << 18U;  // output that is decompressed at once [bytes]
+constexpr std::size_t kStep = std::size_t{1}
+                              << 18U;  // size of the output of one decompression step [bytes]
 
 std::string DecompressLz4(std::string_view data, std::size_t largest,
                           const std::filesystem::path& file) {
@@ -51,7 +52,7 @@ std::string DecompressZstd(std::string_view data, std::size_t largest,
   const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(),
                                                                              ZSTD_freeDStream);
   TRACKBED_CHECK(stream != nullptr, "ZSTD_createDStream");
-  constexpr int kMaxWindowLog = 27;  // windows of at most 128 MiB
+  constexpr int kMaxWindowLog = 27;  // zstd windows of at most 128 MiB
   ZSTD_DCtx_setParameter(stream.get(), ZSTD_d_windowLogMax, kMaxWindowLog);
   std::string out;
   std::string step(std::min(kStep, largest + 1), '\0');

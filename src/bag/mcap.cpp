@@ -24,7 +24,7 @@
 namespace trackbed {
 namespace {
 
-/// Reads the fields of a record, and refuses to read beyond its end.
+/// Reads the fields of a record, and refuses to read beyond the end of the record.
 class RecordReader {
  public:
   RecordReader(std::string_view data, const std::filesystem::path& file)
@@ -51,7 +51,7 @@ class RecordReader {
     return bytes;
   }
 
-  /// Reads bytes after their number, which has 32 bits.
+  /// Reads a text: first the number of its bytes in 32 bits, then the bytes.
   std::string_view Text() { return Bytes(Read<std::uint32_t>()); }
   [[nodiscard]] std::string_view rest() const { return data_; }
   [[nodiscard]] bool is_empty() const { return data_.empty(); }
@@ -95,7 +95,8 @@ class McapReader {
         NoteEnd(at - kHead);
         return;
       }
-      // The summary after the data repeats schemas and channels.
+      // Ignore the schemas and channels in the summary, which repeat the schemas and channels
+      // before.
       const bool is_used = (!in_summary_ && opcode > mcap::kFooter && opcode <= mcap::kChunk) ||
                            opcode == mcap::kStatistics;
       if (is_used) {
@@ -151,7 +152,8 @@ class McapReader {
       Schema schema{.name = std::string(record.Text()), .definition = {}};
       const bool is_ros2msg = record.Text() == "ros2msg";
       const std::string_view definition = record.Text();
-      // The definition of a type without fields is empty; "" would mean that the bag has none.
+      // The definition of a type without fields is empty, but `schema.definition` is "" if the bag
+      // has no definition; so store a line feed.
       schema.definition = !is_ros2msg ? "" : definition.empty() ? "\n" : std::string(definition);
       schemas_[id] = std::move(schema);
     } else if (opcode == mcap::kChannel) {

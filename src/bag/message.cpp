@@ -18,8 +18,8 @@
 // Decodes messages of ROS 2. A definition in the format ros2msg is parsed to a tree of fields. The
 // tree is walked along a message with Fast CDR, which reads the primitives, aligns them and swaps
 // their bytes. The format has one line per field: type, name, and a default or constant value,
-// which is ignored. Definitions of the types of fields follow after lines of '=' and a line "MSG:
-// TYPE".
+// which is ignored. After the fields of the message, the definitions of the fields' types follow,
+// each after a line of '=' and a line "MSG: TYPE".
 namespace trackbed {
 
 /// Types of fields; not in an unnamed namespace, because BagMessage::Type has them as members.
@@ -85,7 +85,7 @@ std::optional<Primitive> PrimitiveOf(const std::string& name) {
   throw InputError(Problem{.key = type, .message = std::move(message)});
 }
 
-/// "nav_msgs/msg/Path" without "msg/".
+/// Returns a type name without "msg/": "nav_msgs/Path" for "nav_msgs/msg/Path".
 std::string ShortName(std::string type) {
   const std::size_t at = type.find("/msg/");
   return at == std::string::npos ? type : type.erase(at, 4);
@@ -165,7 +165,8 @@ class TypeBuilder {
       made.shape = is_number ? Shape::kArray : Shape::kSequence;
       made.count = is_number ? std::stoull(inside) : 0;
     }
-    kind.erase(std::min(kind.find("<="), kind.size()));  // the largest length of a string
+    kind.erase(
+        std::min(kind.find("<="), kind.size()));  // remove the largest length of a bounded string
     if (const std::optional<Primitive> primitive = PrimitiveOf(kind)) {
       made.primitive = *primitive;
       return made;
@@ -176,7 +177,7 @@ class TypeBuilder {
     if (kind == "time" || kind == "duration" || kind == "Header") {
       kind = kind == "Header" ? "std_msgs/Header" : "builtin_interfaces/Time";
     }
-    // A type without a package is in the package of its owner.
+    // A type name without a package means a type in the package of the type that has the field.
     const std::string package = owner.substr(0, owner.find('/'));
     made.message = BuildType(
         ShortName(kind.find('/') == std::string::npos ? package + "/" + kind : kind), depth + 1);
@@ -184,7 +185,7 @@ class TypeBuilder {
   }
 
   const std::string& type_;
-  std::map<std::string, std::string> own_;  // definitions of the bag by type
+  std::map<std::string, std::string> own_;  // definitions in the bag, keyed by type
   std::size_t fields_ = 0;
 };
 
@@ -226,7 +227,7 @@ class MessageReader {
   }
 
   /// Reads the fields of a type; numbers outside of arrays and sequences are added to `numbers`, if
-  /// it is not null.
+  /// `numbers` is not null.
   void Walk(const Type& type, std::vector<double>* numbers, const Field* sequence,
             std::vector<std::vector<double>>* elements) {
     for (const Field& field : type.fields) {
@@ -234,7 +235,8 @@ class MessageReader {
       if (field.shape == Shape::kSequence) {
         count = Number<std::uint32_t>();
       }
-      // Every element but an empty message has a byte, so a message cannot have more elements.
+      // Every element takes at least one byte, so the number of elements cannot exceed the number
+      // of bytes.
       if (field.shape != Shape::kSingle && count > size_) {
         Fail(fmt::format("its field {} has {} elements, more than its bytes", field.name, count));
       }
@@ -345,7 +347,7 @@ BagMessage::BagMessage(const std::string& type, const std::string& definition)
 void BagMessage::Read(std::string_view message, std::vector<double>& numbers,
                       std::vector<std::vector<double>>* elements) const {
   numbers.clear();
-  // The first two bytes of CDR state the order of the bytes.
+  // The first two bytes of a CDR message state the byte order.
   if (message.size() < 4 || message[0] != '\0' || (message[1] != '\0' && message[1] != '\x01')) {
     throw InputError(Problem{.key = name_, .message = "a message is not in the encoding CDR"});
   }

@@ -16,7 +16,7 @@ inline constexpr std::size_t kMaxBagTopics = 10'000;
 /// Throws InputError if the topic has another type, or if there are too many topics.
 BagTopic& TopicOf(BagContent& content, const BagTopic& topic, const std::filesystem::path& file);
 
-/// Throws InputError with this message about a file of a bag.
+/// Throws InputError with the message `message` about the file `file` of a bag.
 [[noreturn]] void RefuseBag(const std::filesystem::path& file, std::string message);
 
 }  // namespace trackbed
