@@ -255,8 +255,7 @@ std::vector<double> UnexplainedCommand(const LoopSignals& signals) {
   Eigen::Index used = 0;
   for (const Series& input : inputs) {
     const Eigen::VectorXd values = centered(input);
-    constexpr double kNothing =
-        1e-9;  // Largest norm of an input that is constant up to rounding errors.
+    constexpr double kNothing = 1e-9;  // Norm of an input that only varies by rounding errors.
     if (const double norm = values.norm(); norm > kNothing) {
       filters.col(used++) = values / norm;
     }

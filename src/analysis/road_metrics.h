@@ -29,8 +29,7 @@ class RoadBands {
  private:
   /// The part of a band between two neighboring stations.
   struct Piece {
-    std::pair<Vec2, Vec2>
-        right;  // Right border of the band, from the piece's first station to its second station.
+    std::pair<Vec2, Vec2> right;  // Right border at the first station and at the second station.
     std::pair<Vec2, Vec2> left;
   };
 

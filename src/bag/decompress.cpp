@@ -15,8 +15,7 @@
 namespace trackbed {
 namespace {
 
-constexpr std::size_t kStep = std::size_t{1}
-                              << 18U;  // size of the output of one decompression step [bytes]
+constexpr std::size_t kStep = std::size_t{1} << 18U;  // output of one decompression step [bytes]
 
 std::string DecompressLz4(std::string_view data, std::size_t largest,
                           const std::filesystem::path& file) {

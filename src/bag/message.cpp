@@ -165,8 +165,7 @@ class TypeBuilder {
       made.shape = is_number ? Shape::kArray : Shape::kSequence;
       made.count = is_number ? std::stoull(inside) : 0;
     }
-    kind.erase(
-        std::min(kind.find("<="), kind.size()));  // remove the largest length of a bounded string
+    kind.erase(std::min(kind.find("<="), kind.size()));  // remove the largest string length
     if (const std::optional<Primitive> primitive = PrimitiveOf(kind)) {
       made.primitive = *primitive;
       return made;
