@@ -113,8 +113,7 @@ struct Recording {
   /// wind.
   World world;
   MujocoModel model;
-  std::vector<PlantRecording> plants;  ///< The recording of the car, followed by those of the
-                                       ///< ghosts.
+  std::vector<PlantRecording> plants;  ///< Recordings of the car (first) and of the ghosts.
   /// Path of the initial plan; empty if the run has no plan.
   std::vector<Point> plan;
   /// Plans that the car adopted during the run, in the order of time.
@@ -159,7 +158,7 @@ std::vector<int> ObstacleGeoms(const Recording& recording);
 
 /// Reads the data that a film needs, for the named plants or, if no plant is named, for all plants.
 /// The first of the named plants is shown as the car. Throws InputError if files are missing, for
-/// example those of a plant listed in `metrics.json` or the path of `plan.json`.
+/// example the files of a plant that `metrics.json` lists, or the path of `plan.json`.
 Recording ReadRecording(const std::filesystem::path& folder,
                         const std::vector<std::string>& plants = {});
 

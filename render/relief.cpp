@@ -104,7 +104,8 @@ class Relief : public Overlay {
 
   const Recording& recording_;
   std::vector<std::vector<Point>> lines_;
-  // height interval between contour lines of the whole ground [m]; 0 if there are no such lines
+  // height interval between contour lines of the whole ground [m]; 0 if the ground has no contour
+  // lines
   double interval_ = 0.0;
 };
 

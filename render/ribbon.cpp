@@ -95,8 +95,8 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
                                  (style.height + (scene.ngeom % 2) * kStagger) * rotation.col(2);
   const std::array<float, 4> rgba{style.color.r, style.color.g, style.color.b, 1.0F};
   // The piece is drawn as a plane, which casts no shadow: MuJoCo draws back faces into its shadow
-  // map, and a plane has none. A thin box would cast speckled shadows on its own upper face,
-  // because the shadow map's depth is too coarse.
+  // map, and a plane has no back face. A thin box would cast speckled shadows on its own upper
+  // face, because the shadow map's depth is too coarse.
   if (mjvGeom* piece = AddDecor(scene, mjGEOM_PLANE, size, center, rotation, rgba)) {
     piece->emission = 0.08F;  // emission that keeps paint brighter than the road, even in the shade
   }

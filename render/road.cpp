@@ -39,8 +39,7 @@ constexpr double kAsphaltHeight = -0.003;
 constexpr double kAsphaltRange = 250.0;
 constexpr double kPaintHeight = -0.001;
 constexpr double kDash = 3.0;         // Length of a dash of a lane line [m].
-constexpr double kDashPeriod = 9.0;   // Distance from the start of a dash to the start of the next
-                                      // [m].
+constexpr double kDashPeriod = 9.0;   // Distance between the starts of neighboring dashes [m].
 constexpr double kPostPeriod = 10.0;  // Distance between two road posts along the road [m].
 // Distance from the camera's target beyond which posts would be thinner than a pixel [m].
 constexpr double kPostRange = 120.0;

@@ -111,7 +111,7 @@ mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   SinkHeightFields(scene);
   for (int i = 0; i < scene.ngeom; ++i) {
     if (scene.geoms[i].type == mjGEOM_PLANE) {
-      // this keeps the ground from casting shadows on itself
+      // a geom of this category casts no shadow, so the ground casts none on itself
       scene.geoms[i].category = mjCAT_DECOR;
     }
   }

@@ -19,7 +19,8 @@ struct WheelForce {
   Eigen::Vector3d forward;  ///< Unit vector along the ground in the rolling direction of the wheel.
   Eigen::Vector3d left;     ///< Unit vector along the ground to the left of the wheel.
   Vec2 force;               ///< Tyre force along `forward` and `left` [N].
-  /// Half axes of the friction ellipse [N]: friction times load, in rolling direction and across.
+  /// Half axes of the friction ellipse [N]: friction times load, along and across the rolling
+  /// direction.
   Vec2 most;
   int body = -1;          ///< Index of the wheel's body in the model.
   std::size_t wheel = 0;  ///< Index of the wheel in kWheels of car_model.h.

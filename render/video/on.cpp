@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Size of the chunk IEND, the last one of a PNG file.
+/// Size of the chunk IEND, the last chunk of a PNG file.
 constexpr std::streamoff kPngEnd = 12;
-/// Position of the size in the header of a RIFF file: the number of bytes that follow it.
+/// Position in a RIFF file of the size field, which contains the number of bytes after this field.
 constexpr std::streamoff kRiffSizeAt = 4;
 constexpr std::size_t kRiffSizeBytes = 4;
 
-/// Moves the end chunk of an APNG file behind the mark.
+/// Inserts Trackbed's mark before the end chunk of an APNG file.
 void MarkApng(std::fstream& film) {
   std::string end(static_cast<std::size_t>(kPngEnd), '\0');
   film.seekg(-kPngEnd, std::ios::end);
@@ -34,7 +34,7 @@ void MarkApng(std::fstream& film) {
   film << PictureMark() << end;
 }
 
-/// Appends the mark to a WebP file, and counts its bytes in the header.
+/// Appends Trackbed's mark to a WebP file, and adds the size of the mark to the size in the header.
 void MarkWebp(std::fstream& film) {
   film.seekp(0, std::ios::end);
   film << WebpMark();

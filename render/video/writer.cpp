@@ -42,7 +42,7 @@ struct Recipe {
   const char* encoder;
   const char* container;
   AVPixelFormat pixels;
-  bool bt709;  // whether colors are converted to BT.709; otherwise RGB as in the frames
+  bool bt709;  // whether colors are converted to BT.709; otherwise they stay RGB
   std::vector<std::pair<const char*, const char*>> encoder_options;
   // Encoder options for quick encoding, which replace encoder_options.
   std::vector<std::pair<const char*, const char*>> quick_options;
@@ -51,8 +51,8 @@ struct Recipe {
 
 const Recipe& EncoderRecipe(FilmCodec codec) {
   // The encoder option mbtree=0 makes films reproducible. Without mbtree=0, the macroblock tree of
-  // x264 reads past the end of its rows unless the width is a multiple of 128. The memory there
-  // differs between runs (seen with build 164 at widths of 96, 320, 854 and 960 px).
+  // x264 reads past the end of its rows unless the width is a multiple of 128. The memory beyond
+  // the rows differs between runs (seen with build 164 at widths of 96, 320, 854 and 960 px).
   static const Recipe h264{"libx264",
                            "mp4",
                            AV_PIX_FMT_YUV420P,
