@@ -45,7 +45,7 @@ void End() {
   ::_exit(kInterrupted);
 }
 
-// Posted when the grace period is over.
+// Semaphore that is posted when the grace period is over.
 sem_t grace_over;
 
 void OnGraceOver(int /*signal*/) {
@@ -80,8 +80,8 @@ void StartThread() {
   try {
     std::thread(EndAfterGrace).detach();
   } catch (const std::system_error&) {
-    // Do without the thread, for example under a limit on processes. Temporary files then remain
-    // as after SIGKILL.
+    // Continue without the thread if it cannot be started, for example because of a limit on
+    // processes. Temporary files then remain as after SIGKILL.
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }

@@ -9,8 +9,9 @@
 namespace trackbed::cli {
 
 /// Returns the output folder of a command: the value of its option `--out`, or `below` in `parent`
-/// if the option is empty. `below` comes from a name in an input, so throws RunError if a part of
-/// `below` is a link or a file (FolderBelow). The option and `parent` may be links.
+/// if the option is empty. OutputFolder does not trust `below`, which comes from a name in an
+/// input: it throws RunError if a part of `below` is a link or a file (FolderBelow). The folder of
+/// the option and `parent` may be links.
 std::filesystem::path OutputFolderOf(const std::string& option, const std::filesystem::path& below,
                                      const std::filesystem::path& parent = "out");
 
@@ -30,11 +31,12 @@ bool IsUneditedModel(const std::filesystem::path& file);
 /// the hash of the text.
 std::string ModelMark(std::string_view xml);
 
-/// Prepares to write the file that an option names, before the work whose result it gets: creates
-/// its folder and checks that it can be written (PrepareToWrite). An existing file will be
-/// replaced, so throws InputError if the file is one of `inputs`, under this or another name, a
-/// file of a result (ResultThatLists), or a file with contents that `wrote` does not recognize.
-/// Inputs that do not exist, such as names of models, are ignored.
+/// Prepares to write the file that an option names; call this function before the work that
+/// computes the contents. Creates the folder of the file and checks that the file can be written
+/// (PrepareToWrite). An existing file will be replaced. Therefore throws InputError if the file is
+/// one of `inputs`, under this or another name, or a file of a result (ResultThatLists). Also
+/// throws InputError if `wrote` does not recognize the contents of the file. Inputs that do not
+/// exist, such as names of models, are ignored.
 void PrepareOutputFile(const char* option, const std::filesystem::path& file,
                        const std::vector<std::filesystem::path>& inputs, const WroteFile& wrote);
 

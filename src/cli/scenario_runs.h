@@ -26,8 +26,8 @@ struct ScenarioRun {
 /// If there is a single file and `out` is given, the output folder is `out`. For several files, the
 /// output folder of each run is `<out>/<scenario>`. If `out` is empty, the output folder is
 /// `<parent>/<scenario>`. Throws the same errors as ReadScenario and RefuseOverlapAtStart. Throws
-/// InputError if two runs would have the same output folder, and RunError if `<scenario>` is a link
-/// or a file there.
+/// InputError if two runs would have the same output folder, and RunError if the output folder
+/// `<scenario>` is a link or a file.
 std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
                                           const ScenarioOptions& options, const std::string& out,
                                           const std::filesystem::path& parent);

@@ -15,7 +15,8 @@ std::string BashCompletion(const std::vector<CommandInfo>& verbs);
 std::string ZshCompletion(const std::vector<CommandInfo>& verbs);
 std::string FishCompletion(const std::vector<CommandInfo>& verbs);
 
-/// Returns the options of a verb that are not positional, and those that every verb has.
+/// Returns the options of a verb that are not positional arguments, including the options that
+/// every verb has.
 std::vector<OptionInfo> OptionsOf(const CommandInfo& verb);
 
 }  // namespace trackbed::cli
