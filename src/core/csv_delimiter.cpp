@@ -10,7 +10,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/text_table.h"
 
-// Chooses the comma, the semicolon, the tab or blanks by the first lines of a CSV file.
+// Finds the delimiter of a CSV file in its first lines: comma, semicolon, tab or blanks.
 namespace trackbed {
 namespace {
 
@@ -27,7 +27,8 @@ std::string_view NextLine(std::string_view& rest) {
   return {};
 }
 
-/// Splits a line at blanks; `numbers` is the number of cells that are numbers.
+/// Splits a line at blanks and returns the number of cells; `numbers` becomes the number of cells
+/// that are numbers.
 std::size_t CountCells(std::string_view line, std::size_t& numbers) {
   std::size_t count = 0;
   numbers = 0;
@@ -41,8 +42,8 @@ std::size_t CountCells(std::string_view line, std::size_t& numbers) {
   return count;
 }
 
-/// Returns whether blanks separate the numbers in a line, or whether the line has names and blanks
-/// separate as many numbers in the next line.
+/// Returns whether blanks are the delimiter: they separate the numbers in `line`, or they separate
+/// names in `line` and the same number of numbers in the next line.
 bool HasBlanks(std::string_view line, std::string_view rest) {
   std::size_t numbers = 0;
   const std::size_t count = CountCells(line, numbers);

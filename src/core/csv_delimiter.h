@@ -6,8 +6,8 @@
 
 namespace trackbed {
 
-/// Replaces runs of spaces and tabs by a tab, and drops them at the ends of lines. The text may be
-/// passed in parts.
+/// Replaces runs of spaces and tabs by a tab, and removes spaces and tabs at the ends of lines. The
+/// text may be passed in parts.
 class BlankRuns {
  public:
   std::string Replace(std::string_view part);

@@ -12,7 +12,8 @@
 
 // Finds the preamble and the units of a CSV table.
 // 1. Splits the first lines of the file at the delimiter, outside of quotes.
-// 2. Finds the first row of numbers, and goes up from it while lines have as many cells.
+// 2. Finds the first row of numbers, and the lines directly above it that have the same number of
+//    cells.
 // 3. The topmost of these lines has the names; the lines between are units.
 namespace trackbed {
 namespace {
@@ -62,7 +63,8 @@ std::vector<Line> FirstLines(std::string_view begin, char delimiter) {
   return lines;
 }
 
-/// Rewrites the numbers of lines (NormalizeNumber). Returns whether they have decimal commas.
+/// Rewrites the numbers of lines (NormalizeNumber). Returns whether the numbers have decimal
+/// commas.
 bool Normalize(std::vector<Line>& lines, char delimiter) {
   std::vector<std::vector<std::string>> rows;
   for (const Line& line : lines) {

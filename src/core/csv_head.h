@@ -8,7 +8,7 @@ namespace trackbed {
 
 /// The lines of a CSV table before its rows of numbers. Loggers such as those of AiM, MoTeC and
 /// RaceChrono write lines about the session before the names of the columns, and lines of units
-/// behind them.
+/// after the names.
 struct CsvHead {
   char delimiter = ',';
   int preamble_lines = 0;  ///< Number of lines before the names.
@@ -18,15 +18,16 @@ struct CsvHead {
   bool is_vbo = false;               ///< Whether the file is a VBO file.
 };
 
-/// Finds the head of a table by the first 64 KiB of the file. The names are the first of the lines
-/// directly above the first row of numbers that have as many cells as this row. Lines before the
-/// names are a preamble only if the first of them has another number of cells. Lines between the
-/// names and the numbers are units if one of their cells is a unit and none is a number. Tries
-/// `delimiter` before other delimiters; keeps `delimiter` if no table has a preamble or units. In
-/// VBO files, finds the table by the names of sections (FindVboHead).
+/// Finds the head of a table by the first 64 KiB of the file. Of the lines directly above the first
+/// row of numbers that have the same number of cells as this row, the topmost line has the names.
+/// Lines above the names are a preamble only if the first line has another number of cells. Lines
+/// between the names and the numbers are units if one of their cells is a unit and none is a
+/// number. Tries `delimiter` before other delimiters; keeps `delimiter` if no table has a preamble
+/// or units. In VBO files, finds the table by the names of sections (FindVboHead).
 CsvHead FindCsvHead(const std::filesystem::path& file, char delimiter);
 
-/// Appends the unit to the name of a column, as in "Speed [km/h]", unless the name has one.
+/// Appends the unit to the name of a column, as in "Speed [km/h]", unless the name already has a
+/// unit.
 std::string NameWithUnit(const std::string& name, const std::string& unit);
 
 }  // namespace trackbed

@@ -141,7 +141,7 @@ class CommentFilter {
     return true;
   }
 
-  /// Passes on a comment that ends with the file.
+  /// Processes a comment at the end of the file that has no line feed.
   void Finish() {
     if (std::exchange(in_comment_, false)) {
       reader_.Cell(comment_);
@@ -250,7 +250,7 @@ void DropEmptyEnd(std::vector<std::string>& cells, std::size_t least) {
   }
 }
 
-/// The cells of a comment, without the '#'.
+/// Splits a comment, without the '#', into cells.
 std::vector<std::string> CommentCells(std::string_view comment, char delimiter) {
   std::vector<std::string> cells;
   comment.remove_prefix(std::min(comment.find_first_not_of('#'), comment.size()));

@@ -233,8 +233,8 @@ void TemporaryFile::Publish() {
   if (const int error = descriptor_.Close(); error != 0) {
     FailOnFile("write", file_, error);
   }
-  // If the file is a link, replace the target of the link and keep the link. The file may have
-  // become another one since the constructor checked it.
+  // If the file is a link, replace the target of the link and keep the link. Check the file again,
+  // because another file may have replaced it since the constructor's check.
   RequireReplaceable(file_);
   std::error_code error_code;
   const fs::path real = fs::is_symlink(file_) ? fs::weakly_canonical(file_, error_code) : file_;

@@ -30,8 +30,8 @@ struct ColumnSelection {
 struct NumberReader {
   std::string file;
   ColumnSelection selection;
-  // Receives the rows, if all needed columns are there. If `take` is empty, the rows are added to
-  // the table.
+  // Receives the rows, if the file has all needed columns. If `take` is empty, the rows are added
+  // to the table.
   std::function<void(const std::vector<double>& numbers, int line)> take{};
   std::optional<Table> table{};
   std::vector<int> lines{};           // Line of the file from which each row of the table was read.

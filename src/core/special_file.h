@@ -26,8 +26,8 @@ void RequireTarget(const std::filesystem::path& file);
 /// or a pipe, or a link whose target is absent.
 void RequireReplaceable(const std::filesystem::path& file);
 
-/// Opens a device or a pipe for writing. Opening a pipe waits for at most a second until a process
-/// opens it for reading; otherwise throws RunError.
+/// Opens a device or a pipe for writing. Waits for at most one second until a process opens the
+/// pipe for reading; if no process does, throws RunError.
 Descriptor OpenDevice(const std::filesystem::path& file);
 
 }  // namespace trackbed

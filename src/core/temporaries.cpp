@@ -51,7 +51,7 @@ bool DropTemporary(const fs::path& path, const std::function<bool()>& remove) {
 
 void RemoveTemporariesForEver() noexcept {
   List& list = TheList();
-  list.mutex.lock();  // for ever: no thread may create another temporary file
+  list.mutex.lock();  // never unlocked, so that no thread can create another temporary file
   for (const fs::path& path : list.paths) {
     std::error_code ignored;
     fs::remove_all(path, ignored);

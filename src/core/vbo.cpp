@@ -12,9 +12,9 @@
 #include "trackbed/core/text_table.h"
 
 // A VBO file has sections that begin with lines such as [header]. The lines of [header] describe
-// the columns one by one, for people; [column names] has their short names in one line. Files
-// without [column names] use the descriptions as names, which contain blanks; their table is not
-// found.
+// the columns one by one, for human readers; [column names] has the short names of the columns in
+// one line. Files without [column names] use the descriptions as names. FindVboHead does not find
+// the table of such a file, because the descriptions contain blanks.
 namespace trackbed {
 namespace {
 
@@ -47,7 +47,7 @@ std::vector<std::string> Words(std::string_view line) {
   return words;
 }
 
-/// The unit at the end of a description such as "velocity kmh"; "" if it has none.
+/// The unit at the end of a description such as "velocity kmh"; "" if the description has no unit.
 std::string UnitAtEnd(const std::string& description) {
   constexpr std::array kUnits{"kmh", "km/h", "mph", "knots", "m/s", "g", "deg/s", "rpm"};
   const std::vector<std::string> words = Words(description);

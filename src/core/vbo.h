@@ -13,20 +13,20 @@ namespace trackbed {
 
 /// Finds the table in the first lines of a VBO file: the names of its columns in the section
 /// [column names], its rows in [data]. Columns get the units that their names in [header] end with,
-/// as in "velocity kmh", and those that VboCells gives them. Returns nullopt if the text has no
-/// such sections.
+/// as in "velocity kmh", or the units to which VboCells converts their cells. Returns nullopt if
+/// the text lacks one of these sections.
 std::optional<CsvHead> FindVboHead(std::string_view begin);
 
-/// Converts the cells of a VBO file to the numbers of other tables. Times become seconds since
-/// midnight UTC, also those after the next midnight; the file has them as hhmmss.ss. Latitudes and
-/// longitudes become degrees, positive to the north and to the east; the file has minutes, positive
-/// to the north and to the west. Rewrites all numbers (NormalizeNumber).
+/// Converts the cells of a VBO file to the numbers of other tables. Times, which the file has as
+/// hhmmss.ss, become seconds since the midnight (UTC) before the first row. Latitudes and
+/// longitudes, which the file has in minutes, positive to the north and to the west, become
+/// degrees, positive to the north and to the east. Rewrites all numbers (NormalizeNumber).
 class VboCells {
  public:
   explicit VboCells(const std::vector<std::string>& names);
 
-  /// Converts the cells of a row. Returns a problem if the row has a time that does not exist; ""
-  /// if it has none. Does not change cells that are not numbers.
+  /// Converts the cells of a row. Returns a problem if the row has a time that does not exist;
+  /// otherwise "". Does not change cells that are not numbers.
   std::string Convert(std::vector<std::string>& cells);
 
  private:
