@@ -31,7 +31,7 @@
 //    finds changes of the mission that lead to a plan.
 // 4. Adds notes on slow turns, missed waypoints, obstacles in the way, and turning round at the
 //    start.
-// 5. With plan.avoid, PlanAround leads the plan around the known obstacles.
+// 5. With plan.avoid, PlanAround changes the plan so that it passes around the known obstacles.
 namespace trackbed {
 namespace {
 
@@ -50,7 +50,7 @@ void NoteSlowTurns(FeasiblePlan& plan, double speed) {
   }
 }
 
-/// Adds a note if plans that are made on the way would lose stops of the plan.
+/// Adds a note if plans made during the run would omit stops or waits of the initial plan.
 void NoteStops(FeasiblePlan& plan, const Scenario& scenario) {
   std::vector<double> stations = plan->stops;
   for (const PlannedWait& wait : plan->waits) {
@@ -90,8 +90,8 @@ void NoteObstacle(FeasiblePlan& plan, const VehicleParams& vehicle,
   }
 }
 
-/// Adds a note to the plan if the path passes a waypoint at a distance of more than a car length. A
-/// blocked or partial plan says itself where it ends.
+/// Adds a note to the plan if the path passes a waypoint at a distance of more than a car length.
+/// Adds no note to a blocked or partial plan, which already states where it ends.
 void NoteMissedWaypoint(FeasiblePlan& plan, const VehicleParams& vehicle) {
   const auto miss = LargestWaypointMiss(plan->reference.path, plan->waypoints);
   if (miss && miss->distance > vehicle.length && plan->blocked.empty() && plan->partial.empty()) {
@@ -102,8 +102,8 @@ void NoteMissedWaypoint(FeasiblePlan& plan, const VehicleParams& vehicle) {
 }
 
 /// Adds a note to the plan if the path takes a way from one waypoint to the next that is longer
-/// than the straight line by a whole circle of the car's smallest turning radius or more. Around
-/// obstacles, such a way is common.
+/// than the straight line by a whole circle of the car's smallest turning radius or more. Adds no
+/// note if there are obstacles, around which long ways are common.
 void NoteLongLeg(FeasiblePlan& plan, const VehicleParams& vehicle, const Scenario& scenario,
                  const std::vector<OrientedBox>& known) {
   if (vehicle.kind != VehicleKind::kSteered || !known.empty() || !plan->blocked.empty() ||
@@ -123,7 +123,7 @@ void NoteLongLeg(FeasiblePlan& plan, const VehicleParams& vehicle, const Scenari
   }
 }
 
-/// Adds a note to the plan if the run ends before the plan does.
+/// Adds a note to the plan if the run ends before the end of the plan.
 void NoteTimeLimit(FeasiblePlan& plan, double time_limit) {
   const double duration = plan->Duration();
   if (duration >= time_limit) {
@@ -164,7 +164,8 @@ void NoteTurnRound(FeasiblePlan& plan, const VehicleParams& vehicle, const Start
   if (std::cos(turn) >= 0.0) {
     return;
   }
-  // Before the start of the path, the speed control keeps this speed above the start speed.
+  // Before the start of the path, the speed control holds a speed that exceeds the start speed by
+  // acceleration/gain.
   const Path path =
       TurnRoundPath(vehicle, start, to, std::abs(start.speed) + speed.acceleration / speed.gain);
   std::string note = fmt::format(
@@ -214,7 +215,7 @@ std::vector<double> Roads(const World& world) {
   return roads;
 }
 
-/// Refuses a mission with this reason.
+/// Refuses a mission with the reason `reason`.
 FeasiblePlan Refused(PlanStatus status, std::string reason, const PlanRequest& request) {
   Plan plan;
   plan.status = status;

@@ -13,7 +13,8 @@
 namespace trackbed {
 namespace {
 
-/// Bounds of the computing time of a remedy: random samples, and poses of a search.
+/// Bounds of the computing time of a remedy: number of random samples, and number of poses of a
+/// search.
 constexpr long kRemedySamples = kMaxSamples / 20;
 constexpr int kRemedyPoses = 20'000;
 
@@ -44,8 +45,8 @@ HybridAStarOptions HybridFor(const VehicleParams& vehicle) {
   return options;
 }
 
-/// Returns the first of the changes that lead to a path: a start at rest, the planner
-/// `hybrid_astar`, or both; an empty text if none of them does.
+/// Returns the first of these changes that leads to a path: a start at rest, the planner
+/// `hybrid_astar`, or both. Returns an empty text if no change leads to a path.
 std::string MoreRoom(const PlanRequest& request, const PlanSpec& spec) {
   const HybridAStarOptions options = HybridFor(request.vehicle);
   const bool may_reverse = !spec.avoid && !spec.replan;

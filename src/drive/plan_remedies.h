@@ -13,14 +13,15 @@ namespace trackbed {
 ///
 /// If a planner that avoids obstacles lacks room, tries a start at rest, the planner
 /// `hybrid_astar`, and both. Tries `hybrid_astar` only if no layer plans during the run, because
-/// its paths may reverse. If there is such a layer, tries to leave the obstacles to this layer: the
-/// request with only the `walls` of the map.
+/// paths of `hybrid_astar` may reverse. If a layer plans during the run, tries to leave the
+/// obstacles to this layer: plans the request with only the `walls` of the map.
 ///
 /// If the car cannot drive a path with given headings and no obstacle is known, tries the request
 /// without headings.
 ///
-/// `status` and `request` are those of the refused plan. Cost: up to two plans without obstacles,
-/// one plan with at most 100 000 random samples, and two searches of at most 20 000 poses.
+/// `status` and `request` are the status and the request of the refused plan. Cost: up to two plans
+/// without obstacles, one plan with at most 100 000 random samples, and two searches of at most 20
+/// 000 poses.
 [[nodiscard]] std::vector<std::string> PlanRemedies(PlanStatus status, const PlanRequest& request,
                                                     const PlanSpec& spec,
                                                     const std::vector<OrientedBox>& walls);

@@ -7,7 +7,8 @@
 namespace trackbed {
 namespace {
 
-/// Returns the largest number of rows of a run, but at most the bound of scenarios.
+/// Returns the largest possible number of rows of a run, but at most the number of rows that
+/// scenarios allow.
 std::size_t MostRows(const LoopConfig& config) {
   constexpr double kMostRows = 2e6;
   return static_cast<std::size_t>(
@@ -31,8 +32,8 @@ Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller
       configurations_(config.configuration_columns, config.world, config.state_period),
       collisions_(config.world, config.vehicle, config.trailer) {
   if (keeps_rows_) {
-    // Without reservation, a growing vector would copy all rows, and need twice the memory
-    // meanwhile. Reserved rows take memory only when they are written.
+    // Without reservation, a growing vector would copy all rows, and need twice the memory during
+    // the copy. Reserved rows take memory only when they are written.
     log_.rows.reserve(MostRows(config));
   }
 }

@@ -14,7 +14,7 @@ namespace trackbed {
 
 namespace {
 
-/// Returns the waits at the start of a stretch. In the result, their station is 0.
+/// Returns the waits at the start of `stretch`. The returned waits have the station 0.
 std::vector<PlannedWait> WaitsWithin(const Plan& plan, const Stations& stretch) {
   // Tolerance between the station of a wait and that of its stop, as in SplitIntoLegs [m].
   constexpr double kSameStation = 1e-9;

@@ -8,7 +8,8 @@
 namespace trackbed {
 
 std::string StartOverlap(const Scenario& scenario, const VehicleParams& vehicle) {
-  // Touching boxes overlap by rounding errors, at coordinates of kilometers by 1e-12 m.
+  // Overlap below which boxes count as only touching: rounding errors make touching boxes overlap
+  // by 1e-12 m at coordinates of kilometers.
   constexpr double kRounding = 1e-9;  // [m]
   const StartState state = InitialState(scenario, vehicle);
   const Pose2& start = state.pose;
