@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-/// Types of the C interface of FMI 2.0 (fmi-standard.org, version 2.0.4). The names are those of
-/// the standard.
+/// Types of the C interface of FMI 2.0 (fmi-standard.org, version 2.0.4). All types have the names
+/// of the standard.
 extern "C" {
 
 using fmi2Component = void*;

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Types of the C interface of FMI 3.0 (fmi-standard.org/docs/3.0.2). The names are those of the
-/// standard.
+/// Types of the C interface of FMI 3.0 (fmi-standard.org/docs/3.0.2). All types have the names of
+/// the standard.
 extern "C" {
 
 using fmi3Instance = void*;

@@ -19,8 +19,8 @@ namespace {
 
 constexpr const char* kFolder = "documentation/licenses/";
 
-/// Returns the names under which a list may have a file. Packages that are older than the merge of
-/// /lib into /usr/lib list their files in /lib.
+/// Returns the names under which a list of dpkg may contain the file. Packages that are older than
+/// the merge of /lib into /usr/lib list their files in /lib.
 std::set<std::string> ListedNames(const fs::path& file) {
   std::error_code failed;
   const fs::path real = fs::canonical(file, failed);

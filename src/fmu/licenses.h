@@ -9,13 +9,13 @@
 
 namespace trackbed::fmu {
 
-/// Returns the files of the folder `documentation/licenses` of an FMU. The files are the texts of
-/// Trackbed, of the code compiled into `library` (the folder fmu_licenses beside it), and of the
-/// `carried` libraries, files by soname. `license.txt` lists all carried libraries with their
-/// texts.
+/// Returns the files of the folder `documentation/licenses` of an FMU. The files are the license
+/// texts of Trackbed, of the code compiled into `library` (from the folder fmu_licenses beside
+/// `library`), and of the `carried` libraries (files, keyed by soname). `license.txt` lists all
+/// carried libraries with their license texts.
 ///
-/// The text of a carried library is the copyright file of the Debian package that owns it, found in
-/// the database of dpkg below `root`. For a library without a text, license.txt says so.
+/// The license text of a carried library is the copyright file of the Debian package that owns it,
+/// found in the database of dpkg below `root`. For a library without a text, license.txt says so.
 std::vector<ZipEntry> LicenseEntries(const std::filesystem::path& library,
                                      const std::map<std::string, std::filesystem::path>& carried,
                                      const std::filesystem::path& root = "/");

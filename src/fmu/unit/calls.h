@@ -11,7 +11,7 @@
 #include "src/fmu/unit/unit.h"
 #include "trackbed/core/error.h"
 
-/// Shared by the C functions of FMI 2 and FMI 3.
+/// Functions that the C functions of FMI 2 and FMI 3 share.
 namespace trackbed::fmu {
 
 /// Calls `call`; if it throws, passes the message to `fail` and returns false. No exception leaves
