@@ -190,8 +190,8 @@ class WaveSearch {
   WaveSearch(const SteeringSignals& signals, const VehicleParams& vehicle)
       : signals_(signals), vehicle_(vehicle) {}
 
-  /// Searches each stretch in which the car moves, because the command of a car at rest does not
-  /// close a loop.
+  /// Searches each stretch in which the car moves, because the command does not move a car at rest,
+  /// so there is no closed loop.
   void Search(std::size_t from, std::size_t to) {
     const std::vector<double> unexplained = UnexplainedCommand(Part(signals_.loop, from, to));
     std::size_t begin = from;

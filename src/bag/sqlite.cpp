@@ -22,7 +22,8 @@ using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
   RefuseBag(file, fmt::format("no SQLite bag, or damaged: {}", sqlite3_errmsg(database)));
 }
 
-/// Opens a file that nobody trusts: SQLite may neither write it nor run functions of its schema.
+/// Opens an untrusted file: SQLite may neither write the file nor run functions of the file's
+/// schema.
 Database Open(const std::filesystem::path& file) {
   static_cast<void>(OpenInput(file));  // refuses pipes and devices
   sqlite3* opened = nullptr;

@@ -50,8 +50,8 @@ struct FalsifyVerbOptions {
 SweepSummary WriteOutcome(const SweepRecords& records, nlohmann::ordered_json outcome,
                           const OutputFolder& folder) {
   nlohmann::ordered_json header = records.header();
-  // The table of a search that ended before its first run keeps the planned number, because a table
-  // of no rows is refused.
+  // If the search ended before its first run, the table keeps the planned number of rows, because
+  // tables that expect no rows are rejected.
   if (records.count() > 0) {
     header["rows_expected"] = records.count();
   }

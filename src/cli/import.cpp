@@ -40,7 +40,7 @@ struct ImportOptions {
   bool list = false;
 };
 
-/// Prints the topics and columns of a log, and a map that reads it.
+/// Prints the topics and columns of a log, and a map with which Trackbed can read the log.
 int List(const std::string& log) {
   const LogListing listing = ListLog(log);
   for (const LogTopic& topic : listing.topics) {

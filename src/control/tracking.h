@@ -25,7 +25,7 @@ double WayInLag(const ControlInput& input);
 /// without preview that steers by this curvature turns the lagging wheels in time.
 double CurvatureAfterLag(const ControlInput& input);
 
-/// Returns whether the rear axle moves sideways, as no axle of a kinematic car does.
+/// Returns whether the rear axle moves sideways, which is impossible for a kinematic car.
 bool RearAxleSlips(const ControlInput& input);
 
 /// Scales of a car relative to the Prius, for which the default gains and weights were chosen. If

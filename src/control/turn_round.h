@@ -13,12 +13,12 @@ namespace trackbed {
 /// car, the sine is 0, so the car would drive straight on, away from its path. Laws that use the
 /// heading error psi saturate if the target is behind the car, but the sign of psi jumps at 180
 /// degrees, and measurement noise would turn the wheels back and forth. TurnRound replaces these
-/// laws while P is behind the car, but ahead along the path:
+/// laws while P is behind the car, but farther along the path than the car:
 ///   |u| > 90 degrees  and  (P - O) . t >= 0,
 /// with O the rear axle and t the direction of the path at the car's station. The second condition
-/// excludes a car that drives on its path toward a hairpin, while P lies behind the car on the
-/// returning leg. The car then steers to the side of P with the angle TurnRoundLimit, and keeps
-/// this side until P is no longer behind.
+/// excludes a car on its path ahead of a hairpin, while P lies behind the car on the returning leg.
+/// The car then steers to the side of P with the angle TurnRoundLimit, and keeps this side until P
+/// is no longer behind.
 class TurnRound {
  public:
   /// Returns the commanded steering angle [rad] if the car must turn round, otherwise nullopt. `u`

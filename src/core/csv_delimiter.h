@@ -17,7 +17,7 @@ class BlankRuns {
   bool is_pending_ = false;
 };
 
-/// Returns the delimiter that CsvLimits::delimiter describes for kFindDelimiter.
+/// Returns the delimiter of the file, as described at CsvLimits::delimiter for kFindDelimiter.
 char FindDelimiter(const std::filesystem::path& file);
 
 }  // namespace trackbed

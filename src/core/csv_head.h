@@ -18,7 +18,7 @@ struct CsvHead {
   bool is_vbo = false;               ///< Whether the file is a VBO file.
 };
 
-/// Finds the head of a table by the first 64 KiB of the file. Of the lines directly above the first
+/// Finds the head of a table in the first 64 KiB of the file. Of the lines directly above the first
 /// row of numbers that have the same number of cells as this row, the topmost line has the names.
 /// Lines above the names are a preamble only if the first line has another number of cells. Lines
 /// between the names and the numbers are units if one of their cells is a unit and none is a

@@ -283,7 +283,7 @@ void NumberRepeats(std::vector<std::string>& names) {
   }
 }
 
-/// Finds the names of a table's columns, and passes names and rows on.
+/// Finds the names of a table's columns, and passes names and rows to the caller.
 class NamedRows {
  public:
   NamedRows(const std::filesystem::path& file, const CsvLimits& limits, const CsvHead& head,
@@ -317,7 +317,7 @@ class NamedRows {
     }
     if (!is_broken_ && line >= head_.first_row) {
       DropEmptyEnd(cells, columns_);
-      // Spreadsheets write delimiters without cells behind the last row.
+      // Skip lines that contain only delimiters, as spreadsheets write them after the last row.
       if (std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.empty(); })) {
         return;
       }

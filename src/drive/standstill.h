@@ -11,7 +11,8 @@ namespace trackbed {
 class Standstill {
  public:
   /// Returns the time since which the car has stood still [s]. Returns none, and restarts the
-  /// measurement, if `counts` is false. Call Update once per control period.
+  /// measurement, if `counts` is false because the caller does not want to count the standstill.
+  /// Call Update once per control period.
   std::optional<double> Update(const VehicleState& state, bool counts) {
     constexpr double kNoMotion = 0.01;  // [m]
     const Vec2 place = state.pose.position();

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Adds the files of the car. The files of a shipped model are copied unchanged, because Trackbed
-/// compiles files that it recognizes as its own without a separate process (CompileScene). Any
+/// needs no separate process to compile a file that it recognizes as its own (CompileScene). Any
 /// other model is composed to one file, as in a run folder.
 void AddVehicle(const Scenario& scenario, Resources& resources) {
   const fs::path model = FindModel(scenario.vehicle.model, scenario.folder);
@@ -63,8 +63,8 @@ Resources MakeResources(const Scenario& scenario) {
 
 fs::path FindLibrary() {
   const fs::path own = OwnFile().parent_path();
-  // In the build tree, the library is beside the program, one folder above the tests, and two above
-  // the Python module.
+  // In the build tree, the library is beside the program, one folder above the tests, and two
+  // folders above the Python module.
   std::error_code ignored;
   for (const char* place : {"", TRACKBED_FMU_FROM_PROGRAM, "trackbed", "..", "../.."}) {
     const fs::path file = (own / place / "trackbed_fmu.so").lexically_normal();

@@ -21,8 +21,8 @@
 
 // Makes the files of an FMU in memory: the resources (scenario, car and input files) and the
 // description of the variables. Adds the shared library trackbed_fmu.so with the libraries that it
-// needs, and their licenses. The shared library is tried with the resources before the FMU is
-// written.
+// needs, and the licenses of all these libraries. The shared library is tested with the resources
+// before the FMU is written.
 namespace trackbed {
 
 namespace fs = std::filesystem;

@@ -29,13 +29,14 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Exponents of the base units whose product is a unit, and the factor before the product.
+/// A unit as a product of powers of base units: the exponents, and a factor before the product.
 struct BaseUnits {
   std::map<std::string, int> exponents{};
   double factor = 1.0;
 };
 
-/// Multiplies `base` by a power of a unit without products. Returns false for an unknown unit.
+/// Multiplies `base` by `unit` to the power `exponent`; `unit` is a single unit, such as "N".
+/// Returns false for an unknown unit.
 bool Multiply(std::string_view unit, int exponent, BaseUnits& base) {
   using Exponents = std::map<std::string, int>;
   static const std::map<std::string_view, std::pair<Exponents, double>> kKnown{
