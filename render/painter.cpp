@@ -176,8 +176,8 @@ void Painter::Paint(Part& part, double time, Image& image) {
 }
 
 void Painter::PaintInset(Part& part, const PictureContext& context) {
-  // Minimum and maximum size of the inset relative to the frame. Within these limits, the inset is
-  // as large as the panels permit.
+  // Minimum and maximum size of the inset relative to the frame. Between its minimum and maximum
+  // size, the inset is as large as the panels permit.
   constexpr double kMinShare = 0.15;
   constexpr double kMaxShare = 0.3;
   const Layout layout(part.width, part.height);

@@ -53,8 +53,8 @@ std::vector<Point> ReadPlan(const fs::path& file) {
   return points;
 }
 
-// The plan file lists the plans one after the other; each row has the time at which its plan was
-// adopted.
+// The plan file lists the plans one after the other; each row has the adoption time of the plan to
+// which the row belongs.
 std::vector<NewPlan> ReadNewPlans(const fs::path& file) {
   std::vector<NewPlan> plans;
   std::error_code ignored;

@@ -131,9 +131,10 @@ struct Recording {
   TyreLaw tyre = TyreLaw::kAuto;  ///< Tyre law that the plant `mujoco` uses in this run.
   /// Maximum steering rate of the car [rad/s]; 0 if unknown.
   double steering_rate = 0;
-  /// Time of the car's first contact with an obstacle [s]; nullopt if there was none.
+  /// Time of the car's first contact with an obstacle [s]; nullopt if the car touched no obstacle.
   std::optional<double> contact_time;
-  /// Time at which the car rolled over [s]; nullopt if it did not, or if metrics.json is missing.
+  /// Time at which the car rolled over [s]; nullopt if the car did not roll over, or if
+  /// metrics.json is missing.
   std::optional<double> roll_over_time;
   /// Scales of the charts and colors of this recording, possibly shared with other recordings.
   Scales scales;

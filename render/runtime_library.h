@@ -21,7 +21,7 @@ class RuntimeLibrary {
   RuntimeLibrary(std::string file, std::string package, Symbols symbols = Symbols::kLocal);
 
   /// Returns the library's function with this name and the type `Function`. Throws RunError if the
-  /// library has no such function.
+  /// library has no function with this name.
   template <typename Function>
   [[nodiscard]] Function* Find(const char* name) const {
     return reinterpret_cast<Function*>(Address(name));

@@ -51,8 +51,9 @@ struct Recipe {
 
 const Recipe& EncoderRecipe(FilmCodec codec) {
   // The encoder option mbtree=0 makes films reproducible. Without mbtree=0, the macroblock tree of
-  // x264 reads past the end of its rows unless the width is a multiple of 128. The memory beyond
-  // the rows differs between runs (seen with build 164 at widths of 96, 320, 854 and 960 px).
+  // x264 reads past the end of the frame's rows unless the width is a multiple of 128. The memory
+  // beyond the rows differs between runs (seen with build 164 at widths of 96, 320, 854 and 960
+  // px).
   static const Recipe h264{"libx264",
                            "mp4",
                            AV_PIX_FMT_YUV420P,
