@@ -15,7 +15,7 @@
 //    bound, and whether the value meets the bound.
 // 2. A metric that a run does not have fails, with the reason or the most similar name.
 // 3. FailureMessage describes a failed Check: plant, value, bound, and the station and time of the
-//    value. Value and bound get as many digits as are needed to tell them apart.
+//    value. Value and bound get as many digits as are needed to distinguish the two numbers.
 namespace trackbed {
 namespace {
 

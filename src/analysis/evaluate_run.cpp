@@ -38,7 +38,7 @@ double SlidingShare(const RunLog& log) {
 }
 
 /// Adds a note to the verdict if the tyres slid on MuJoCo's contacts. MuJoCo's friction cone lifts
-/// sliding contacts, so the wheel loads of such a run are not realistic.
+/// sliding contacts, so the wheel loads of a run with sliding contacts are not realistic.
 void NoteSlidingContacts(RunResult& result, const CarModel& car) {
   constexpr double kNotedFraction = 0.01;
   for (const RunLog& log : result.logs) {

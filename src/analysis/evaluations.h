@@ -8,7 +8,7 @@
 #include "trackbed/planning/common/plan.h"
 
 /// Declares the functions Evaluate, one for each kind of maneuver, which EvaluateManeuver calls.
-/// Each of these functions sets the members values, passed, missing, begin and end of
+/// Each function Evaluate sets the members values, passed, missing, begin and end of
 /// ManeuverMetrics.
 namespace trackbed {
 

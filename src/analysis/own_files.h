@@ -25,8 +25,8 @@ void Remove(const std::filesystem::path& file);
 
 /// Returns true if the folder contains no file with this name, or if the file with this name is a
 /// regular file that Trackbed has written. A file counts as written by Trackbed if the manifest
-/// (null: none) lists the file, or if the file carries a mark (HasMark). A file also counts if it
-/// contains the records of a study.
+/// (null: none) lists the file, or if the file carries a mark (HasMark). A file that contains the
+/// records of a study also counts as written by Trackbed.
 bool IsOwnOrAbsent(const std::filesystem::path& folder, const std::string& name,
                    const Manifest* manifest);
 

@@ -16,9 +16,9 @@ const Segments& SegmentsOf(const PlannedPath& path) {
   return path.plan.reference.path.segments();
 }
 
-/// Returns the distances along the segment at which the curvature may be largest or smallest. These
-/// are both ends of the segment, and the vertex of the quadratic curvature if the vertex lies
-/// inside the segment.
+/// Returns the distances along the segment at which the curvature may be largest or smallest. The
+/// returned distances are both ends of the segment, and the vertex of the quadratic curvature if
+/// the vertex lies inside the segment.
 std::vector<double> Extrema(const Segment& segment) {
   std::vector<double> places{0.0, segment.length};
   const double vertex = -segment.sharpness / segment.sharpness_rate;

@@ -17,8 +17,8 @@ class RoadBands {
   /// Distance beside a band up to which Inside finds the band [m].
   static constexpr double kReach = 10.0;
 
-  /// Makes the bands of those roads that pass the rectangle between two corners, or pass at most
-  /// kReach beside it.
+  /// Makes the bands of those roads that pass the rectangle between two corners, or pass at a
+  /// distance of at most kReach from the rectangle.
   RoadBands(const RoadNetwork& network, const Vec2& low, const Vec2& high);
 
   /// Returns the distance from a point to the nearer border of a band, negative beside the band

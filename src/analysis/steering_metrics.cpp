@@ -15,8 +15,9 @@
 // 1. MakeSignals collects the steering command and the signals that explain it: curvature of the
 //    path, also with ramps for its steps, lateral acceleration and measurement noise. Jumps at
 //    changes of plan are removed.
-// 2. UnexplainedCommand (oscillation.h) removes what these signals explain, and WaveSearch looks
-//    for waves in the rest, in each stretch in which the car moves.
+// 2. UnexplainedCommand (oscillation.h) removes the part of the command that the collected signals
+//    explain. WaveSearch looks for waves in the remaining command, in each stretch in which the car
+//    moves.
 // 3. The largest wave above ToleratedAmplitude counts. The tolerated oscillation uses a fifth of
 //    the steering rate, or moves the car by 5 % of its width, whichever amplitude is smaller. At
 //    least half of the backlash is tolerated.

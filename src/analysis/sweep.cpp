@@ -31,8 +31,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Returns the rows of the shard that must be run. These are the rows that are missing in the
-/// records, or, if `again` lists statuses, the recorded rows with one of these statuses.
+/// Returns the rows of the shard that must be run. The returned rows are the rows that are missing
+/// in the records, or, if `again` lists statuses, the recorded rows with one of these statuses.
 std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptions& options) {
   const std::vector<std::string> columns = records.Columns();
   const auto status = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "status") -

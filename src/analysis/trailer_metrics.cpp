@@ -8,7 +8,8 @@
 namespace trackbed {
 namespace {
 
-/// Returns the largest value that `value` returns for a row, and its place.
+/// Returns the largest value that `value` returns for any row, with the station and time of this
+/// row.
 template <typename Value>
 std::optional<MetricReading> LargestOverRows(const MetricInput& input, const Value& value) {
   if (!input.log.trailer || !input.log.rows.front().trailer) {

@@ -72,7 +72,7 @@ std::optional<Step> FindStep(const RunLog& log, double steady) {
 }
 
 /// Adds the response time, peak time, overshoot and steady value of a quantity to the metrics. The
-/// keys of these metrics begin with `name`.
+/// keys of the added metrics begin with `name`.
 template <typename Of>
 double EvaluateResponse(const RunLog& log, const Step& step, double steady_time,
                         const std::string& name, const Of& of, ManeuverMetrics& metrics) {
