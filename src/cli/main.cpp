@@ -114,8 +114,8 @@ namespace {
 
 /// Opens /dev/null for each closed standard stream. If a standard stream stayed closed, the next
 /// opened file would get the stream's file descriptor. Output for the stream would then be written
-/// into that file. The file /dev/null is opened for reading only, so writing to such a stream
-/// fails.
+/// into that file. The file /dev/null is opened for reading only, so writing to a stream that was
+/// closed still fails.
 void OccupyClosedStreams() {
   int descriptor = 0;
   do {
