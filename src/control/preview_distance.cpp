@@ -173,7 +173,7 @@ double ReturnDistance(const VehicleParams& vehicle, double speed, double offset)
   const double slowest = kMinSpeed * vehicle.wheelbase * vehicle.steering_rate;
   const double curvature_rate =
       vehicle.steering_rate / (vehicle.wheelbase * std::max(std::abs(speed), slowest));
-  // Tyres and actuator answer late, so the car drives further before it turns.
+  // Tyres and actuator respond late, so the car drives the distance `response` before it turns.
   const double response = std::abs(speed) * ResponseTime(vehicle, speed, 0.0);
   const double turning = kShare * std::cbrt(std::abs(offset) / curvature_rate) + response;
   // The arc to a point at the distance R has the curvature 2 e/R^2.

@@ -21,8 +21,8 @@ double MeanAcceleration(const SpeedProfile& profile, double s, double speed, dou
   return acceleration;
 }
 
-/// Tolerance factor of the acceleration options: a speed profile that exceeds them by more than
-/// this factor exceeds them on purpose.
+/// Tolerance factor of the acceleration options: a speed profile that exceeds the options by more
+/// than this factor exceeds them on purpose.
 constexpr double kOnPurpose = 1.1;
 /// Maximum ratio of the commanded acceleration to the profile's acceleration; above 1, so that the
 /// car can catch up with the profile. For a plan at 0.9 of the tyres' limit, the factor 1.05 uses
