@@ -18,7 +18,7 @@
 
 namespace trackbed {
 
-/// Reports the progress of the run each time it has grown by one percent.
+/// Reports the progress of the run each time the progress has grown by one percent.
 class Progress {
  public:
   explicit Progress(const std::function<void(double)>& callback) : callback_(callback) {}
@@ -142,11 +142,11 @@ class LoopCore {
   Command command_;                 // The last command.
   double steering_before_;          // Prescribed steering angle at the start of the period [rad].
   // Whether the loop has adopted, in this control period, a plan that does not stop at an obstacle.
-  // After such a change of plan, the last command may still stop the car for the previous plan;
-  // this stop must not end the run.
+  // After a change to a plan without a stop, the last command may still stop the car for the
+  // previous plan; this stop must not end the run.
   bool continues_past_obstacle_ = false;
   std::vector<double> values_;  // Diagnostic values of the controller's last update.
-  long tick_ = 0;               // Number of control periods before this one.
+  long tick_ = 0;               // Number of control periods before the present one.
   VehicleState state_;          // State of the plant at the beginning of the control period.
   LogRow row_;
   std::optional<DriveStatus> status_;

@@ -16,7 +16,7 @@ namespace {
 
 /// Returns the waits at the start of `stretch`. The returned waits have the station 0.
 std::vector<PlannedWait> WaitsWithin(const Plan& plan, const Stations& stretch) {
-  // Tolerance between the station of a wait and that of its stop, as in SplitIntoLegs [m].
+  // Tolerance between the station of a wait and the station of its stop, as in SplitIntoLegs [m].
   constexpr double kSameStation = 1e-9;
   std::vector<PlannedWait> waits;
   for (const PlannedWait& wait : plan.waits) {

@@ -73,9 +73,10 @@ class SegmentSequencer {
   [[nodiscard]] const SpeedProfile& speed() const;
 
   /// Returns the station that the controller receives in `state` [m]. Depending on the controller's
-  /// StationSource, this is the station of the last projection or the distance driven since the
-  /// start of the segment. At a standstill, the station is at least 0: a car that stands a little
-  /// before a bend turns its wheels for the bend, not for the straight extension of the path.
+  /// StationSource, the returned station is the station of the last projection or the distance
+  /// driven since the start of the segment. At a standstill, the station is at least 0: a car that
+  /// stands a little before a bend turns its wheels for the bend, not for the straight extension of
+  /// the path.
   [[nodiscard]] double StationFor(const VehicleState& state) const;
 
   /// Projects the car onto the path near the car's last station. Returns the station of the log and
