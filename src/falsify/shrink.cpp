@@ -101,8 +101,8 @@ class Shrinker {
   [[nodiscard]] double StepOf(std::size_t i) const { return std::max(tolerance_, space_.Step(i)); }
 
   /// Tests for each key whether the run passes if the key moves one step toward its nominal value.
-  /// If the run still violates an expectation after such a step, MeasureHolds keeps the step and
-  /// returns false.
+  /// If the run still violates an expectation after the key has moved, MeasureHolds keeps the step
+  /// and returns false.
   bool MeasureHolds() {
     for (std::size_t i = 0; i < nominal_.size(); ++i) {
       const double place = result_.point[i];
