@@ -72,8 +72,8 @@ void TryResources(const Resources& resources, const std::string& token,
     library.Find<fmi3FreeInstanceTYPE>("fmi3FreeInstance")(instance);
   }
   if (!messages.empty() || instance == nullptr) {
-    // Remove the path of the temporary folder from the messages, so that they name the files as in
-    // the FMU.
+    // Remove the path of the temporary folder from the messages, so that the messages name the
+    // files as in the FMU.
     const std::string own = folder.path().string() + "/";
     for (std::size_t at = messages.find(own); at != std::string::npos; at = messages.find(own)) {
       messages.erase(at, own.size());

@@ -61,7 +61,7 @@ std::map<std::string, std::string> Owners(const std::map<std::string, fs::path>&
   return owners;
 }
 
-/// Returns the files in `folder` and the folders in it, by their relative names.
+/// Returns the files in `folder` and its subfolders, keyed by their names relative to `folder`.
 std::map<std::string, std::string> FilesIn(const fs::path& folder) {
   std::map<std::string, std::string> files;
   std::error_code ignored;
@@ -83,7 +83,7 @@ std::vector<ZipEntry> LicenseEntries(const fs::path& library,
       "This FMU contains Trackbed (LICENSE, NOTICE), code that is compiled into it\n"
       "(the other texts beside this file), and these libraries:\n\n";
   const std::map<std::string, std::string> owners = Owners(carried, root);
-  // The wheel and the archive of MuJoCo contain its license.
+  // The wheel and the archive of MuJoCo contain the license of MuJoCo.
   const bool has_mujoco = texts.lower_bound("mujoco/") != texts.lower_bound("mujoco0");
   for (const auto& [soname, file] : carried) {
     std::string where = "no text found; add its license before you distribute this FMU";

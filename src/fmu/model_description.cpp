@@ -153,8 +153,8 @@ const char* CausalityName(Causality causality) {
   return "";
 }
 
-/// Returns the variability. Commands have effect at the start of a control period, so that they are
-/// discrete.
+/// Returns the variability. Commands take effect at the start of a control period, so the variables
+/// of commands are discrete.
 const char* VariabilityName(const Variable& variable) {
   switch (variable.causality) {
     case Causality::kParameter:
