@@ -76,7 +76,7 @@ Series EveryNth(const Series& signal, std::size_t stride) {
   return kept;
 }
 
-/// Sums of products over the last `length` samples: each sample of the signal `late` is multiplied
+/// Sums of products over the last `length` samples. Each sample of the signal `late` is multiplied
 /// by the sample of the signal `early` that is `lag` samples older.
 class ProductSums {
  public:

@@ -54,9 +54,9 @@ std::vector<double> PathCurvatures(const RunLog& log, const Plan& plan, std::siz
   return curvatures;
 }
 
-/// Removes the jumps of a signal at changes of plan: shifts all values from the first row of a new
-/// plan on, so that the value in this row equals the value in the previous row. Replanning every
-/// half second makes a wave of jumps, which is no oscillation of the loop of controller and car.
+/// Removes the jumps of a signal at changes of plan. All values from the first row of a new plan on
+/// are shifted, so that this row has the value of the previous row. Replanning every half second
+/// makes a wave of jumps, which is no oscillation of the loop of controller and car.
 void RemoveJumps(const RunLog& log, std::vector<double>& values) {
   auto next = log.changes.begin();
   double shift = 0.0;

@@ -9,9 +9,9 @@
 namespace trackbed::cli {
 
 /// Returns the output folder of a command: the value of its option `--out`, or `below` in `parent`
-/// if the option is empty. OutputFolder does not trust `below`, which comes from a name in an
-/// input: it throws RunError if a part of `below` is a link or a file (FolderBelow). The folder of
-/// the option and `parent` may be links.
+/// if the option is empty. The path `below` comes from a name in an untrusted input. Therefore
+/// throws RunError if a part of `below` is a link or a file (FolderBelow). The folder of the option
+/// and `parent` may be links.
 std::filesystem::path OutputFolderOf(const std::string& option, const std::filesystem::path& below,
                                      const std::filesystem::path& parent = "out");
 

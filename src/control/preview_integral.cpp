@@ -162,13 +162,14 @@ class PreviewIntegral final : public SteeringController {
                      DistanceOfEqualGain(input, direction, single)});
   }
 
-  /// Returns the preview distance R [m] at which this law responds to an offset with the same gain
-  /// as the single-point law at the distance R_1 = `single`. This gain is 2 L'/R_1^2, where L' is
-  /// the ratio of steering angle to curvature in a steady turn. For the kinematic car, L' = L, and
-  /// R/R_1 is the square root of the ratio of the gains at equal distances. Tyres respond late, so
-  /// A(eta) is smaller than for the kinematic car, and the gain int A W/int A^2 W is larger. For a
-  /// car with tyres, R is therefore longer: with the kinematic ratio, a car with a limited steering
-  /// rate would oscillate about its path forever.
+  /// Returns the preview distance R [m] at which this law and the single-point law respond to an
+  /// offset with equal gains. The single-point law has the preview distance R_1 = `single`. The
+  /// gain of the single-point law is 2 L'/R_1^2, where L' is the ratio of steering angle to
+  /// curvature in a steady turn. For the kinematic car, L' = L, and R/R_1 is the square root of the
+  /// ratio of the gains at equal distances. Tyres respond late, so A(eta) is smaller than for the
+  /// kinematic car, and the gain int A W/int A^2 W is larger. For a car with tyres, R is therefore
+  /// longer: with the kinematic ratio, a car with a limited steering rate would oscillate about its
+  /// path forever.
   [[nodiscard]] double DistanceOfEqualGain(const ControlInput& input, int direction,
                                            double single) const {
     double distance = std::sqrt(KinematicGainRatio()) * single;

@@ -10,7 +10,7 @@ namespace trackbed {
 ///
 /// At a step of the curvature, wheels with a limited rate lag behind the path. A control law that
 /// tracks the path itself saturates at the step, and feeds back errors that no command can avoid. A
-/// car with a limited steering rate can drive the ramped path: a control law that tracks the ramped
+/// car with a limited steering rate can drive the ramped path. A control law that tracks the ramped
 /// path receives no unavoidable errors, and commands rates within the limit.
 ///
 /// The symbols are:

@@ -28,7 +28,7 @@ double SteeringAtGrip(const VehicleParams& vehicle, double speed);
 /// must not exceed g b/(2 h). `held` is a_0 >= 0 [m/s^2]: the lateral acceleration of the steady
 /// turn, to the same side, that the car already drives. The angle of the turn is the largest of
 /// three angles: without slip, with linear tyres, and with the brush model. At the grip limit, an
-/// understeering car needs more steering than with linear tyres, and an oversteering car needs more
+/// understeering car needs more steering than with linear tyres. An oversteering car needs more
 /// steering to enter the turn than to stay in the turn.
 double SteeringInAStep(const VehicleParams& vehicle, double speed, double held = 0.0);
 
@@ -49,7 +49,7 @@ struct SteeringRange {
 /// may always steer into its slide.
 ///
 /// The front tyres of an understeering car slide first. In a turn that the car holds at its limit,
-/// the front tyres may need more steering than in the steady turn of the brush model: the load
+/// the front tyres may need more steering than in the steady turn of the brush model. The load
 /// transfer and the drive force on the inner wheel make the true grip smaller than the model's
 /// grip. The range therefore extends toward the direction of the front axle plus 3 mu F_z/C_f, the
 /// slip angle at which the front tyres slide. The extension is proportional to a_0/(mu_y g). The

@@ -11,8 +11,8 @@ namespace trackbed {
 /// Laws such as pure pursuit steer by the sine of the angle u from the direction of motion to the
 /// target point P. The sine decreases for |u| > 90 degrees. If the target is exactly behind the
 /// car, the sine is 0, so the car would drive straight on, away from its path. Laws that use the
-/// heading error psi saturate if the target is behind the car, but the sign of psi jumps at 180
-/// degrees, and measurement noise would turn the wheels back and forth. TurnRound replaces these
+/// heading error psi saturate if the target is behind the car. The sign of psi jumps at 180
+/// degrees, so measurement noise would turn the wheels back and forth. TurnRound replaces these
 /// laws while P is behind the car, but farther along the path than the car:
 ///   |u| > 90 degrees  and  (P - O) . t >= 0,
 /// with O the rear axle and t the direction of the path at the car's station. The second condition

@@ -59,8 +59,8 @@ class SurrogateSearch : public PointSearch {
       // whose run has no objective therefore gets the highest known value.
       const double value = values[i].value_or(highest_);
       Keep(batch_[i], value);
-      // Construct a new dlib search if a value has changed, or if dlib did not request the point,
-      // because dlib accepts changed or unrequested values only in the constructor of a search.
+      // Construct a new dlib search if a value has changed, or if dlib did not request the point.
+      // dlib accepts changed or unrequested values only in the constructor of a search.
       restart =
           restart || requests_.find(batch_[i]) == requests_.end() || (value < 0.0 && !spec_.stop);
     }

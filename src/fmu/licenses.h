@@ -10,9 +10,9 @@
 namespace trackbed::fmu {
 
 /// Returns the files of the folder `documentation/licenses` of an FMU. The files are the license
-/// texts of Trackbed, of the code compiled into `library` (from the folder fmu_licenses beside
-/// `library`), and of the `carried` libraries (files, keyed by soname). `license.txt` lists all
-/// carried libraries with their license texts.
+/// texts of Trackbed, of the code compiled into `library`, and of the libraries in `carried`, a map
+/// from soname to file. The texts for the compiled code come from the folder fmu_licenses beside
+/// `library`. `license.txt` lists all carried libraries with their license texts.
 ///
 /// The license text of a carried library is the copyright file of the Debian package that owns it,
 /// found in the database of dpkg below `root`. For a library without a text, license.txt says so.
