@@ -14,10 +14,10 @@ namespace {
 
 /// Fraction of g b/(2 h) to which a step of the steering angle is limited. The body of the car
 /// leans out of the turn, so the inner wheels lift at less than g b/(2 h) in a steady turn, and the
-/// roll angle overshoots after a step. This fraction is the fraction at which the wheels lift in a
+/// roll angle overshoots after a step. The limit is the fraction at which the wheels lift in a
 /// steady turn, divided by the overshoot of the roll angle. For the four cars of models/ in MuJoCo,
-/// it is 0.62 (prius) to 0.67 (bmw320i); see docs/algorithms/control.md. The BMW on contact tyres
-/// rolls over after steps to a fraction of 0.75.
+/// this quotient is 0.62 (prius) to 0.67 (bmw320i); see docs/algorithms/control.md. The BMW on
+/// contact tyres rolls over after steps to a fraction of 0.75.
 constexpr double kRollShare = 0.65;
 
 /// Returns the acceleration g b/(2 h) [m/s^2] at which the inner wheels of a rigid car lift.
