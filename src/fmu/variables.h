@@ -6,8 +6,8 @@
 
 #include "trackbed/scenario/scenario.h"
 
-/// The variables of an FMU. The exporter writes them to modelDescription.xml; the shared library
-/// makes the same list from the scenario in the FMU.
+/// The variables of an FMU. The exporter writes the variables to modelDescription.xml; the shared
+/// library makes the same list from the scenario in the FMU.
 namespace trackbed::fmu {
 
 enum class Type { kReal, kInteger, kBoolean, kStatus };

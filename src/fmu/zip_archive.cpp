@@ -46,7 +46,7 @@ std::string MakeZip(const std::vector<ZipEntry>& entries, const std::string& com
   if (target == nullptr) {
     Fail(zip_error_strerror(&error));
   }
-  // The archive frees its source, which is read afterwards.
+  // Keep the source: the archive frees its reference, but the source is read afterwards.
   zip_source_keep(target.get());
   std::unique_ptr<zip_t, ArchiveDeleter> archive(
       zip_open_from_source(target.get(), ZIP_TRUNCATE, &error));
@@ -64,7 +64,7 @@ std::string MakeZip(const std::vector<ZipEntry>& entries, const std::string& com
       zip_source_free(content);
       Fail(zip_strerror(archive.get()));
     }
-    // A fixed time, 1980-01-01: the earliest that ZIP can state.
+    // Use a fixed time, 1980-01-01, which is the earliest time that ZIP can state.
     const auto place = static_cast<zip_uint64_t>(index);
     if (zip_file_set_dostime(archive.get(), place, 0, (1U << 5U) | 1U, 0) < 0 ||
         zip_set_file_compression(archive.get(), place, ZIP_CM_DEFLATE, 1) < 0 ||

@@ -10,9 +10,9 @@
 #include "trackbed/core/hash.h"
 
 // A serialized state contains the parameters and the commands of all control periods, and is
-// restored by simulating them again. The state of a plant, a planner and a controller has no form
-// outside of this process, but a simulation is reproducible bit for bit. A hash of the last row of
-// the log shows whether the simulation was.
+// restored by simulating these commands again. A plant, a planner and a controller cannot be
+// serialized, but a simulation is reproducible bit for bit. A hash of the last row of the log shows
+// whether the repeated simulation had the same result.
 //
 // Layout: kMark, the token, numbers and counts of 8 bytes in the byte order of the machine, the
 // hash of the row, and the hash of all bytes before it.
@@ -61,7 +61,7 @@ class Reader {
     return number;
   }
 
-  /// Reads a count of elements of `size` bytes, which must follow.
+  /// Reads the number of elements of `size` bytes each. Throws InputError if fewer bytes follow.
   std::size_t Count(std::size_t size) {
     const auto count = Read<std::uint64_t>();
     if (count > left_.size() / size) {

@@ -57,7 +57,7 @@ const char* NameOf(Type type) {
   return "";
 }
 
-/// Returns the commands that the values of the fixed Boolean parameters set, with zero inputs.
+/// Returns commands with zero inputs and with the flags that the fixed Boolean parameters set.
 Commands StartCommands(const std::map<std::uint32_t, double>& parameters) {
   return {.controller_steers = parameters.contains(kControllerSteers),
           .plan_sets_speed = parameters.contains(kPlanSetsSpeed)};
@@ -202,8 +202,8 @@ StepEnd Unit::Step(double time, double step) {
                     Time(), ToString(*status)));
   }
   // Communication points and step sizes of callers carry rounding errors, which grow with the
-  // number of steps. The loop counts periods, so that the errors do not reach the simulation; they
-  // only must not be mistaken for another period.
+  // number of steps. The loop counts periods, so that rounding errors do not reach the simulation.
+  // Rounding errors must only be too small to change the number of periods.
   const double periods = std::round(step / period_);
   if (!(periods >= 1.0 && std::abs(step / period_ - periods) < 1e-6 * periods && periods < 1e9)) {
     Refuse(fmt::format("the step size is {} s; must be a multiple of the control period, {} s",
@@ -269,7 +269,7 @@ void Unit::Set(Type type, std::uint32_t reference, double value) {
   const Commands start = StartCommands(state_.parameters);
   state_.commands.controller_steers = start.controller_steers;
   state_.commands.plan_sets_speed = start.plan_sets_speed;
-  // The next use of the loop plans again.
+  // Discard the loop. Its next use plans the mission again.
   state_.loop.reset();
   outputs_.clear();
 }

@@ -33,7 +33,7 @@ struct State {
   std::map<std::uint32_t, double> parameters;  ///< Values that differ from the start values.
   Commands commands;                           ///< Present values of the inputs.
   std::vector<Commands> history;               ///< The commands of all periods since the start.
-  std::optional<SteppedLoop> loop;             ///< Set from the initialization on.
+  std::optional<SteppedLoop> loop;             ///< Empty before the initialization.
 
   [[nodiscard]] State Copy() const;
 };
@@ -41,7 +41,7 @@ struct State {
 /// How a communication step ended.
 struct StepEnd {
   bool ended = false;  ///< Whether the run has ended.
-  double time = 0.0;   ///< Time that was reached [s].
+  double time = 0.0;   ///< Time at the end of the step [s].
 };
 
 /// An instance of an FMU, independent of the version of FMI. Functions throw InputError for a value
@@ -94,7 +94,7 @@ class Unit {
   std::vector<Variable> variables_;
   double period_ = 0.0;  ///< Control period [s].
   State state_;
-  /// Present values of the outputs by name; empty if they have changed since.
+  /// Cached values of the outputs by name; empty after each change of the state.
   std::map<std::string, double> outputs_;
 };
 
