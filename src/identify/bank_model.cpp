@@ -37,7 +37,9 @@ std::optional<std::size_t> EndOfLap(const std::vector<RecordedSample>& samples, 
   for (std::size_t i = first; i < samples.size(); ++i) {
     farthest = std::max(farthest, away(i));
   }
-  // Fractions of the largest distance: the car has left, is back, and has passed the start.
+  // Distances from the start, as fractions of the largest distance: beyond kLeft, the car has left
+  // the start; within kBack, the car is back. The car has passed the start if its distance is
+  // kPassed larger than the smallest distance.
   constexpr double kLeft = 0.5;
   constexpr double kBack = 0.2;
   constexpr double kPassed = 0.05;
@@ -169,7 +171,7 @@ CenterPoints TrackOfRecords(const Identification& study) {
     }
   }
   const double half = 0.5 * LoadCar(first).params().width;
-  constexpr double kFold = 0.9;  // width of the ground over the smallest radius
+  constexpr double kFold = 0.9;  // ratio of the ground's width to the smallest radius
   const double widest = kFold * SmallestRadius(line);
   for (TrackPoint& point : line.points) {
     point.width_left = std::min(left + half, widest);
@@ -178,7 +180,8 @@ CenterPoints TrackOfRecords(const Identification& study) {
   return line;
 }
 
-/// Returns the number of knots. The study must have room for as many parameters.
+/// Returns the number of knots. Throws InputError if the study cannot estimate a parameter for each
+/// knot.
 std::size_t KnotsOf(const Identification& study, double length, bool closed) {
   const std::size_t room = kMostParameters - std::min(kMostParameters, study.parameters.size());
   // An open line has knots at both ends; its mirror image repeats the knots between the ends.
@@ -208,8 +211,8 @@ CenterPoints PointsOf(const Identification& study) {
   return study.bank->center.points.empty() ? TrackOfRecords(study) : study.bank->center;
 }
 
-/// Returns the basis of a spline with the given knots: that of an open line has the knots of the
-/// line and of its mirror image.
+/// Returns the basis of a spline with the given knots. The basis for an open line has the knots of
+/// the line and of its mirror image.
 ClosedSplineBasis BasisOf(const BankedGround& ground, std::size_t knots) {
   return ground.closed() ? ClosedSplineBasis(ground.length(), knots)
                          : ClosedSplineBasis(2.0 * ground.length(), 2 * (knots - 1));

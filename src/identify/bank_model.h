@@ -20,11 +20,11 @@ bool IsBankParameter(const std::string& name);
 /// continued as an even function beyond both ends, so its slope is zero at the ends.
 class BankModel {
  public:
-  /// Makes the track of the study: that of `bank.track`, or the path of the first fitted record, as
-  /// wide as all records drive. The path is the first lap of the record if it returns to its start,
-  /// else the whole open path. The study must have `bank`. Throws InputError if a record leaves the
-  /// path of an open road, or if the track has more knots than the study has room for. Also throws
-  /// InputError in the same cases as BankedGround.
+  /// Makes the track of the study: that of `bank.track`, or the path of the first fitted record,
+  /// with edges that all records stay within. The path of a record is its first lap if the record
+  /// returns to its start, else the whole open path. The study must have `bank`. Throws InputError
+  /// if a record leaves the path of an open road, or if the track has more knots than the study has
+  /// room for. Also throws InputError in the same cases as BankedGround.
   explicit BankModel(const Identification& study);
 
   /// Returns the parameters, bank[0] at the start line first [rad]. Before the fit, they are

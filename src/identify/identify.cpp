@@ -102,7 +102,8 @@ std::vector<std::string> NotesOf(const std::vector<Scenario>& scenarios) {
 }
 
 bool IsAt(double value, double bound, const IdentifiedParameter& parameter) {
-  // Distance that still counts as equal, as a fraction of the parameter's range.
+  // Distance from a bound at which a value counts as equal to the bound, as a fraction of the
+  // parameter's range.
   constexpr double kBoundTolerance = 1e-4;
   return std::abs(value - bound) <= kBoundTolerance * (parameter.to - parameter.from);
 }
