@@ -407,8 +407,9 @@ SearchResult Search(const SearchProblem& problem, const SearchOptions& options,
   // The computing time of DIRECT grows with the square of the number of its cells, so run DIRECT
   // three times, each time in a smaller box.
   const int looks = options.method == SearchMethod::kDirect ? 3 : 1;
-  // Without a feasible point DIRECT does not keep its share of the budget, so nothing may be left
-  // for the next run. NLopt's DIRECT reads uninitialized memory if its first evaluation stops it.
+  // Without a feasible point DIRECT does not keep its share of the budget, so no evaluations may be
+  // left for the next run. NLopt's DIRECT reads uninitialized memory if its first evaluation stops
+  // it.
   const auto goes_on = [&] { return !evaluator.failure && evaluator.best().evaluations < budget; };
   for (int look = 0; look < looks && goes_on(); ++look) {
     if (look > 0 && evaluator.best().status != SearchStatus::kNotFinite) {
