@@ -82,9 +82,10 @@ std::vector<double> StepsOf(const ChordPoints& fitted, double period) {
   return steps;
 }
 
-/// Returns whether the points turn on a step by less than a quarter of the curvature beside it, as
-/// where the points of a straight are left out. In a gap on an arc, both curvatures are equal; at
-/// the begin of an arc, the former is half of the latter.
+/// Returns whether the curvature of the points on a step is less than a quarter of the curvature
+/// beside the step, as on a straight without points. In a gap on an arc, the curvature on the step
+/// equals the curvature beside it. At the beginning of an arc, the curvature on the step is half of
+/// the curvature beside it.
 bool IsStraighter(const std::vector<double>& turns, const std::vector<double>& lengths,
                   std::size_t step, double period) {
   const std::size_t count = lengths.size();
@@ -109,10 +110,11 @@ bool IsStraighter(const std::vector<double>& turns, const std::vector<double>& l
   return turn(step) + turn(step + 1) < 0.25 * curvature * (length(step) + beside);
 }
 
-/// Returns shares of a step, ascending, at which points are added: their distances grow from
-/// `first` at the begin and `last` at the end [m] towards the middle. Between equidistant knots,
-/// the sideways swing of a spline of degree 5 shrinks from knot to knot by a factor of about 0.43.
-/// The distances grow by much less than 1/0.43, so the swing in meters shrinks, too.
+/// Returns the ascending fractions of a step at which points are added. The distances between these
+/// points grow from `first` at the beginning and `last` at the end [m] towards the middle. Between
+/// equidistant knots, the sideways swing of a spline of degree 5 shrinks from knot to knot by a
+/// factor of about 0.43. The distances grow by much less than 1/0.43, so the swing in meters
+/// shrinks, too.
 std::vector<double> SharesOn(double length, double first, double last) {
   constexpr double kGrowth = 1.25;
   std::vector<double> begin;
@@ -166,8 +168,10 @@ Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, doubl
 
 std::vector<std::size_t> StraightSteps(const CurveBetweenKnots& curve, const ChordPoints& fitted,
                                        double period, double tolerance) {
-  constexpr double kLong = 4.0;                // A step of this many medians is long, as on tracks.
-  constexpr double kLargestTurn = 0.25 * kPi;  // A larger turn at an end may be a wrong point.
+  // A step is long if it is kLong times as long as the median, such as a straight of a track.
+  constexpr double kLong = 4.0;
+  // An end of a step at which the points turn by more than kLargestTurn may be a wrong point.
+  constexpr double kLargestTurn = 0.25 * kPi;
   const std::vector<double> turns = TurnsOf(fitted, period);
   const std::vector<double> lengths = StepsOf(fitted, period);
   std::vector<double> sorted = lengths;

@@ -39,15 +39,16 @@ Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, doubl
                 double tolerance);
 
 /// Returns the steps between knots that are straight lines although the curve bulges beside them.
-/// The knots turn by at most 45 degrees at the ends of such a step. The curve deviates too far from
-/// the step (IsAside), or the step is more than four times as long as the median, the knots turn on
-/// it by less than a quarter of the curvature beside it, and the curve leaves it by more than the
-/// tolerance.
+/// At the ends of a returned step, the knots turn by at most 45 degrees. The curve deviates too far
+/// from the returned step (IsAside), or the step is a gap on a straight. A gap is more than four
+/// times as long as the median step. The curvature of the knots on a gap is less than a quarter of
+/// the curvature beside the gap, and the curve leaves the gap by more than the tolerance.
 std::vector<std::size_t> StraightSteps(const CurveBetweenKnots& curve, const ChordPoints& fitted,
                                        double period, double tolerance);
 
-/// Adds points on the straight lines of steps. From each end, their distances begin with the length
-/// of the step before or after, and grow by a quarter from point to point.
+/// Adds points on the straight lines of steps. The distances between the added points begin, at
+/// each end of a step, with the length of the adjacent step, and grow by a quarter from point to
+/// point.
 ChordPoints WithPointsOn(const ChordPoints& fitted, double period,
                          const std::vector<std::size_t>& steps);
 

@@ -9,11 +9,11 @@
 #include "trackbed/geometry/pose.h"
 
 // Follows the headings and curvatures of a planner. Between two points, the turn of the car and the
-// length of the step give the mean curvature. If the mean lies where a curvature that changes
-// smoothly between the points would have it, the curvature of the segment is quadratic. If the
-// curvature is constant on both sides of the step, it jumps within the step: the mean gives the
-// place of the jump. After a cusp, whose given curvature may be that before it, the curvature is
-// linear. All other means show that the numbers do not belong together.
+// length of the step give the mean curvature. If a monotonic quadratic curvature has this mean, the
+// segment has this quadratic curvature. If the curvature is constant on both sides of the step, it
+// jumps within the step: the mean gives the place of the jump. After a cusp, the curvature is
+// linear, because the curvature given at a cusp may belong to the leg before the cusp. If the mean
+// fits none of these cases, the given headings and curvatures do not agree with the points.
 
 namespace trackbed {
 namespace {
@@ -32,7 +32,7 @@ class GivenShape {
   /// Returns the segments from a point of a leg to the next point, or none.
   [[nodiscard]] std::vector<Segment> Step(const Leg& leg, std::size_t i) const {
     constexpr double kMaxTurn = 1.0;    // [rad]
-    constexpr int kIterations = 5;      // Each reduces the error by the square of the turn.
+    constexpr int kIterations = 5;      // Each iteration reduces the error by a factor of turn^2.
     constexpr double kMaxError = 1e-4;  // Share of the length.
     const Pose2 from = PoseAt(i);
     const Pose2 to = PoseAt(i + 1);
@@ -70,7 +70,7 @@ class GivenShape {
     constexpr double kFlat = 0.01;
     const std::vector<double>& curvature = given_.curvature;
     const double flat = kFlat * std::abs(curvature[i + 1] - curvature[i]);
-    // The curvature of the first point may be that before the cusp.
+    // The given curvature of the first point may belong to the leg before the cusp.
     return (i <= leg.first + 1 || std::abs(curvature[i] - curvature[i - 1]) <= flat) &&
            (i + 1 == leg.last || std::abs(curvature[i + 2] - curvature[i + 1]) <= flat);
   }
@@ -78,7 +78,7 @@ class GivenShape {
   /// Returns segments of a length that turn as given, or none.
   [[nodiscard]] std::vector<Segment> Shape(const Leg& leg, std::size_t i, double length,
                                            double turn) const {
-    // Share of the largest curvature by which the mean may differ.
+    // Tolerance of the mean curvature, as a fraction of the largest curvature.
     constexpr double kRounding = 1e-3;
     const double a = given_.curvature[i];
     const double b = given_.curvature[i + 1];
@@ -93,7 +93,7 @@ class GivenShape {
       }
     }
     if (i == leg.first && i > 0) {
-      // The curvature changes about as in the next step.
+      // Accept a linear curvature that changes on this step about as much as on the next step.
       constexpr double kMaxRatio = 1.5;
       const double before = 2.0 * mean - b;
       const double next =
@@ -113,7 +113,7 @@ class GivenShape {
       }
       return segments;
     }
-    // A quadratic curvature with this mean is monotonic.
+    // Refuse a mean that no monotonic quadratic curvature has.
     if (std::abs(beside) > std::abs(b - a) / 6.0 + slack) {
       return {};
     }

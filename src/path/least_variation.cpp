@@ -25,7 +25,7 @@
 namespace trackbed {
 namespace {
 
-/// The movement of a node and the change of the length before it.
+/// The movement of a node and the change of the length of the segment before the node.
 struct Change {
   Eigen::Matrix<double, kStates, 1> state;
   double length = 0.0;
@@ -75,9 +75,9 @@ class Newton {
   std::vector<CurveNode> nodes_;
   bool closed_;
   EndHeadings headings_;
-  double max_curvature_;          // Divided by the smoothing length, like all curvatures.
+  double max_curvature_;          // In units of 1/(smoothing length), like all curvatures.
   double mean_ = 0.0;             // The constant c.
-  std::vector<double> shortest_;  // Smallest length before each node.
+  std::vector<double> shortest_;  // Smallest length of the segment before each node.
   std::vector<double> slides_;    // Distance that each node moves along the curve.
   std::vector<CurveStep> steps_;
   std::vector<Change> changes_;
@@ -108,7 +108,7 @@ void Newton::Slide() {
     }
     before = i;
   }
-  // Points may follow each other more closely along the curve than a node can follow a node.
+  // Two points may be closer to each other along the curve than the smallest length of a segment.
   const double last = slides_.back();
   for (std::size_t i = 1; i < count; ++i) {
     slides_[i] = std::max(slides_[i], slides_[i - 1] + shortest_[i] - nodes_[i].length);
@@ -212,7 +212,8 @@ double Newton::Iterate() {
   AddSquare(cost, change, 1e-9 * std::min(length, std::pow(length, 7)));
   steps_.resize(count);
   for (std::size_t i = count - 1; i > 0; --i) {
-    // Below a sixteenth of the length of a segment, a smoothing length has no effect but rounding.
+    // A smoothing length below a sixteenth of the segment's length would only cause rounding
+    // errors.
     const double smoothing = std::pow(std::max(1.0, nodes_[i].length / 16.0), 6);
     steps_[i] = Linearize(nodes_[i - 1], nodes_[i], slides_[i - 1], slides_[i]);
     cost = Eliminate(steps_[i], cost, nodes_[i - 1], nodes_[i], smoothing);
@@ -231,7 +232,7 @@ double Newton::Iterate() {
 }
 
 double Newton::Move(StateVector state) {
-  // Largest movement of an iteration: of nodes, relative to the smoothing length, or of headings.
+  // Largest movement of a node, relative to the smoothing length, or of a heading in an iteration.
   constexpr double kMaxMove = 0.5;
   const std::size_t count = nodes_.size();
   const double mean = state(kMean);
@@ -319,7 +320,7 @@ std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode>
                                                           const EndHeadings& headings,
                                                           double max_curvature) {
   constexpr int kMaxIterations = 30;
-  // Iterations after which nodes that still move by kFar smoothing lengths are given up.
+  // Number of iterations after which the search ends if nodes still move by kFar smoothing lengths.
   constexpr int kFarIterations = 10;
   constexpr double kFar = 0.1;
   double length = 0.0;

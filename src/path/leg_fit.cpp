@@ -94,8 +94,9 @@ bool IsStraight(const ChordPoints& chords, const EndHeadings& headings) {
 }  // namespace
 
 DistinctPoints DistinctFor(const PathPoints& given, const PathFitOptions& options) {
-  // The points within a box of noise are nearer to its center than half of this share of the
-  // deviation. Points at the ends are nearer to the end than this share.
+  // Diagonal of a box of noise, as a fraction of the largest deviation. All points in a box are
+  // within half of the diagonal of its center. Points in a box at an end of the path are within the
+  // diagonal of this end.
   constexpr double kNoise = 0.9;
   return Distinct(given, options.closed,
                   options.fit == PathFit::kSpline ? kNoise * options.max_deviation : 0.0);

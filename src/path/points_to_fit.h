@@ -40,8 +40,8 @@ struct DistinctPoints {
 };
 
 /// Finds the distinct points. Steps that turn back by more than a right angle within `noise` [m]
-/// are noise of the positions. Where they occur, all neighboring points within a box with the
-/// diagonal `noise` are replaced by the center of the box. The first and the last point of an open
+/// are noise of the positions. All neighboring points of a step of noise, within a box with the
+/// diagonal `noise`, are replaced by the center of the box. The first and the last point of an open
 /// path keep their positions.
 DistinctPoints Distinct(const PathPoints& given, bool closed, double noise);
 

@@ -20,8 +20,9 @@
 // Fits a smooth path to points in two steps. First, a quintic smoothing spline over chord length
 // (Reinsch 1967): bisection finds the largest smoothing length at which the spline passes all
 // points within the tolerance. Second, Newton's method finds the curve of least variation with the
-// same smoothing length, starting at the spline. Where it does not converge or leaves the
-// tolerance, the smoothing length is halved. The curve is a path without further approximation.
+// same smoothing length, starting at the spline. If Newton's method does not converge or the curve
+// leaves the tolerance, a shorter smoothing length is tried. The segments of the path describe the
+// curve without further approximation.
 
 namespace trackbed {
 namespace {
@@ -35,8 +36,8 @@ double Deviation(const SmoothingSpline& spline, const ChordPoints& points) {
   return deviation;
 }
 
-/// Share of the largest deviation for the spline. The rest is for the segments, which approximate
-/// the spline.
+/// Fraction of the largest deviation that the spline may use. The segments, which approximate the
+/// spline, may use the rest.
 constexpr double kSplineShare = 0.95;
 
 /// Rounds a positive length up to three significant digits.
@@ -246,7 +247,7 @@ Bulge BulgeOf(const KnotPath& found, const LocalPoints& local, double tolerance)
   return FindBulge(curve, local.knots, local.period, tolerance);
 }
 
-/// Moves, turns and scales a path, by little, to begin and end at the ends of the points.
+/// Moves, turns and scales a path slightly, so that it begins and ends at the end points.
 KnotPath BetweenEnds(KnotPath found, const std::vector<Vec2>& points) {
   const Pose2 begin = found.path.At(0.0).pose;
   const Vec2 own = found.path.At(found.path.length()).pose.position() - begin.position();
@@ -272,7 +273,8 @@ KnotPath BetweenEnds(KnotPath found, const std::vector<Vec2>& points) {
   return found;
 }
 
-/// Returns the largest length of a segment [m]; on a path longer than 100 km, it is larger.
+/// Returns the largest length of a segment [m]: 0.1 m or, if this is longer, a millionth of the
+/// path.
 double SpacingOf(const SmoothingSpline& spline) {
   constexpr double kUsualLength = 0.1;
   constexpr double kUsualSegments = 1e6;
@@ -326,8 +328,9 @@ KnotPath PathAlong(const SmoothingSpline& spline, const LocalPoints& local, doub
 /// smoothing length.
 std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& local,
                                  double& smoothing_length, double tolerance) {
-  // FitCurve tries kLengths smoothing lengths; each is kShorter times the previous one. kStarts are
-  // ratios of the smoothing length of the spline from which a curve starts to that of the curve.
+  // FitCurve tries kLengths smoothing lengths; each is kShorter times the previous one. A curve
+  // starts from a spline whose smoothing length is the curve's smoothing length times an element of
+  // kStarts.
   constexpr int kLengths = 16;
   constexpr int kMaxFailures =
       2;  // Number of smoothing lengths without convergence after which the search ends.
