@@ -67,7 +67,7 @@ void TakeVelocities(PathPoints& points) {
 }
 
 /// Takes the times of the states, which are numbers of time steps. A solution does not contain the
-/// duration of a time step; the positions and velocities give it.
+/// duration of a time step, so the duration is computed from the positions and velocities.
 void TakeTimeSteps(PathFile& found, std::vector<double> steps, const std::string& file) {
   const PathPoints& points = found.points;
   const bool is_rising =
@@ -81,7 +81,8 @@ void TakeTimeSteps(PathFile& found, std::vector<double> steps, const std::string
     length += (points.points[i + 1] - points.points[i]).norm();
     steps_times_speed += 0.5 * (points.speed[i] + points.speed[i + 1]) * (steps[i + 1] - steps[i]);
   }
-  // Rounded to milliseconds, because the integration of the velocities is not exact.
+  // The duration is rounded to milliseconds, because the integration of the velocities is not
+  // exact.
   const double duration = std::round(1e3 * length / steps_times_speed) * 1e-3;
   if (!(steps_times_speed > 0.0) || !(duration > 0.0)) {
     return;

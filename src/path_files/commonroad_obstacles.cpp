@@ -11,13 +11,14 @@
 #include "trackbed/core/angle.h"
 
 // Reads obstacles and goal regions of CommonRoad scenarios.
-// 1. A shape becomes its smallest enclosing box, of all rectangles with a side along an edge.
+// 1. A shape becomes the smallest enclosing rectangle that has a side along an edge of the shape.
 // 2. A moving obstacle has the poses of its trajectory. Without a trajectory, it keeps its
 //    velocity.
 // 3. States without an orientation head in the direction of motion.
-// 4. An occupancy set becomes boxes as large as the smallest of its places, which spread out as the
-//    places grow. Each place is at the middle of its time.
-// 5. Approximations counts what was changed in steps 1 to 4, for the notes.
+// 4. An occupancy set becomes moving boxes, each as large as the smallest place of the set. The
+//    boxes spread out as the places grow. The obstacle is at a place in the middle of the place's
+//    time interval.
+// 5. Approximations counts the changes of steps 1 to 4, for the notes.
 namespace trackbed {
 namespace {
 
@@ -134,7 +135,7 @@ State ReadState(const XMLElement& element, const CommonRoadClock& clock,
   return state;
 }
 
-/// Counts what was approximated.
+/// Numbers of approximations in a scenario.
 struct Approximations {
   int boxes = 0;
   int sets = 0;
@@ -194,7 +195,8 @@ std::vector<State> ReadStates(const XMLElement& obstacle, const CommonRoadClock&
 /// A box that an obstacle may occupy at a time [s].
 using Occupancy = std::pair<double, OrientedBox>;
 
-/// Describes a box by the one of its four directions that is nearest to a yaw.
+/// Returns the same box with another description: its yaw is that of the four side directions that
+/// is nearest to `yaw`.
 OrientedBox TurnedTo(double yaw, const OrientedBox& box) {
   const double turn = AngleDifference(yaw, box.center.yaw);
   const double quarters = std::round(turn / (0.5 * kPi));
@@ -207,7 +209,7 @@ OrientedBox TurnedTo(double yaw, const OrientedBox& box) {
 }
 
 /// Reads the boxes around the places that an obstacle may occupy, with increasing times: the place
-/// of its initial state, if it has one, and those of the set.
+/// of the initial state, if the obstacle has one, and the places of the set.
 std::vector<Occupancy> ReadOccupancies(const XMLElement& obstacle, const XMLElement& set,
                                        const CommonRoadClock& clock,
                                        const CommonRoadReading& reading) {
@@ -240,8 +242,8 @@ double PieceOffset(int index, int count, double length, double piece) {
 }
 
 /// Covers places that grow and shrink by boxes that keep their sizes and move. Each box is as large
-/// as the smallest place; at each time of the set, the boxes together cover the place, and nothing
-/// beyond it unless they would be more than kMost along one side.
+/// as the smallest place. At each time of the set, the boxes together cover exactly the place. If
+/// this needs more than kMost boxes along one side, kMost larger boxes cover more than the place.
 std::vector<CommonRoadObstacle> CoverOccupancies(const std::vector<Occupancy>& occupancies) {
   struct Side {
     double smallest = std::numeric_limits<double>::infinity();

@@ -30,7 +30,8 @@ PlanningProblem ReadPlanningProblem(const tinyxml2::XMLElement& root, const Lane
 Vec2 MiddleOf(const CommonRoadRegion& region);
 
 /// Returns the lanelets in which the goal's regions lie: those that contain the middle of a region.
-/// If there is none, returns those that the largest disc in a region about its middle reaches.
+/// If no lanelet contains a middle, returns the lanelets that a disc about a middle reaches. This
+/// disc is the largest one that fits in the region.
 std::vector<std::string> GoalLanelets(const PlanningProblem& problem, const Lanelets& lanelets);
 
 }  // namespace trackbed

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// Recognizes CSV files that are not points of a path below names of columns.
+/// Recognizes CSV files that are not a list of path points with a header of column names.
 namespace trackbed {
 
 /// Returns whether the names of the columns are numbers (CsvLimits::numbers_columns).

@@ -18,7 +18,7 @@ struct CsvGlobe {
   std::optional<std::size_t> longitude;
   double latitude_unit = 1.0;   ///< Value of one unit of the column [deg].
   double longitude_unit = 1.0;  ///< Value of one unit of the column [deg].
-  /// Columns that the file lacks, and messages.
+  /// Names of columns that the file lacks, each with a message.
   std::vector<std::pair<std::string, std::string>> problems;
 };
 
@@ -27,8 +27,8 @@ struct CsvGlobe {
 CsvGlobe FindCsvGlobe(const std::vector<std::string>& names, const PathColumns& requested,
                       bool has_plane);
 
-/// Returns the problems of a row, by column: a position that does not exist, and a letter for
-/// south or west in another column beside a positive number.
+/// Returns the problems of a row, by column: a position that does not exist, or a positive number
+/// although another column has a letter for south or west.
 std::vector<std::pair<std::string, std::string>> CsvGlobeProblems(
     const GlobePosition& position, const std::vector<std::string>& names,
     const std::vector<std::string>& cells);

@@ -88,7 +88,8 @@ class LayoutFinder {
   }
 
  private:
-  /// Adds a problem after which missing columns are not reported, because they may be consequences.
+  /// Adds a problem. Missing columns are then not reported, because they may be consequences of
+  /// this problem.
   void AddProblem(const std::string& column, std::string message) {
     layout_.problems.emplace_back(column, std::move(message));
     is_broken_ = true;

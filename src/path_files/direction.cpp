@@ -59,8 +59,8 @@ std::optional<int> DirectionIn(const std::string& cell, DirectionColumn column) 
 }
 
 void TakeSignedSpeeds(PathPoints& points) {
-  // A slower car counts as standing, and its speed has no certain sign: a share of the largest
-  // speed, at most kStanding [m/s].
+  // Speed below which the car counts as standing, because the sign of a lower speed is uncertain:
+  // the fraction kStandingShare of the largest speed, at most kStanding [m/s].
   constexpr double kStandingShare = 0.1;
   constexpr double kStanding = 0.05;
   double largest = 0.0;

@@ -7,8 +7,8 @@
 
 namespace trackbed {
 
-/// The meaning of the numbers in a column of directions of motion. In each, words such as "D", "R",
-/// "forward" and "reverse" are allowed, too.
+/// The meaning of the numbers in a column of directions of motion. In every column of directions,
+/// words such as "D", "R", "forward" and "reverse" are allowed, too.
 enum class DirectionColumn {
   kSigned,   ///< 1 forwards, -1 in reverse, 0 if the car stands.
   kGear,     ///< Positive forwards, negative in reverse, 0 neutral.
@@ -25,7 +25,7 @@ std::optional<int> DirectionIn(const std::string& cell, DirectionColumn column);
 void TakeSignedSpeeds(PathPoints& points);
 
 /// Returns the problem, with its remedy, if the headings of points without directions of motion are
-/// opposite to the direction of travel all along the path; else "". Such headings contradict a
+/// opposite to the direction of travel all along the path; else "". Opposite headings contradict a
 /// column of speeds that are not negative.
 std::string HalfTurnProblem(const PathPoints& points);
 

@@ -94,7 +94,7 @@ std::vector<GlobeLine> Joined(std::vector<GlobeLine> lines, std::vector<std::str
   return joined;
 }
 
-/// Drops lines of a single point, which are no paths, if there are others.
+/// Drops lines of a single point, which are no paths, unless the file has no other lines.
 void DropSinglePoints(std::vector<GlobeLine>& lines, std::vector<std::string>& notes) {
   const auto is_single = [](const GlobeLine& line) { return line.points.size() < 2; };
   const auto count = std::count_if(lines.begin(), lines.end(), is_single);

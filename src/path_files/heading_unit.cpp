@@ -80,10 +80,11 @@ double MeanDifference(const std::vector<Heading>& headings, const HeadingMeaning
   return sum / weight;
 }
 
-/// Returns whether another meaning fits so much better than `least`, the mean difference of the
-/// meanings that are read, that `least` is an accident of a path that hardly turns.
+/// Returns whether `other`, the mean difference of another meaning, is much smaller than `least`,
+/// the mean difference of the accepted meanings. The headings then fit the accepted meaning only by
+/// accident, because the path hardly turns.
 bool IsMuchBetter(double other, double least) {
-  constexpr double kExact = 0.05;  // Difference up to which the meanings that are read are taken.
+  constexpr double kExact = 0.05;  // Mean difference up to which an accepted meaning is certain.
   return least > kExact && other < 0.25 * least;
 }
 

@@ -14,9 +14,9 @@
 
 // A lanelet is a relation of a left and a right way, each a list of nodes. As in the Lanelet2
 // library, the ways are oriented so that the left way lies to the left of the right one. A lanelet
-// follows another one if both bounds continue at the same nodes. A car may change to a lanelet
-// beside if both share a way with a dashed line. A lanelet that is not one_way is two lanelets of
-// opposite directions.
+// follows another one if both of its bounds begin at the nodes at which the other bounds end. A car
+// may change to a lanelet beside if both share a way with a dashed line. A lanelet that is not
+// one_way is two lanelets of opposite directions.
 namespace trackbed {
 namespace {
 
@@ -206,8 +206,8 @@ double Lanelet2Map::Coordinate(const OsmNode& node, const char* name, const std:
   return *number;
 }
 
-/// Computes the places of the nodes of lanelets: local_x and local_y if all have them, otherwise
-/// the projection of latitude and longitude.
+/// Computes the places of the nodes of lanelets: local_x and local_y if all nodes have these tags,
+/// otherwise the projection of latitude and longitude.
 void Lanelet2Map::PlaceNodes(const std::vector<const XMLElement*>& relations, const PathMap& map) {
   std::vector<OsmNode*> used;
   for (const XMLElement* relation : relations) {
@@ -310,7 +310,7 @@ void Lanelet2Map::Insert(const std::string& key, const DirectedLanelet& own, int
   directed_.emplace(key, own);
 }
 
-/// Links lanelets with those that follow, and with those beside.
+/// Links each lanelet with its successors, and with the lanelets beside it.
 void Lanelet2Map::Link() {
   std::multimap<std::pair<std::string, std::string>, std::string> starts;
   std::multimap<std::pair<std::string, bool>, std::string> right_of;

@@ -42,12 +42,12 @@ struct LaneletBound {
 struct DirectedLanelet {
   LaneletBound left;
   LaneletBound right;
-  double limit = 0.0;  ///< Speed limit [m/s]; the largest speed of path files without a limit.
+  double limit = 0.0;  ///< Speed limit [m/s]; without a limit, the largest speed of path files.
   bool has_limit = false;
 };
 
 /// Returns the speed in a tag such as "50", "50 km/h", "30 mph" or "13.9 m/s" [m/s]; km/h without a
-/// unit. Returns nullopt if it is no speed above 0 and at most 100 m/s.
+/// unit. Returns nullopt unless the text is a speed above 0 and at most 100 m/s.
 std::optional<double> SpeedOfTag(const std::string& text);
 
 /// A map, and the lanelets on which cars drive. The map keeps a reference to the file's name.

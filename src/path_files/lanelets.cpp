@@ -79,7 +79,7 @@ std::string IdOf(const XMLElement& element, const char* attribute,
   return id;
 }
 
-/// Costs of a route's end: length, then the lanelet.
+/// A candidate lanelet: its cost, by which candidates are compared, and its key.
 using Candidate = std::pair<double, std::string>;
 
 /// Distance that a change to an adjacent lanelet counts [m], so that a route changes lanes only

@@ -70,8 +70,8 @@ std::string RootName(const fs::path& file) {
   return "";
 }
 
-/// Whether a file may be XML with one of the root elements: only a file ending with .xml may be
-/// another.
+/// Returns whether a file may be XML with one of the root elements. Checks the root element only if
+/// the name of the file ends with .xml.
 bool MayHaveRoot(const fs::path& file, std::initializer_list<const char*> roots) {
   return LowerEnding(file) != ".xml" ||
          std::find(roots.begin(), roots.end(), RootName(file)) != roots.end();

@@ -24,8 +24,8 @@ std::string LowerEnding(const std::filesystem::path& file);
 /// Stores the times at which the points are reached, from 0 [s]. If the points have no speeds,
 /// computes the speed at each point from the times. Points of one equal time are reached at a
 /// constant speed until the next time. If the times decrease or are all equal, or if a computed
-/// speed is out of range, drops the speeds and the times. Then adds a problem that names the point
-/// to PathFile::speed_problems.
+/// speed is out of range, drops the speeds and the times. For dropped times, adds a problem that
+/// names the point to PathFile::speed_problems.
 void TakeTimes(PathFile& found, std::vector<double> times, const std::string& file);
 
 /// Takes the stamps of ROS messages [s], one for each point, as TakeTimes does. Ignores stamps that
