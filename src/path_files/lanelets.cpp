@@ -79,7 +79,7 @@ std::string IdOf(const XMLElement& element, const char* attribute,
   return id;
 }
 
-/// A candidate lanelet: its cost, by which candidates are compared, and its key.
+/// A candidate lanelet: the number by which candidates are compared, and the key of the lanelet.
 using Candidate = std::pair<double, std::string>;
 
 /// Distance that a change to an adjacent lanelet counts [m], so that a route changes lanes only
