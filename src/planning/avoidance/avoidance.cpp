@@ -103,7 +103,7 @@ class AroundObstacles {
   /// Cuts off the part of the plan behind the car, so that stations are counted from the car.
   void StartAtCar() {
     plan_ = RemainingPlan(plan_, request_.station, request_.station_speed, request_.speed);
-    // Clear these stations, which refer to the part of the plan that was cut off.
+    // Clear the stations of earlier curves, which refer to the part of the plan that was cut off.
     plan_.diagnostics.avoided.clear();
     plan_.tree.clear();
     MoveDiagnostics({-1.0, -1.0}, -request_.station);

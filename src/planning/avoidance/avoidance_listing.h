@@ -10,7 +10,7 @@ namespace trackbed::avoidance {
 /// Replaces the plan's turn by the curve of listing F.2, which begins at a distance S before the
 /// arc. The curve may leave the plan only at the station `from` or later. Returns a reason instead
 /// of a curve if the obstacle does not stand in a turn between two straights, or if the curve would
-/// start before `from`. Also returns one if listing F.2 itself fails (TurnStatus).
+/// start before `from`. Also returns a reason if listing F.2 itself fails (TurnStatus).
 ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
                                    const ListingAvoidanceOptions& options, const Plan& plan,
                                    const Conflict& conflict, double from);

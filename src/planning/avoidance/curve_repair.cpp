@@ -23,7 +23,8 @@
 namespace trackbed::avoidance {
 namespace {
 
-/// Safety margins of the search, which are needed because it checks the curve only at samples.
+/// Safety margins of the search, which are needed because the search checks the curve only at
+/// samples.
 constexpr double kClearanceMargin = 0.02;  // [m]
 constexpr double kLimitMargin = 0.99;
 /// After kProbeEvaluations evaluations, the search is abandoned if a constraint is violated by more
