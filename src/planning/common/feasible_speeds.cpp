@@ -11,11 +11,11 @@
 // 2. CapsFor limits the speed on each piece by the steering rate, the lateral grip and the top
 //    speed.
 // 3. GripAlong gives the acceleration and deceleration that the road allows on each piece;
-//    SectionsOfLessGrip keeps the pieces on which this is less than the mission's.
+//    SectionsOfLessGrip keeps the pieces on which the road allows less than the mission demands.
 // 4. CapsInBends lowers the speed in a whole bend if the accelerations along and across the path
-//    together exceed the friction ellipse somewhere in it.
+//    together exceed the friction ellipse somewhere in the bend.
 // 5. SteerableSpeedsAtLimit repeats the profile at the limit (limit_profile.h) until the wheels can
-//    follow it.
+//    follow the profile.
 namespace trackbed::feasible_speeds {
 namespace {
 

@@ -1,8 +1,9 @@
 // Chooses the corners of a polyline whose waypoints are close to each other.
 //
-// A shortest path through the graph of legs: a node is a leg between two points of the polyline, an
-// edge is the corner between two legs. The cost of an edge counts, in this order, corners that do
-// not fit on their legs, points left out, and distances of the points left out.
+// The corners are a shortest path through the graph of legs: a node is a leg between two points of
+// the polyline, and an edge is the corner between two legs. The cost of an edge counts, in this
+// order, corners that do not fit on their legs, points left out, and distances of the points left
+// out.
 #include "trackbed/planning/common/fewer_corners.h"
 
 #include <algorithm>
@@ -119,7 +120,7 @@ class CornerChoice {
       return std::nullopt;
     }
     for (std::size_t i = from + 1; i < to; ++i) {
-      // If the first leg is kept, the path passes a point on this leg.
+      // A path that keeps the first leg passes all points on the first leg.
       const double distance =
           std::min(DistanceFromLeg(points_[i], points_[from], points_[to]),
                    is_waypoint_[i] || from > 0 ? DistanceFromLeg(points_[i], points_[0], points_[1])

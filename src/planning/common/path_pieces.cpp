@@ -18,7 +18,8 @@ double SteeringRateOn(const VehicleParams& vehicle, std::span<const Bend> bends,
                       const PieceSpeed& speed) {
   double largest = 0.0;
   for (const Bend& bend : bends) {
-    // Kinematic plants drive the same plan without slip, so the larger rate counts.
+    // Use the larger of the steering rates with and without slip, because kinematic plants drive
+    // the same plan without slip.
     largest = std::max(largest, SteeringSlope(vehicle, bend) * speed.speed);
     if (HasTyres(vehicle)) {
       const double rate = SteeringRateInBend(vehicle, {.curvature = bend.curvature,

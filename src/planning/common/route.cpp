@@ -41,8 +41,8 @@ std::string FirstCorner(const std::vector<Vec2>& points) {
 
 /// Returns the direction at `at` of the circle from `before` through `at` to `after`, of any
 /// length. An inversion about `at` maps the circle to a line, so the direction is that of the line
-/// through the images of the other points. If the points are there and back on one line, the
-/// direction is the left normal of the way there.
+/// through the images of `before` and `after`. If `after` equals `before`, the direction is the
+/// left normal of the line from `before` to `at`.
 Vec2 CircleTangent(const Vec2& before, const Vec2& at, const Vec2& after) {
   const Vec2 in = at - before;
   const Vec2 out = after - at;

@@ -99,8 +99,8 @@ class Surface {
   bool flat_ = true;
 };
 
-/// Applies speed caps to stations. A cap that is not strict is raised where a car that brakes at
-/// the request's deceleration from its start is faster.
+/// Applies speed caps to stations. A car that brakes from its start at the request's deceleration
+/// may be faster than a cap. A cap that is not strict is then raised to the speed of this car.
 void ApplyCaps(const std::vector<SpeedCap>& caps, const PlanRequest& request,
                std::vector<LimitStation>& stations) {
   const auto allowed = [&](const SpeedCap& cap, double s) {

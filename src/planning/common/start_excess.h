@@ -10,14 +10,16 @@
 /// Explains why a plan cannot begin in the start state of the car, for MakeFeasible.
 namespace trackbed::start_excess {
 
-/// Returns an excess for each of position and heading in which the path begins elsewhere than the
-/// car. Also returns one if the car rolls, and its start steering differs from the steering angle
-/// with which the path begins, unless the car cannot steer the start of the path at all; the excess
-/// of the steering angle is the cause then. The hints give the values that fit.
+/// Returns an excess of the position, and an excess of the heading, if the path does not begin at
+/// the pose of the car. For a rolling car, also returns an excess of the start steering if it
+/// differs from the steering angle with which the path begins. Returns no excess of the start
+/// steering if the car cannot steer the start of the path at all, because the excess of the
+/// steering angle is then the cause. The hints of the excesses give the start values that fit the
+/// path.
 std::vector<Excess> At(const Plan& plan, const PlanRequest& request);
 
 /// Returns the excess of a start speed above `highest`, the highest feasible start speed [m/s].
-/// `cause` tells what the car exceeds, and `station` where [m].
+/// `cause` is the limit that the car exceeds, and `station` is the place of the excess [m].
 Excess TooFast(double start_speed, double highest, const std::string& cause, double station);
 
 /// Returns the excess that remains if the car brakes from its start as hard as it can. Returns

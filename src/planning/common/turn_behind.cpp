@@ -10,13 +10,13 @@
 #include "trackbed/planning/common/waypoint_miss.h"
 
 // Rounds polylines that turn too sharply at a waypoint. Where waypoints are close to each other,
-// the path leaves out those that it passes within the bound anyway. A curve on the inner side of a
-// sharp turn passes far from the waypoint, and no curve joins legs that point in opposite
-// directions. In these cases, the path leads straight through the waypoint, turns by one or two
-// quarters behind it, and returns to the next point of the polyline. The added legs have just the
-// length that the curves of the added corners need. The corners are driven at the highest speed at
-// which a quarter turn still reaches the largest curvature, or, if this is too wide, at the lowest
-// speed.
+// the path leaves out the waypoints that it passes within the bound anyway. A curve on the inner
+// side of a sharp turn passes far from the waypoint, and no curve joins legs that point in opposite
+// directions. At a sharp turn, the path therefore leads straight through the waypoint, makes one or
+// two quarter turns behind the waypoint, and returns to the next point of the polyline. The added
+// legs have just the length that the curves of the added corners need. The corners are driven at
+// the highest speed at which a quarter turn still reaches the largest curvature. If the turn is too
+// wide at this speed, the corners are driven at the lowest speed.
 
 namespace trackbed {
 namespace {
@@ -58,7 +58,7 @@ std::optional<std::vector<Vec2>> CornersBehind(const VehicleParams& vehicle, dou
     corners.push_back(from);
     direction = shape.side * LeftNormal(direction);
   }
-  // A longer last leg makes the last corner sharper, which may then need a longer leg.
+  // A longer last leg makes the last corner sharper, and a sharper corner may need a longer leg.
   constexpr double kGrowth = 1.1;
   constexpr int kMaxRounds = 20;
   double length = leg(kQuarter);
@@ -144,9 +144,9 @@ RoundedCorners TurnBehindSharpCorners(const VehicleParams& vehicle, std::vector<
   return rounded;
 }
 
-/// Returns the polyline, and then the polyline with an added corner on its first leg or straight
-/// beyond it, farther and farther from the start. Up to this corner, a rolling car can slow down to
-/// the lowest speed.
+/// Returns the polyline, followed by polylines with an added corner on the first leg or on its
+/// extension, each time farther from the start. Up to the added corner, a rolling car can slow down
+/// to the lowest speed.
 std::vector<std::vector<Vec2>> WithCornersAhead(const std::vector<Vec2>& polyline,
                                                 const CornerLimits& limits) {
   std::vector<std::vector<Vec2>> starts{polyline};
@@ -185,7 +185,7 @@ RoundedCorners RoundCornersOrTurnBehind(const VehicleParams& vehicle,
       candidates.push_back(std::move(fewer));
     }
   }
-  // A turn behind a waypoint is the longest way.
+  // Try turns behind waypoints last, because they make the longest paths.
   for (const bool turns_behind : {false, true}) {
     for (const std::vector<Vec2>& points : candidates) {
       RoundedCorners rounded = RoundCorners(vehicle, points, limits, clear);
