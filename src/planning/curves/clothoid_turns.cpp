@@ -29,7 +29,7 @@ void ShortenSmallTurn(const TurnCircle& circle, double deflection, ClothoidTurn&
   const double sharpness = 4.0 * deflection / (length * length);
   const double peak = std::sqrt(deflection * sharpness);
   // The clothoids end on the circle of the sharper turn, so that their sharpness is at most the
-  // largest one. The comparisons protect against rounding and against circles of many turns.
+  // largest one. The comparisons exclude rounding errors and clothoids that wind several times.
   if (sharpness <= circle.sharpness * (1.0 + kTurnRounding) && peak <= 1.0 + kTurnRounding) {
     // Without deflection, the turn is a straight.
     turn = {.length = length,

@@ -39,7 +39,7 @@ struct TurnEnd {
   double yaw = 0.0;   // heading where the turn's clothoid has curvature 0, even if before the state
   double state = 0.0;        // curvature at the state
   double begin = 0.0;        // curvature where the turn begins, 0 or on the side of the turn
-  double before = 0.0;       // length of the clothoid from the state to there
+  double before = 0.0;       // length of the clothoid from the state to `begin`
   int before_direction = 1;  // of motion on this clothoid
   double ramp = 0.0;         // length of the turn's clothoid to the full curvature
 
@@ -69,7 +69,7 @@ struct ClothoidTurn {
   double sharpness = 1.0;    // sharpness of the clothoids; 0: the turn is a straight
 };
 
-/// Which ends of a turn have the curvature 0; an end without it has the full curvature.
+/// Which ends of a turn have the curvature 0. Any other end has the full curvature.
 struct ZeroEnds {
   bool first = true;
   bool last = true;

@@ -74,7 +74,7 @@ struct CurveTask {
   CurveState goal;
 };
 
-/// The same states seen by a car that drives backwards: mirrored at the y axis.
+/// Returns the state as seen by a car that drives backwards: mirrored at the y axis.
 CurveState Backwards(const CurveState& state) {
   return {{-state.pose.x, state.pose.y, -state.pose.yaw}, state.curvature};
 }

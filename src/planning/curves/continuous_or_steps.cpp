@@ -13,15 +13,15 @@
 namespace trackbed {
 namespace {
 
-/// Driving time of a path of continuous curvature that is accepted instead of a path with steps, as
-/// a multiple of the time of the latter.
+/// Largest driving time of a path of continuous curvature that is accepted instead of a path with
+/// steps, as a multiple of the driving time of the path with steps.
 constexpr double kMostTime = 1.2;
 
 }  // namespace
 
 Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request,
                        const std::function<Plan(Plan)>& faster) {
-  // A plan that keeps the limits only if the request allows to exceed them does not fit.
+  // Do not accept a plan that exceeds a limit, even if the request permits infeasible plans.
   PlanRequest strict = request;
   strict.infeasible = InfeasiblePolicy::kSlowDown;
   const FeasiblePlan smooth = MakeFeasible(continuous, strict);

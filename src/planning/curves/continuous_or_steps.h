@@ -4,15 +4,15 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// Chooses between a path of continuous curvature and one with steps.
+/// Chooses between a path of continuous curvature and a path with steps of the curvature.
 namespace trackbed {
 
 /// Returns the plan `continuous` unless the car cannot drive it, or drives the plan `steps` in much
 /// less time. Plans with steps are much faster on short legs where the car can only turn its wheels
-/// at rest. A plan with steps gets a note that says why. If the car can drive neither of the plans,
-/// returns `steps`. If `faster` is not empty, the caller passes the result to this function, which
-/// makes plans of continuous curvature faster; the plan `continuous` is judged by its time after
-/// that.
+/// at rest. A returned plan with steps gets a note that says why its curvature steps. If the car
+/// can drive neither of the plans, returns `steps`. The function `faster` makes plans of continuous
+/// curvature faster, and the caller passes the result to it. If `faster` is not empty, the plan
+/// `continuous` is judged by the driving time after `faster`.
 Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request,
                        const std::function<Plan(Plan)>& faster = {});
 

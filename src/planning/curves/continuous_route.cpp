@@ -131,7 +131,8 @@ class RoutePlanner {
     return std::min(1.0 / route_.radius, most / (speed * speed));
   }
 
-  /// The limits of a leg; a car that starts with sharper steering may keep it on its first leg.
+  /// The limits of a leg. A car that starts with sharper steering may keep this steering on its
+  /// first leg.
   [[nodiscard]] CurveLimits LimitsAt(double speed, double start_curvature) const {
     const VehicleParams& car = request_.vehicle;
     return {.radius = 1.0 / std::max(MaxCurvature(speed), std::abs(start_curvature)),

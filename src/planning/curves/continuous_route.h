@@ -39,7 +39,7 @@ inline constexpr Key kCurvatureKey{
     "(continuous; cusp_steps: except at cusps), in steps, at which the car slows down or stops, or "
     "along clothoids where they fit and in steps otherwise (auto)"};
 
-/// Returns the names of all choices, for planners whose paths have cusps.
+/// Returns the names of all values of CurveCurvature, for planners whose paths have cusps.
 const EnumNames<CurveCurvature>& CurvaturesWithCusps();
 
 /// Visits the keys of the limits on paths of continuous curvature.

@@ -26,7 +26,7 @@ struct TurnJunction {
   int direction = 1;        // of motion on the straight
 };
 
-/// A chain of turns, of which the first leaves a state and the last arrives at one.
+/// A chain of turns. The first turn leaves a state, and the last turn arrives at another state.
 struct TurnChain {
   const TurnEnd* first = nullptr;
   const TurnEnd* last = nullptr;  // leaves the goal in the opposite direction
@@ -49,7 +49,8 @@ class ChainFinder {
   ChainFinder(const TurnCircle& circle, CurveMotion motion);
 
   /// Calls `take` with each chain that is shorter than `limit()`, between each of the ends `firsts`
-  /// and each of `lasts`. Chains with a straight come first, because the others seldom are shorter.
+  /// and each of the ends `lasts`. Chains with a straight come first, because chains without a
+  /// straight are seldom shorter.
   template <typename Ends, typename Limit, typename Take>
   void Find(const Ends& firsts, const Ends& lasts, const Limit& limit, const Take& take) const {
     const auto consider = [&](TurnChain& chain) {
@@ -169,7 +170,8 @@ void ChainFinder::WithStraight(const Centers& centers, const Limit& limit,
       return;
     }
     double along = along_sign * std::sqrt(std::max(square, 0.0));
-    // Turns that touch need no straight. The root would amplify the rounding of the squares.
+    // Turns that touch need no straight. The square root would amplify the rounding errors of the
+    // squares.
     if (direction * (along - turns) < 0.0 && along * turns > 0.0 &&
         std::abs(square - turns * turns) <= kTurnRounding * std::sqrt(centers.square)) {
       along = turns;

@@ -132,8 +132,8 @@ class DetourPlanner {
     return plan.ok() && MakeFeasible(plan, request).ok();
   }
 
-  /// Returns true if only `plan` is drivable. If both plans are, returns whether `plan` takes no
-  /// longer to drive, and is shorter by the smallest turning radius or stops less often.
+  /// Returns true if only `plan` is drivable. If both plans are drivable, returns whether `plan`
+  /// takes no longer to drive, and is shorter by the smallest turning radius or stops less often.
   [[nodiscard]] bool IsBetter(const Plan& plan, const Plan& best) const {
     if (const bool drivable = IsDrivable(plan); drivable != IsDrivable(best)) {
       return drivable;
@@ -144,15 +144,17 @@ class DetourPlanner {
   }
 
   /// Whether a plan through these stops may be better than `best`. No path is shorter than the
-  /// shortest curves of the smallest radius, so a plan is made only if these are short enough.
+  /// shortest curves of the smallest radius, so a plan is made only if the shortest curves are
+  /// short enough.
   [[nodiscard]] bool MayBeBetter(const std::vector<Pose2>& stops, const Plan& best) const {
     return !IsDrivable(best) || Stops(best) > 0 ||
            RouteLength(stops, radius_, length_) + radius_ <= PlanLength(best);
   }
 
-  /// Replaces `own` by a shorter plan for the request with other headings, if these may be better
-  /// than `best`, too. The headings are those of the shortest route of arcs with a radius. Ramps of
-  /// the steering need more room than arcs, so larger radii follow if a detour is left.
+  /// Replaces `own` by a shorter plan for the request with other headings, if this plan may be
+  /// better than `best`, too. The headings are those of the shortest route of arcs with a radius.
+  /// Ramps of the steering need more room than arcs, so larger radii are tried as long as a detour
+  /// is left.
   void TryOtherHeadings(Plan& own, const PlanRequest& request, const Plan& best) const {
     const std::vector<Pose2> stops = PlannedStops(request);
     std::vector<double> tried;
@@ -258,7 +260,7 @@ class DetourPlanner {
   }
 
   /// Adds a note if the path is a detour only because of the mission's headings. Around obstacles,
-  /// where another search takes time, a detour is common.
+  /// detours are common and another search takes time, so no note is added.
   void NoteDetourOfHeadings(Plan& best) const {
     if (!best.ok() || request_.headings.empty() || !request_.obstacles.empty() ||
         !IsDetour(best, request_)) {

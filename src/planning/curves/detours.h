@@ -18,13 +18,14 @@ using CurveLength = std::function<double(const Pose2&, const Pose2&, double)>;
 /// refusal:
 /// * other headings at the waypoints between start and goal: those of the shortest curves among
 ///   sixteen directions at each waypoint, for one to three turning radii;
-/// * fewer waypoints: those within a quarter of the car's width from the lines between the others
-///   are left out, if the path passes them within this distance. A note names them.
-/// A remedy is taken only if the path becomes shorter by this radius or more, or has fewer stops
-/// because waypoints are left out, and if it takes no longer to drive. If a longer path is left
-/// that a car at rest would not drive, or without obstacles a car without the given headings, a
-/// note says so, with the shorter length. Calls `plan` once if there is no detour, otherwise up to
-/// 21 times.
+/// * fewer waypoints: waypoints within a quarter of the car's width from the lines between the
+///   other waypoints are left out, if the path passes them within this distance. A note names the
+///   waypoints left out.
+/// A remedy is taken only if the path becomes shorter by the smallest turning radius or more, or
+/// has fewer stops because waypoints are left out, and if it takes no longer to drive. If a detour
+/// is left, a note gives the length of the shorter path of a car at rest. Without obstacles, a note
+/// also gives the length of the shorter path without the given headings. Calls `plan` once if there
+/// is no detour, otherwise up to 21 times.
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
                     const std::function<Plan(const PlanRequest&)>& plan);
 

@@ -134,8 +134,8 @@ class GentleWord {
     const double sweep = std::abs(piece.sweep);
     WordEnd end{.sweep = side * sweep, .curvature = side / drive_.radius};
     end.beyond = beyond.direction == direction_ ? beyond.curvature : 0.0;
-    // A short arc that continues an arc of the path outside is none. Where the word has no arc, the
-    // curve may need one as its other end changes.
+    // An arc that continues an arc of the path outside never counts as short. Where the word has no
+    // arc, the curve may need one as its other end changes.
     end.continues = end.beyond == end.curvature;
     const bool is_short =
         !end.continues && !HasRoomForRamps(vehicle_, sweep * drive_.radius, drive_);

@@ -6,11 +6,11 @@ namespace trackbed {
 
 /// Returns a plan whose path of continuous curvature is driven in less time, or the plan itself.
 ///
-/// Each leg is changed between its waypoints and cusps by a numerical search (fastest_leg.h), if it
-/// stays free of obstacles and feasible, and the whole route takes less time. Poses and curvatures
-/// at waypoints and cusps remain. A plan whose curvature steps between cusps, or whose objective is
-/// not CurveObjective::kTime, or with speeds at the car's limit, remains. The diagnostics of the
-/// plan are CurveDiagnostics.
+/// A numerical search (fastest_leg.h) changes each leg between its waypoints and cusps. A changed
+/// leg is used if it is free of obstacles and feasible, and if the whole route takes less time.
+/// Poses and curvatures at waypoints and cusps stay unchanged. A plan stays unchanged if its
+/// curvature steps between cusps, if its objective is not CurveObjective::kTime, or if its speeds
+/// are at the car's limit. The diagnostics of the plan are CurveDiagnostics.
 Plan FasterRoute(const ContinuousRoute& route, const PlanRequest& request, Plan plan);
 
 }  // namespace trackbed

@@ -1,19 +1,19 @@
 // Minimizes the driving time of a leg by direct transcription into a smooth program.
 //
-// The knots 0 to n separate n pieces. On the piece i, the steering angle delta changes linearly
-// over the time h_i, and so does the speed v. The fastest motion mostly turns its wheels and
-// changes its speed at a limit, so that few pieces suffice. With the acceleration a, the
-// deceleration d, the steering rate omega, the wheelbase L and kappa = tan(delta)/L:
+// The knots 0 to n separate n pieces. On the piece i, the steering angle delta and the speed v
+// change linearly over the time h_i. The fastest motion mostly turns its wheels and changes its
+// speed at a limit, so that few pieces suffice. With the acceleration a, the deceleration d, the
+// steering rate omega, the wheelbase L and kappa = tan(delta)/L:
 //   minimize    sum of h_i
 //   subject to  -d h_i <= v_(i+1) - v_i <= a h_i,  |delta_(i+1) - delta_i| <= omega h_i,
 //               v_i^2 |kappa_i| <= lateral acceleration,  and the pose of the goal.
-// Only the last two are nonlinear. The path divides each piece into parts of equal time, on which
-// the curvature is linear over the length. The end of the path is a sum of integrals over the
-// parts, by Gaussian quadrature. The solution meets the goal to the tolerance of the program;
-// Gauss-Newton steps of the least change of lengths and curvatures meet it exactly. The search
-// amplifies rounding errors of its inputs: it gets rounded inputs, and a leg whose first turn is a
-// left one, so that a moved or mirrored leg has the same solution. Source of the transcription:
-// Betts 2010.
+// Only the limit of the lateral acceleration and the pose of the goal are nonlinear. The path
+// divides each piece into parts of equal time, on which the curvature is linear over the length.
+// The end of the path is a sum of integrals over the parts, by Gaussian quadrature. The solution
+// meets the goal to the tolerance of the program; Gauss-Newton steps of the least change of lengths
+// and curvatures meet the goal exactly. The search amplifies rounding errors of its inputs.
+// Therefore it gets rounded inputs, and a leg whose first turn is to the left, so that a moved or
+// mirrored leg has the same solution. Source of the transcription: Betts 2010.
 #include "src/planning/curves/fastest_leg.h"
 
 #include <Eigen/QR>
@@ -327,8 +327,8 @@ class LegProgram {
   Eigen::Vector3d goal_;  // x, y and yaw
 };
 
-/// Returns the leg with a further part at each end at rest, on which the car reaches the speed at
-/// which it starts to steer, or brakes from the speed at which it stops to.
+/// Returns the leg with a further part at each end at rest. On the further part, the car reaches
+/// the speed at which it starts to steer, or brakes from the speed at which it stops steering.
 FastestLeg WithPartsAtRest(FastestLeg leg) {
   const double speed = std::min(leg.held_speed, leg.limits.speed.speed);
   const auto part = [speed](double acceleration, double most) {

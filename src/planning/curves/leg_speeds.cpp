@@ -58,7 +58,8 @@ std::vector<LegPiece> LegPieces(const LegLimits& limits, const std::vector<Segme
 
 double LegTime(const LegLimits& limits, const std::vector<LegPiece>& pieces, double start,
                double end) {
-  // Speeds between pieces: first the limits, then what braking and speeding up allow.
+  // Speeds between pieces: a backward pass applies the speed limits and braking, then a forward
+  // pass applies acceleration.
   std::vector<double> speeds(pieces.size() + 1, end);
   for (std::size_t i = pieces.size(); i-- > 0;) {
     const double braking = std::sqrt(speeds[i + 1] * speeds[i + 1] +

@@ -28,7 +28,7 @@ Vec2 DoubleAngle(const Vec2& half) {
 /// A turn between curvatures of 0.
 struct ZeroTurn {
   double along = 0.0;   // distance from start to end along the heading of the end
-  double across = 0.0;  // distance across this heading, positive to the outside
+  double across = 0.0;  // distance across the heading of the end, positive to the outside
   double length = 0.0;
   double slope = 0.0;  // along minus the derivative of across by the angle, exact for full turns
 };
@@ -82,9 +82,9 @@ class SharpEnd {
   struct Side {
     int side = 1;
     Vec2 zero{0, 0};    // position where the curvature is 0
-    double yaw = 0.0;   // heading there
+    double yaw = 0.0;   // heading where the curvature is 0
     Vec2 half{1, 0};    // direction of half this heading
-    double done = 0.0;  // length of the clothoid from there to the state
+    double done = 0.0;  // length of the clothoid from `zero` to the state
   };
 
   /// Returns the end with full circles added to the heading, at most one to either side.
@@ -301,8 +301,8 @@ class AlphaSearch {
     if (is_solved || (a.straight < 0.0) == (b.straight < 0.0)) {
       return;
     }
-    // f falls from or to the end with u >= 0, and may have its root there although f has the same
-    // sign at the other end.
+    // Between the end with u >= 0 and the point with u = 0, f falls. It may have a root on this
+    // part although f has the same sign at both ends of the cell.
     const Word& in = a.straight < 0.0 ? b : a;
     if ((&in == &a ? in.across : -in.across) <= 0.0) {
       return;

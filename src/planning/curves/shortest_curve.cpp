@@ -34,7 +34,7 @@ std::array<Part, 3> PartsOf(const CurvePiece& piece) {
           Ramp(ramps.peak, ramps.last, ramps)};
 }
 
-/// Returns whether a part is more than rounding. A short part may change the curvature by more.
+/// Returns whether the length of a part, or its change of the curvature, exceeds rounding errors.
 bool IsThere(const Part& part) {
   return part.length * std::max(1.0, std::abs(part.sharpness)) > kMinPieceLength;
 }
