@@ -12,10 +12,10 @@
 // millimeters. The search of LeaveOutCloseWaypoints chooses the points. If the car slows down where
 // turns lack room, a first pass leaves out waypoints that lie off a straight line only because of
 // rounded coordinates, so that the car does not slow down there. A second pass leaves out waypoints
-// at which no turn fits at all. If the first waypoint is too close to the start for a turn, the
-// path continues straight beyond the waypoint, and the turn follows there. The reason is that the
-// car begins in the direction of the first leg. If the path leaves out the first waypoint, it may
-// turn on the first leg.
+// at which no turn fits at all. The car begins in the direction of the first leg. Therefore, if the
+// first waypoint is too close to the start for a turn, the path continues straight through this
+// waypoint, and turns behind the waypoint. If the path leaves out the first waypoint, it may turn
+// on the first leg.
 
 namespace trackbed::fillet {
 namespace {
@@ -95,9 +95,9 @@ std::vector<Vec2> WithFewestTightCorners(const VehicleParams& vehicle, const Rou
   std::vector<Vec2> points = given;
   const Leg& first = route.legs.front();
   const double longest = std::max(first.length, 2.0 * vehicle.min_turning_radius());
-  // Not a factor of two, so that added points do not coincide with evenly spaced waypoints.
+  // The factor is not two, so that added points do not coincide with evenly spaced waypoints.
   constexpr double kLonger = 1.9;
-  // Distances of the added point from the start. The first trial adds none.
+  // Distances of the added point from the start. The first trial adds no point.
   std::vector<double> distances{0.0, first.length / kLonger};
   for (double length = kLonger * first.length; length <= longest; length *= kLonger) {
     distances.push_back(length);
