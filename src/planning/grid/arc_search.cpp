@@ -104,7 +104,8 @@ class ArcSearch final : public PoseTree {
     return !PlanSteps(vehicle_, path, problem_.drive->min_speed).stops.empty();
   }
 
-  /// The pieces of a last curve: without short arcs, if that costs no more or saves a stop.
+  /// Returns the pieces of the last curve of a path. The pieces have no short arcs if this costs no
+  /// more, or if the car would have to stop on the curve with short arcs.
   [[nodiscard]] std::vector<Segment> GentlerPieces(const Node& node,
                                                    const ShortestCurve& word) const {
     std::vector<Segment> shortest = InSearchOrder(ToSegments(word));

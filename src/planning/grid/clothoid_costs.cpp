@@ -11,7 +11,7 @@ ClothoidCosts::ClothoidCosts(const VehicleParams& vehicle, const HybridAStarOpti
       options_(options),
       drive_(drive),
       radius_(radius),
-      // A car that starts in a faster bend may stay in it.
+      // A car may keep the lateral acceleration that it has at the start.
       lateral_acceleration_(
           std::max(drive.lateral_acceleration,
                    drive.start_speed * drive.start_speed * std::abs(drive.start_curvature))) {}
@@ -67,8 +67,8 @@ double ClothoidCosts::Of(const Segment& before, const Segment& segment, bool is_
       const double other = std::min(SpeedOn(before), v);
       const double fast = std::max(w, other);
       const double slower = fast - std::min(w, other);
-      // A car that slows down speeds up again later. Each of the two changes costs the mean of the
-      // times that both lose.
+      // A car that slows down speeds up again later. Each of these two changes of speed costs the
+      // mean of the time lost by braking and the time lost by accelerating.
       const double per_acceleration = 0.5 / drive_.acceleration + 0.5 / drive_.deceleration;
       cost += 0.5 * slower * slower * per_acceleration * v / fast;
     }

@@ -13,9 +13,9 @@
 // clothoid is the largest one at one of a few speeds. With cusp steps, the first arc behind a cusp
 // may have any level.
 //
-// The curves to the goal are words of continuous curvature. Each attempt takes the words for
-// another of the speeds in turn; the first one, in a world without obstacles the only one, takes
-// those for all speeds.
+// The curves to the goal are words of continuous curvature. Each attempt to reach the goal takes
+// the words for one of the speeds, in turn. Only the first attempt takes the words for all speeds;
+// without obstacles, it is the only attempt.
 
 namespace trackbed {
 namespace {
@@ -107,7 +107,8 @@ class ClothoidSearch final : public PoseTree {
       return;
     }
     for (const double speed : speeds_) {
-      // Too fast for the curvature: the car would drive more slowly, and could turn more sharply.
+      // Skip speeds that are too fast for the curvature: at a lower speed, the sharpness could be
+      // larger.
       if (costs_.CurvatureAt(speed) < largest && speed != speeds_.back()) {
         continue;
       }

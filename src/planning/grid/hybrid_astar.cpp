@@ -18,9 +18,10 @@
 // resolutions from coarse to fine. Coarse bins lose narrow maneuvers; fine bins use up the budget
 // in wide areas. The series depends on the turning radius alone. A path that the series finds is
 // therefore found for every `cell` and for every number of `headings`. At each resolution of the
-// series, one search from the start and one search from the goal advance in turn. If one of them
-// has expanded all its poses, the next resolution follows. A tight gap around the goal is thus
-// detected from inside within few poses, while a search from the start would expand the whole area.
+// series, one search from the start and one search from the goal advance in turn. If one of the two
+// searches has expanded all its poses, the next resolution follows. A tight gap around the goal is
+// thus detected from inside within few poses, while a search from the start would expand the whole
+// area.
 
 namespace trackbed {
 namespace {

@@ -52,7 +52,7 @@ struct Route {
   CollisionChecker clear;
 };
 
-/// How the leg after the one to stop `i` begins if no obstacle is in its way.
+/// Returns how the leg behind stop `i` begins if no obstacle is in its way.
 PathBend BendAfter(const Route& route, std::size_t i) {
   if (i + 1 == route.stops.size()) {
     return {};
@@ -269,8 +269,8 @@ Plan PlanOnce(const HybridAStarOptions& options, const PlanRequest& request) {
   return ContinuousOrSteps(PlanClothoids(own, request), std::move(steps), request);
 }
 
-/// Plans the shortest forward curves through the stops. They may be curved at waypoints, where a
-/// leg of the search is straight.
+/// Plans the shortest forward curves through the stops. The curves may be bent at waypoints, where
+/// the legs of the search are straight.
 Plan PlanForwards(const HybridAStarOptions& options, const PlanRequest& request) {
   DubinsOptions curves{.radius = options.radius,
                        .safe_distance = options.safe_distance,
@@ -288,7 +288,7 @@ Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
   };
   Plan found = WithoutDetours(request, options.reverse ? CurveLength(ReedsSheppLength) : forwards,
                               [&](const PlanRequest& own) { return PlanOnce(options, own); });
-  // The search turns a rolling car one leg at a time.
+  // The search plans one leg at a time, so a rolling car may drive a detour to turn.
   if (request.start_speed > 0.0 && IsDetour(found, request)) {
     Plan curves = PlanForwards(options, request);
     PlanRequest slow_wheels = request;
