@@ -71,7 +71,7 @@ std::vector<Standstill> PointsWithoutSpeed(const FittedPath& fitted) {
 /// Returns the part of the time step between point i, at which the car stands, and its neighbor j
 /// for which the car stands [s]. A car that starts at constant acceleration a reaches the speed v
 /// after the distance d = v^2/(2 a) and the time 2 d/v; at constant jerk, after 3 d/v. If the time
-/// step is not longer than the latter, up to rounding of the file, the car does not stand.
+/// step is at most 3 d/v, up to rounding of the file, the car does not stand.
 double StandingPart(const FittedPath& fitted, std::size_t i, std::size_t j) {
   const double step = std::abs(fitted.given.time[j] - fitted.given.time[i]);
   const double distance = std::abs(fitted.stations[j] - fitted.stations[i]);
@@ -217,8 +217,8 @@ std::vector<std::string> SpeedNotes(const FittedPath& fitted, const std::vector<
   return notes;
 }
 
-/// Returns the radius of a circle around the first point, the last point or the center of the
-/// bounding box that contains all points, whichever is largest [m].
+/// Returns the largest of three radii [m]: of the circles around the first point, the last point
+/// and the center of the bounding box that contain all points.
 double NoiseOf(const PathPoints& given, std::size_t first, std::size_t last) {
   Vec2 low = given.points[first];
   Vec2 high = low;
