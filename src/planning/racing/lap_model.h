@@ -59,8 +59,8 @@ class LapModel {
   [[nodiscard]] double UsableRate() const;
   /// Returns the steering angle of the car at a station of the lap, at the given speed [rad].
   [[nodiscard]] double SteeringAt(double curvature, double speed) const;
-  /// Returns the largest speed at which TurnAt has at most the magnitude 1; fastest() if all speeds
-  /// within the lateral grip have.
+  /// Returns the largest speed at which TurnAt has at most the magnitude 1; fastest() if TurnAt has
+  /// this for all speeds within the lateral grip.
   [[nodiscard]] double SpeedOfTurn(const Lap& lap, std::size_t i) const;
 
   LapLimits limits_;

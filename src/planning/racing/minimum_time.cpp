@@ -75,7 +75,8 @@ class LapSearch {
     return bounds;
   }
 
-  /// Returns whether the car can drive all bends of a lap, or at least those of the present lap.
+  /// Returns whether the car can drive all bends of a lap, or whether no bend is tighter than the
+  /// tightest bend of the present lap.
   [[nodiscard]] bool IsWithin(const Lap& lap) const {
     const double most = model_.limits().curvature_max;
     return most <= 0.0 || lap.sharpest <= std::max(lap_.sharpest, most * (1.0 + kSameCurvature));
@@ -304,7 +305,8 @@ MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimi
   const Lap after = model.Drive(search.line());
   found.start_time = before.time;
   if (before.sharpest > most) {
-    // The line of least curvature is too tight: keep the fastest line that is not.
+    // The line of least curvature is too tight: return the line that the search found. If that line
+    // is too tight as well, return the line at which the search began.
     found.improved = true;
     found.line = after.sharpest <= most ? search.line() : first;
     found.time = after.sharpest <= most ? after.time : model.Drive(first).time;
