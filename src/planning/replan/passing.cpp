@@ -11,9 +11,9 @@
 #include "trackbed/world/world.h"
 
 // Finds the leader, and decides where, how fast and whether a car may pass a moving leader. A car
-// that pulls out drives where others come toward it. Therefore the car pulls out only if it could
-// finish passing. The rest of the maneuver, with constant limits, is checked against all obstacles
-// and against the end of the route.
+// that pulls out may meet oncoming obstacles. Therefore the car pulls out only if it could finish
+// passing. The rest of the maneuver, with constant limits, is checked against all obstacles and
+// against the end of the route.
 
 namespace trackbed {
 namespace {
@@ -93,7 +93,7 @@ std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
                   .left = -std::numeric_limits<double>::infinity(),
                   .right = std::numeric_limits<double>::infinity(),
                   .front = -std::numeric_limits<double>::infinity()};
-    // Project beyond `to`, because the front of an obstacle may be beyond it.
+    // Project beyond `to`, because the front of an obstacle may be beyond `to`.
     const Stations within{request.start.s, to + std::hypot(box.length, box.width)};
     for (const Vec2& corner : box.Corners()) {
       const Projection at = path.Project({corner.x(), corner.y(), 0.0}, within);
@@ -198,7 +198,7 @@ std::vector<double> PassingSpeeds(const AlongRequest& request, const Leader& lea
 
 std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongRequest& request,
                                          const std::vector<double>& offsets, double speed) {
-  // Multiples of the shortest length. The longer one leaves a margin for the approximations of
+  // Multiples of the shortest length. The larger multiple leaves a margin for the approximations of
   // ShiftLength.
   constexpr std::array kLengths{1.0, 1.5};
   std::visit(
@@ -249,7 +249,7 @@ std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongReques
 namespace {
 
 /// Returns why the car cannot finish passing if it accelerates to `passing_speed` [m/s] after the
-/// motion. Empty if it can.
+/// motion; empty if the car can finish passing.
 std::string WhyNotPastAt(double passing_speed, const RouteFrame& frame, const AlongRequest& request,
                          const AlongSettings& settings, const FrenetLimits& limits,
                          const Leader& leader, const FrenetMotion& motion) {
@@ -311,7 +311,7 @@ std::string WhyNotPastAt(double passing_speed, const RouteFrame& frame, const Al
 std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
                        const AlongSettings& settings, const FrenetLimits& limits,
                        const Leader& leader, const FrenetMotion& motion) {
-  // A slower car is past later, but pulls in and stops on a shorter distance.
+  // A slower car needs more time to pass, but a shorter distance to pull in and to stop.
   constexpr std::array kSpeedShares{1.0, 0.75, 0.5, 0.25, 0.0};
   const double slowest = std::min(motion.At(motion.duration()).s_rate, request.wanted);
   std::string why;

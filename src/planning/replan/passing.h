@@ -43,8 +43,8 @@ double ShiftLength(const VehicleParams& vehicle, const FrenetLimits& limits, dou
                    double aside);
 
 /// Returns the offsets [m] at which the car can pass the leader on the road. The result has the
-/// offsets of the method's options that clear the leader, and the nearest such offset on each side.
-/// Empty if the road is too narrow.
+/// offsets of the method's options that clear the leader, and, on each side, the nearest offset
+/// that clears the leader. Empty if the road is too narrow.
 std::vector<double> PassingOffsets(const AlongRequest& request, const AlongSettings& settings,
                                    const Leader& leader, const AlongOptions& options);
 
@@ -70,11 +70,12 @@ std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongReques
 
 /// Returns why the car could not finish passing the leader after `motion`; empty if it could. To
 /// pass, the car accelerates at the last offset of the motion to the desired speed, or to a lower
-/// one. The car drives until its rear is the safe distance ahead of the leader's front, and returns
-/// to the route. The whole maneuver must keep the safe distance from all obstacles, which are
-/// extrapolated at constant velocity. The maneuver must leave the distance in which the car brakes
-/// to a stop at the end of the route. When the car stops there, the distance to the leader behind
-/// must be at least the distance that the car itself would keep from a leader.
+/// speed. The car drives until its rear is the safe distance ahead of the leader's front, and
+/// returns to the route. The whole maneuver must keep the safe distance from all obstacles, which
+/// are extrapolated at constant velocity. The maneuver must leave the distance in which the car
+/// brakes to a stop at the end of the route. When the car stops at the end of the route, the leader
+/// is behind the car. Their distance must be at least the distance that the car itself would keep
+/// from a leader.
 std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
                        const AlongSettings& settings, const FrenetLimits& limits,
                        const Leader& leader, const FrenetMotion& motion);
