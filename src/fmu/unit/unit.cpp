@@ -203,7 +203,7 @@ StepEnd Unit::Step(double time, double step) {
   }
   // Communication points and step sizes of callers carry rounding errors, which grow with the
   // number of steps. The loop counts periods, so that rounding errors do not reach the simulation.
-  // Rounding errors must only be too small to change the number of periods.
+  // The checks accept rounding errors that are too small to change the number of periods.
   const double periods = std::round(step / period_);
   if (!(periods >= 1.0 && std::abs(step / period_ - periods) < 1e-6 * periods && periods < 1e9)) {
     Refuse(fmt::format("the step size is {} s; must be a multiple of the control period, {} s",
