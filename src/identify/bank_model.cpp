@@ -25,8 +25,8 @@ constexpr const char* kPrefix = "bank[";
 // Largest number of parameters of a study, because QuadraticProgram supports no more variables.
 constexpr std::size_t kMostParameters = 40;
 
-/// Returns the index of the sample that ends the first lap of a drive. This sample is the one
-/// nearest to the sample `first` when the car has returned from afar and heads in the same
+/// Returns the index of the sample that ends the first lap of a drive. The lap ends at the sample
+/// that is nearest to the sample `first`, when the car has returned from afar and heads in the same
 /// direction. Returns nullopt if the car does not return.
 std::optional<std::size_t> EndOfLap(const std::vector<RecordedSample>& samples, std::size_t first) {
   const Pose2 start = samples[first].pose;

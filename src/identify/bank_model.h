@@ -24,7 +24,7 @@ class BankModel {
   /// with edges that all records stay within. The path of a record is its first lap if the record
   /// returns to its start, else the whole open path. The study must have `bank`. Throws InputError
   /// if a record leaves the path of an open road, or if the track has more knots than the study has
-  /// room for. Also throws InputError in the same cases as BankedGround.
+  /// room for. The constructor also throws InputError in the same cases as BankedGround.
   explicit BankModel(const Identification& study);
 
   /// Returns the parameters, bank[0] at the start line first [rad]. Before the fit, they are
