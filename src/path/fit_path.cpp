@@ -15,8 +15,8 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path/tractrix.h"
 
-// A fit that fails because of noise is repeated with growing deviations, to name the one that
-// succeeds. fit_once.cpp contains the fit itself.
+// A fit that fails because of noise is repeated with growing values of max_deviation, so that the
+// message can name a value that succeeds. fit_once.cpp contains the fit itself.
 namespace trackbed {
 namespace {
 
@@ -26,8 +26,9 @@ double RoundedUp(double number) {
   return unit * std::ceil(number / unit - 1e-9);
 }
 
-/// Returns a largest deviation of about the smallest size with which a spline can be fitted [m].
-/// Returns nullopt if it exceeds a tenth of the length of the points, or after kMaxFits failures.
+/// Returns approximately the smallest value of max_deviation with which a spline can be fitted [m].
+/// Returns nullopt if this value exceeds a tenth of the length of the points, or after kMaxFits
+/// failures.
 std::optional<double> NoiseDeviation(const PathPoints& given, const PathFitOptions& options) {
   constexpr double kStep = 1.1;
   constexpr int kMaxFits = 8;

@@ -86,7 +86,7 @@ class GivenShape {
     const double slack = kRounding * largest_;
     const double beside = mean - 0.5 * (a + b);
     for (const double own : {a, b}) {
-      // The curvature at a cusp may belong to the other leg.
+      // The given curvature at a cusp may belong to the leg on the other side of the cusp.
       const bool is_end = i == leg.first || i + 1 == leg.last;
       if (std::abs(mean - own) <= kSameCurvature && (is_end || Jumps(leg, i))) {
         return {{length, own, leg.direction}};

@@ -121,8 +121,9 @@ ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& option
     return Resampled(distinct, *options.resample);
   }
   // The linear equations of a spline lose a digit for each factor of about 1.6 between the
-  // distances of neighboring knots. Points that are much closer than others would therefore make
-  // the spline swing. The fit still keeps max_deviation of the points between the knots.
+  // distances of neighboring knots. Points that are much closer together than their neighbors would
+  // therefore make the spline swing. The fit still keeps max_deviation of the points between the
+  // knots.
   constexpr double kSpacing = 0.1;
   return options.fit == PathFit::kSpline ? Spaced(distinct, kSpacing * options.max_deviation)
                                          : distinct.chords;

@@ -32,7 +32,7 @@ std::vector<double> Weights(const ChordPoints& fitted, double period) {
     weights.front() += half;
     weights.back() += half;
   } else {
-    // An open path begins and ends at its points.
+    // An open path begins at its first point and ends at its last point.
     constexpr double kEnds = 1e6;
     weights.front() *= kEnds;
     weights.back() *= kEnds;
