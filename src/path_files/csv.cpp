@@ -138,7 +138,8 @@ class CsvPath {
     }
   }
 
-  /// Drops a column of directions that has an invalid cell or says nothing.
+  /// Drops a column of directions that has an invalid cell, or that has neither a forward nor a
+  /// reverse direction.
   void FinishDirections() {
     std::vector<int>& direction = found_.points.direction;
     if (const InvalidCells& invalid = invalid_[kMotion]; invalid.count > 0) {
@@ -155,7 +156,8 @@ class CsvPath {
     if (has(-1)) {
       return;
     }
-    // In a column of directions that has only the numbers 0 and 1, they mean false and true.
+    // In a column of directions that has only the numbers 0 and 1, these numbers mean false and
+    // true.
     if (layout_.direction == DirectionColumn::kSigned && has(0) && has(1) && !has_words_) {
       std::replace(direction.begin(), direction.end(), 0, -1);
     } else if (has(1)) {

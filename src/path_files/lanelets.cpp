@@ -219,8 +219,8 @@ PolylinePlace PlaceOn(const std::vector<Vec2>& line, const Vec2& point) {
 
 std::vector<std::string> LaneletsAt(const Lanelets& lanelets, const Pose2& pose) {
   constexpr double kMaxDistance = 5.0;  // [m]
-  // Lanelets whose direction differs by more than this from the pose's are for oncoming or crossing
-  // traffic.
+  // Lanelets whose direction differs by more than kMaxTurn from the pose's heading are for oncoming
+  // or crossing traffic.
   constexpr double kMaxTurn = 0.5 * kPi;  // [rad]
   std::vector<Candidate> inside;
   std::vector<Candidate> near;
