@@ -142,7 +142,7 @@ double CollisionChecker::Clearance(const Pose2& pose, double at_most) const {
   const std::vector<int>* near = Near(middle);
   double clearance = std::min(farthest_, at_most);
   if (near == nullptr) {
-    // Here, either no box is near the footprint, or the pose is not finite.
+    // Without a list of near boxes, either no box is near the footprint, or the pose is not finite.
     TRACKBED_REQUIRE(middle.allFinite(), "CollisionChecker: the pose {}, {}, yaw {} is not finite",
                      pose.x, pose.y, pose.yaw);
     return clearance;

@@ -112,7 +112,8 @@ class CornerChoice {
     return index < legs_[to].size() ? legs_[to][index] : none;
   }
 
-  /// Returns the cost of the points between two points; none if one of them must not be left out.
+  /// Returns the cost of leaving out the points between two points; none if the path must keep one
+  /// of these points.
   [[nodiscard]] std::optional<Cost> LeftOut(std::size_t from, std::size_t to) const {
     Cost cost;
     if (points_[from] == points_[to] ||

@@ -5,8 +5,9 @@
 
 #include "trackbed/core/error.h"
 
-// Dynamic programming over samples of the path: the smallest sum of the distances of the first
-// waypoints from the path, if the last of them is passed at a sample or before it.
+// Finds where a path passes waypoints by dynamic programming over samples of the path. The table
+// contains the smallest sum of the distances of the first i waypoints from the path, if the path
+// passes the waypoint i at a sample or before the sample.
 
 namespace trackbed {
 namespace {
