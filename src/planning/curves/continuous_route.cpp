@@ -1,9 +1,9 @@
 // Plans routes of continuous curvature, by dynamic programming over the curvature at the stops.
 //
-// For a leg at the speed u, the largest sharpness is sigma = f omega/(L u). Here, f is the fraction
-// of the steering rate omega that the plan may use, and L the wheelbase. Since the steering angle
-// is atan(L kappa), its rate is at most L u sigma = f omega. The curvature is also limited by the
-// tyres' grip at u. On straights, the car may drive faster than u.
+// For a leg at the speed u, the largest sharpness is sigma = f omega/(L u). The plan may use the
+// fraction f of the steering rate omega; L is the wheelbase. Since the steering angle is atan(L
+// kappa), its rate is at most L u sigma = f omega. The curvature is also limited by the tyres' grip
+// at u. On straights, the car may drive faster than u.
 //
 // The objective `length` takes the mission's speed, and lower speeds only where all words at a
 // higher speed are blocked. The objective `time` compares several speeds for each leg, and pairs of

@@ -26,9 +26,8 @@ Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& reques
 /// Returns the limits on the motion along a route.
 LegLimits LimitsOfMotion(const ContinuousRoute& route, const PlanRequest& request);
 
-/// Returns the largest lateral acceleration on a path of continuous curvature [m/s^2]. This
-/// acceleration is `most`, or a share of the tyres' grip on a road with the factor `friction`, if
-/// that is less.
+/// Returns the largest lateral acceleration on a path of continuous curvature [m/s^2]. The result
+/// is the smaller of `most` and a share of the tyres' grip on a road with the factor `friction`.
 double LateralAccelerationOnClothoids(const VehicleParams& vehicle, double friction, double most);
 
 // Scenario keys of the planners of curves of continuous curvature.

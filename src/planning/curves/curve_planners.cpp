@@ -93,8 +93,8 @@ std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionC
 }
 
 /// Returns the cheapest first curve of a rolling car. The curve begins at the car if the wheels
-/// have the curve's steering angle. Otherwise the curve begins where the wheels are straight, or
-/// behind a straight line on which the car slows down.
+/// have the curve's steering angle. A curve with another steering angle begins where the wheels are
+/// straight, or behind a straight line on which the car slows down.
 template <typename Words>
 std::optional<FoundCurve> FirstRolling(const PlanRequest& request, const CollisionChecker& clear,
                                        const Pose2& to, const Words& words, CurveDrive drive) {

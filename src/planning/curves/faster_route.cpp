@@ -106,7 +106,8 @@ class RouteRefiner {
     return TimeAt(from + sections_[section].Length()) - TimeAt(from);
   }
 
-  /// Returns the time at a station of the best plan [s]; stations behind the end are rounded to it.
+  /// Returns the time at a station of the best plan [s]; stations behind the end are rounded to the
+  /// end.
   [[nodiscard]] double TimeAt(double station) const {
     return best_.reference.speed.TimeAt(std::min(station, best_.reference.path.length()));
   }

@@ -14,8 +14,8 @@ namespace trackbed {
 
 /// A leg to be driven in the least time, with the limits on its motion.
 struct FastestLeg {
-  std::vector<Segment> start;     ///< A leg between the same states, in one direction of motion.
-  std::vector<double> lengths{};  ///< Parts of `start`, none across the end of a segment [m].
+  std::vector<Segment> start;     ///< The leg before the search, in one direction of motion.
+  std::vector<double> lengths{};  ///< Parts of `start`; none crosses the end of a segment [m].
   std::vector<double> speeds{};   ///< Speeds between the parts, with those at both ends [m/s].
   double curvature = 1.0;         ///< Largest curvature [1/m].
   double min_speed = 0.1;         ///< Lowest speed between the parts [m/s], > 0.
