@@ -79,8 +79,8 @@ std::string DescribeShortLeg(const FilletTurn& turn, double radius, double min_t
 
 /// Returns the radii that equation C.40 permits. If equation C.40 permits no radius at the
 /// mission's speed, first raises the upper bound to the radius that leaves most room, at most to
-/// `largest`. Then lowers the speed of the turn. Returns none if only equation C.34 is to limit the
-/// radius.
+/// `largest`. If equation C.40 still permits no radius, lowers the speed of the turn. Returns none
+/// if only equation C.34 is to limit the radius.
 std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle, double speed,
                                                     const FilletOptions& options, double largest,
                                                     RadiusInterval& bounds, FilletTurn& turn) {
