@@ -126,9 +126,9 @@ class Searches {
   }
 
   /// Makes a grid in which a cell is occupied if the rear-axle center cannot be at any point of the
-  /// cell. In such a cell, every point is closer to an obstacle than the permitted minimum. This
-  /// minimum is the distance from the rear-axle center to the nearest side of the footprint, plus
-  /// the required distance.
+  /// cell. Every point of an occupied cell is closer to an obstacle than the permitted minimum. The
+  /// permitted minimum is the distance from the rear-axle center to the nearest side of the
+  /// footprint, plus the required distance.
   [[nodiscard]] std::shared_ptr<const OccupancyGrid> MakeGrid(double cell) const {
     const auto inflated_by = [&](double distance) {
       return std::max(clear_.inner_radius() + distance - 0.5 * std::sqrt(2.0) * cell, 0.0);

@@ -75,7 +75,8 @@ class PoseSearch {
   [[nodiscard]] bool has_path() const { return cost() < std::numeric_limits<double>::infinity(); }
 };
 
-/// Makes a search. The argument `left` contains the distances to the other side of the problem.
+/// Makes a search. The argument `left` contains the grid distances to the target of the search: the
+/// goal or, for a search from the goal, the start.
 std::unique_ptr<PoseSearch> MakePoseSearch(const SearchSpace& space, const Resolution& resolution,
                                            SearchSide side,
                                            std::shared_ptr<const GridDistance> left);
