@@ -42,13 +42,13 @@ Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, doubl
 /// At the ends of a returned step, the knots turn by at most 45 degrees. The curve deviates too far
 /// from the returned step (IsAside), or the step is a gap on a straight. A gap is more than four
 /// times as long as the median step. The curvature of the knots on a gap is less than a quarter of
-/// the curvature beside the gap, and the curve leaves the gap by more than the tolerance.
+/// the curvature beside the gap. The curve leaves the gap by more than the tolerance.
 std::vector<std::size_t> StraightSteps(const CurveBetweenKnots& curve, const ChordPoints& fitted,
                                        double period, double tolerance);
 
-/// Adds points on the straight lines of steps. The distances between the added points begin, at
-/// each end of a step, with the length of the adjacent step, and grow by a quarter from point to
-/// point.
+/// Adds points on the straight lines of steps. At each end of a step, the distances between the
+/// added points begin with the length of the adjacent step. The distances grow by a quarter from
+/// point to point.
 ChordPoints WithPointsOn(const ChordPoints& fitted, double period,
                          const std::vector<std::size_t>& steps);
 

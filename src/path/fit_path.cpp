@@ -15,8 +15,8 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path/tractrix.h"
 
-// A fit that fails because of noise is repeated with growing values of max_deviation, so that the
-// message can name a value that succeeds. fit_once.cpp contains the fit itself.
+// A fit that fails because of noise is repeated with growing values of max_deviation. The message
+// then names a value that succeeds. fit_once.cpp contains the fit itself.
 namespace trackbed {
 namespace {
 
