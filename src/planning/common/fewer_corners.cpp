@@ -1,6 +1,6 @@
 // Chooses the corners of a polyline whose waypoints are close to each other.
 //
-// The corners are a shortest path through the graph of legs: a node is a leg between two points of
+// The corners are a shortest path through the graph of legs. A node is a leg between two points of
 // the polyline, and an edge is the corner between two legs. The cost of an edge counts, in this
 // order, corners that do not fit on their legs, points left out, and distances of the points left
 // out.

@@ -6,8 +6,8 @@
 #include "trackbed/core/error.h"
 
 // Finds where a path passes waypoints by dynamic programming over samples of the path. The table
-// contains the smallest sum of the distances of the first i waypoints from the path, if the path
-// passes the waypoint i at a sample or before the sample.
+// contains the smallest sum of the distances of the first i waypoints from the path. In the row of
+// a sample, the path passes the waypoint i at this sample or earlier.
 
 namespace trackbed {
 namespace {

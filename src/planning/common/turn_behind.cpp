@@ -12,11 +12,11 @@
 // Rounds polylines that turn too sharply at a waypoint. Where waypoints are close to each other,
 // the path leaves out the waypoints that it passes within the bound anyway. A curve on the inner
 // side of a sharp turn passes far from the waypoint, and no curve joins legs that point in opposite
-// directions. At a sharp turn, the path therefore leads straight through the waypoint, makes one or
-// two quarter turns behind the waypoint, and returns to the next point of the polyline. The added
-// legs have just the length that the curves of the added corners need. The corners are driven at
-// the highest speed at which a quarter turn still reaches the largest curvature. If the turn is too
-// wide at this speed, the corners are driven at the lowest speed.
+// directions. At a sharp turn, the path therefore leads straight through the waypoint, and makes
+// one or two quarter turns behind the waypoint. The path then returns to the next point of the
+// polyline. The added legs have just the length that the curves of the added corners need. The
+// corners are driven at the highest speed at which a quarter turn still reaches the largest
+// curvature. If the turn is too wide at this speed, the corners are driven at the lowest speed.
 
 namespace trackbed {
 namespace {
