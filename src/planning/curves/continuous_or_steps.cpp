@@ -13,8 +13,8 @@
 namespace trackbed {
 namespace {
 
-/// Largest driving time of a path of continuous curvature that is accepted instead of a path with
-/// steps, as a multiple of the driving time of the path with steps.
+/// Largest ratio of the driving time of a path of continuous curvature to that of a path with
+/// steps. Above this ratio, the path with steps is chosen.
 constexpr double kMostTime = 1.2;
 
 }  // namespace
