@@ -13,8 +13,8 @@ namespace trackbed::start_excess {
 /// Returns an excess of the position, and an excess of the heading, if the path does not begin at
 /// the pose of the car. For a rolling car, also returns an excess of the start steering if it
 /// differs from the steering angle with which the path begins. If the car cannot steer the start of
-/// the path at all, the steering angle is the cause. Then, returns no excess of the start steering.
-/// The hints of the excesses give the start values that fit the path.
+/// the path at all, returns no excess of the start steering, because the excess of the steering
+/// angle is the cause. The hints of the excesses give the start values that fit the path.
 std::vector<Excess> At(const Plan& plan, const PlanRequest& request);
 
 /// Returns the excess of a start speed above `highest`, the highest feasible start speed [m/s].
