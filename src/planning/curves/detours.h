@@ -21,11 +21,11 @@ using CurveLength = std::function<double(const Pose2&, const Pose2&, double)>;
 /// * fewer waypoints: waypoints within a quarter of the car's width from the lines between the
 ///   other waypoints are left out, if the path passes them within this distance. A note names the
 ///   waypoints left out.
-///   A remedy is taken only if the path takes no longer to drive. The path must also become shorter
-///   by the smallest turning radius or more, or have fewer stops because waypoints are left out. If
-///   a detour is left, a note gives the length of the shorter path of a car at rest. Without
-///   obstacles, a note also gives the length of the shorter path without the given headings. Calls
-///   `plan` once if there is no detour, otherwise up to 21 times.
+/// A remedy is taken only if the path takes no longer to drive. The path must also become shorter
+/// by the smallest turning radius or more, or have fewer stops because waypoints are left out. If a
+/// detour is left, a note gives the length of the shorter path of a car at rest. Without obstacles,
+/// a note also gives the length of the shorter path without the given headings. Calls `plan` once
+/// if there is no detour, otherwise up to 21 times.
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
                     const std::function<Plan(const PlanRequest&)>& plan);
 
