@@ -34,9 +34,9 @@ struct Line {
   std::size_t before = 0;
 };
 
-/// Finds the best points of a way, as described at PruneWaypoints, in O(n^3) of its n points.
-/// `is_free` tells for two indices of points whether the car may drive straight from one to the
-/// other.
+/// Finds the cheapest path through a subset of the n points of `way` (PruneWaypoints), in O(n^3).
+/// `is_free` returns for two indices of points whether the straight line between the points is
+/// free.
 template <typename IsFree>
 std::vector<Vec2> PruneWindow(const std::vector<Vec2>& way, const PruningProblem& problem,
                               const IsFree& is_free) {
@@ -116,10 +116,10 @@ std::optional<Vec2> Meeting(const Vec2& a, const Vec2& b, const Vec2& c, const V
   const double area = Cross(in, out);
   const double ahead =
       Cross(c - b, out) /
-      area;  // distance of the corner beyond `b`, over the length of the first line
+      area;  // distance of the corner beyond `b`, divided by the first line's length
   const double behind =
       Cross(c - b, in) /
-      area;  // position of the corner after `c` along the second line, over its length
+      area;  // position of the corner after `c`, divided by the second line's length
   if (!std::isfinite(ahead) || !std::isfinite(behind) || ahead < 0.0 || behind > 0.0) {
     return std::nullopt;
   }
@@ -127,8 +127,8 @@ std::optional<Vec2> Meeting(const Vec2& a, const Vec2& b, const Vec2& c, const V
 }
 
 /// Returns the points of a path, and the corners at which two of its lines meet if both are
-/// extended. Between the two lines are at least one line and fewer than kSpan lines. The corners
-/// are in the order of the first line of each.
+/// extended. Between the two lines of a corner are at least one and fewer than kSpan other lines.
+/// The corners are sorted by the first line of each corner.
 std::vector<OuterCorner> WithOuterCorners(const std::vector<Vec2>& way) {
   std::vector<OuterCorner> corners{{way.front(), 0}};
   for (std::size_t i = 0; i + 1 < way.size(); ++i) {

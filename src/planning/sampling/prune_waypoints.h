@@ -49,10 +49,10 @@ inline constexpr std::size_t kJoinedPoints = kPruningWindow / 8;
 
 /// Replaces successive corners that do not fit on the lines between them. New corners are the
 /// points at which lines of the path meet if they are extended: two sharp corners around the end of
-/// a wall become one corner farther outside. Returns the cheapest path, as in PruneWaypoints, among
-/// the given points and the new corners. Returns the path unchanged if all of its corners fit, or
-/// if it has more than kJoinedPoints points. Cost: that of PruneWaypoints for eight times as many
-/// points.
+/// a wall become one corner farther outside. Returns the cheapest path through the given points and
+/// the new corners, with the path cost of PruneWaypoints. Returns the path unchanged if all of its
+/// corners fit, or if it has more than kJoinedPoints points. The computing time is that of
+/// PruneWaypoints for eight times as many points.
 std::vector<Vec2> JoinCloseCorners(const std::vector<Vec2>& way, const PruningProblem& problem);
 
 /// Splits a path into pieces that are so short that the wind is nearly uniform along each piece.

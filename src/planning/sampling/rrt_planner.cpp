@@ -200,7 +200,7 @@ Plan RefusedAs(const TreePath& way, const Forest& forest) {
                   way.goals + 1, forest.task.inflation.most));
 }
 
-/// Plans along the points; `rejected` of `next` gets the plan if it is not feasible.
+/// Plans along the points. If the plan is not feasible, stores the plan in `next.rejected`.
 void PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points, Try& next) {
   TreesPlan along = PlanAlong(forest.options, forest.request, points);
   next.plan = std::move(along.plan);

@@ -170,8 +170,8 @@ class RrtStarTree {
     }
     const Neighbor parent = Cheapest(position, first);
     const std::size_t node = Add(position, parent.node, parent.cost);
-    // Drop the neighbors that are not cheaper through the new node; the selection stays correct
-    // while other nodes are rewired, because rewiring only lowers costs.
+    // Drop the neighbors that are not cheaper through the new node. Later rewiring cannot make a
+    // dropped neighbor cheaper through the new node, because rewiring only lowers costs.
     const auto last = std::remove_if(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& of) {
       return parent.cost + of.distance >= nodes_[of.node].cost;
     });

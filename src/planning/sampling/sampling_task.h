@@ -29,10 +29,11 @@ struct SamplingTask {
   std::vector<Vec2> departure{};
   std::vector<Vec2> goals;  ///< Goals of the trees, in the order of the mission.
   std::vector<OrientedBox> obstacles;
-  /// Distance of lines from obstacles in the search, reduced where the departure
-  /// ends or a goal is nearer.
+  /// Distance that the lines of the search keep from obstacles. The distance is reduced for an
+  /// obstacle that is nearer to a goal or to the end of the departure.
   Inflation inflation = 0.0;
-  /// Distance of the departure from obstacles, reduced where the start is nearer.
+  /// Distance that the departure keeps from obstacles. The distance is reduced for an obstacle that
+  /// is nearer to the start.
   Inflation lead_inflation = 0.0;
   GridArea area;  ///< Area from which the planners sample.
   WindScoring wind;
@@ -80,8 +81,9 @@ inline constexpr Key kCornerCost{
     "corner_cost", "m", "cost of a corner, as path length: favors fewer corners and longer legs"};
 
 /// Checks whether the car is clear of obstacles at its start, and whether the first points of the
-/// path are free. A point is free if it keeps its distance or, on a straight, if the car's
-/// footprint does. If not, returns a failed plan with the reason.
+/// path are free. The first points are free if the lines between them keep the distance
+/// `task.lead_inflation` from obstacles. An initial straight is also free if the car's footprint
+/// keeps `safe_distance`. If a check fails, returns a failed plan with the reason.
 Plan CheckLeadIn(const SamplingTask& task, const PlanRequest& request, double safe_distance);
 
 /// Tangent lengths of corners at the lowest speed, tabulated by heading change.
@@ -89,8 +91,8 @@ class CornerTangents {
  public:
   CornerTangents(const VehicleParams& vehicle, double speed);
 
-  /// Returns the tangent length [m] of the next larger heading change in the table, so the length
-  /// is never too short.
+  /// Returns the tangent length [m] of the smallest tabulated heading change that is at least
+  /// `turn`, so the length is never too short.
   double operator()(double turn) const;
 
  private:
@@ -147,11 +149,12 @@ inline bool IsTooNear(const Plan& plan) {
 /// Plans with `plan_trees`. If the plan fails because its first corner is too near,
 /// PlanWithLeadIn retries with up to `tries` longer initial straights. The first retry uses
 /// the longest initial straight, on which the car can stop. If an obstacle blocks the longest
-/// straight, the next retries add only a half or a quarter of the additional length. A car at rest
-/// that an obstacle ahead keeps from the initial straight then tries a half of it. The last
-/// retries begin with DeparturesToNearWaypoint, unless the options have no initial straight, or
-/// allow only one retry. All retries but the first grow only one tree each, because many refused
-/// missions have no plan at all. A rejection of the first plan is explained (Refusal::kExplained).
+/// straight, the next retries add only a half or a quarter of the additional length. For a car at
+/// rest, the next retry uses half of the initial straight, because an obstacle ahead may block the
+/// whole straight. The last retries begin with DeparturesToNearWaypoint, unless the options have no
+/// initial straight, or allow only one retry. Each retry after the first one grows only one tree,
+/// because many refused missions have no plan at all. A rejection of the first plan is explained
+/// (Refusal::kExplained).
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
                     int tries) {
