@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Splits the columns of a bag into topics and fields. Columns of other topics than the position's
-/// get the topic as their file.
+/// Splits the columns of a bag into topics and fields. If the topic of a column differs from the
+/// position's topic, LogColumn::file becomes the column's topic.
 class MapDivider {
  public:
   MapDivider(const fs::path& log, LogMap map) : log_(log), map_(std::move(map)) {

@@ -7,10 +7,10 @@
 
 namespace trackbed {
 
-/// The map of a bag, divided for its topics.
+/// The map of a bag, with its columns divided into topics and fields.
 struct BagMap {
-  /// The map with the names of fields instead of columns. If the topic of a column differs from the
-  /// topic of the position, LogColumn::file is the topic of the column.
+  /// The map, in which the name of a field replaces the name of each column. If the topic of a
+  /// column differs from the topic of the position, LogColumn::file is the topic of the column.
   LogMap map;
   std::string topic;  ///< Topic of the position and of the orientation.
 };

@@ -19,10 +19,11 @@
 #include "trackbed/core/table.h"
 #include "trackbed/track/track_file.h"
 
-// Makes a terrain from a track with bank and grade. The node of the terrain at a point p has a
-// place (s, d) on each part of the track nearby. The samples of the center line within reach are
-// split into runs of consecutive samples, and Newton's method refines the nearest sample of each
-// run. The places do not depend on the bank, so they are computed once for many banks.
+// Makes a terrain from a track with bank and grade. Each node of the terrain has a place (s, d) on
+// each nearby part of the track: the station s and the lateral offset d. The samples of the center
+// line within reach are split into runs of consecutive samples, and Newton's method refines the
+// nearest sample of each run. The places do not depend on the bank, so they are computed once for
+// many banks.
 
 namespace trackbed {
 namespace {
@@ -99,7 +100,7 @@ void BankedGround::FindNodes() {
     for (int column = 0; column < size_.columns; ++column) {
       const Vec2 low = size_.low + Terrain::kBlock * Vec2(column, row);
       const Vec2 middle = low + 0.5 * Terrain::kBlock * Vec2::Ones();
-      // Half of a block's diagonal, with a cell beyond the block.
+      // Half the diagonal of a block that is extended by one cell on each side.
       const double radius = std::numbers::sqrt2 * (0.5 * Terrain::kBlock + Terrain::kCell);
       std::vector<std::size_t> near;
       for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -140,7 +141,7 @@ BankedGround::Node BankedGround::NodeAt(const Vec2& point,
     }
     const TrackEdges edges = line_->EdgesAt(s);
     const double beside = std::max({0.0, d - edges.left, edges.right - d});
-    // The road ends where 1 - kappa d falls from a half to a tenth.
+    // The road fades out while 1 - kappa d decreases from 0.5 to 0.1.
     const auto fade = [](double beyond) { return Fade((beyond - kSurfaceMargin) / kBlendWidth); };
     const double share = Fade((0.5 - fold) / 0.4) * fade(beside) * fade(line_->BeyondEnds(s));
     if (share <= 0.0) {
@@ -202,7 +203,8 @@ std::vector<std::size_t> BankedGround::NearestOfRuns(const Vec2& point,
 }
 
 std::vector<double> BankedGround::Coarse(const std::vector<double>& heights, double base) const {
-  // The mean height of the points, weighted by proximity; level at the border.
+  // Computes the mean height of the points, weighted by proximity. The border has the height
+  // `base`.
   constexpr std::size_t kMaxPoints = 500;
   const std::vector<TrackPoint>& points = line_->points();
   const std::size_t stride = 1 + points.size() / kMaxPoints;
@@ -268,7 +270,7 @@ bool IsClosedLine(const std::vector<TrackPoint>& points) {
     return false;
   }
   constexpr double kLargestGap =
-      2.0;  // largest gap over the largest distance of neighboring points
+      2.0;  // largest gap, divided by the largest distance of neighbors
   constexpr double kSameDirection = kPi / 6.0;
   const auto chord = [&](std::size_t i) -> Vec2 {
     return points[(i + 1) % points.size()].position - points[i].position;
@@ -387,7 +389,8 @@ BankedTrack ReadBankedTrack(const std::filesystem::path& file) {
         }
       },
       [&](const std::vector<std::string>& cells, int row) {
-        // Rows without a point are those of a log, and a last row that repeats the first point.
+        // Skip rows without a point: rows of a log between the points, and a last row that repeats
+        // the first point.
         if (track.banks.size() >= line.lines.size() || line.lines[track.banks.size()] != row) {
           return;
         }

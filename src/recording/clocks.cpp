@@ -77,7 +77,7 @@ class Clocks {
     return rates;
   }
 
-  /// Adds the delay of `values`, which are computed from `signal`, behind `reference`.
+  /// Adds the delay by which `values` follow `reference`; `values` are computed from `signal`.
   void Add(LogSignal signal, const Values& reference, const Values& values) {
     if (const auto found = FindDelay(reference, values, valid_, drive_.period)) {
       clocks_.push_back({.signal = signal,
@@ -87,8 +87,9 @@ class Clocks {
     }
   }
 
-  /// Compares a signal with the same quantity of the pose. Returns the signal without its delay, or
-  /// the quantity of the pose if the log does not have the signal or if it does not fit.
+  /// Compares a signal with the same quantity of the pose. Returns the signal without its delay. If
+  /// the log does not have the signal, or if the signal does not fit, returns the quantity of the
+  /// pose.
   Values CompareMotion(LogSignal signal, const Values& reference) {
     if (!rows_.has[signal]) {
       return reference;
@@ -165,7 +166,8 @@ double DelayInMap(const LogMap& map, LogSignal signal) {
   }
 }
 
-/// Returns the delay of the signal that contradicts the motion of the pose [s].
+/// Returns the delay [s] that no car can cause: any delay of a motion signal behind the pose, or a
+/// delay of the steering behind the yaw rate. Returns nullopt for other delays.
 std::optional<double> Contradiction(const SignalClock& clock) {
   const double delay = clock.found.delay;
   if (!IsSteering(clock.signal)) {

@@ -14,9 +14,10 @@ namespace trackbed {
 struct SignalClock {
   LogSignal signal = kSpeedSignal;
   SignalDelay found{};
-  /// Delay [s] above which the signal counts as delayed: three standard errors, or the mean
-  /// distance of the rows of the signal or of the pose if that is more. A logger that writes the
-  /// last value of a signal into each row delays the signal by up to the distance of two rows.
+  /// Delay [s] above which the signal counts as delayed. This is the largest of three standard
+  /// errors, the mean time between rows of the signal, and the mean time between rows of the pose.
+  /// A logger that writes the last value of a signal into each row delays the signal by up to the
+  /// time between two rows.
   double uncertainty = 0.0;
 
   [[nodiscard]] bool differs() const;

@@ -11,7 +11,8 @@
 namespace trackbed {
 namespace {
 
-// Wavelength of the smoothing as a multiple of the mean distance of the points, as of a Track.
+// Wavelength of the smoothing as a multiple of the mean distance of the points; the default of a
+// Track has the same value.
 constexpr double kSmoothing = 4.0;
 
 std::vector<double> ChordStations(const std::vector<TrackPoint>& points) {

@@ -14,16 +14,19 @@ namespace trackbed {
 
 /// A smoothing spline through samples of an open curve.
 ///
-/// The spline is a closed one (closed_spline.h). The straight line from the first to the last
-/// sample is subtracted, and the rest is continued as an odd function beyond both ends, which makes
-/// it periodic. The curve therefore passes through its first and last sample, and its second
-/// derivative is zero there. Beyond its ends, the curve continues straight.
+/// The open spline is computed as a closed spline (closed_spline.h). The straight line from the
+/// first to the last sample is subtracted from the samples. The difference is continued as an odd
+/// function beyond both ends, which makes the difference periodic. The curve therefore passes
+/// through its first and last sample, and its second derivative is zero there. Beyond its ends, the
+/// curve continues straight.
 class OpenSpline {
  public:
-  /// `t` are the increasing parameters of the samples, the first 0; a row of `values` is a sample.
+  /// `t` contains the parameters of the samples in increasing order, beginning with 0. Each row of
+  /// `values` is a sample.
   OpenSpline(const std::vector<double>& t, const Eigen::MatrixXd& values, double wavelength);
 
-  /// Returns the curve or its derivative of `order` 0 to 2 at any parameter.
+  /// Returns the derivative of the curve with the order `order`, 0 to 2, at any parameter; order 0
+  /// is the curve itself.
   [[nodiscard]] Eigen::RowVectorXd At(double t, std::size_t order) const;
 
  private:
@@ -40,7 +43,7 @@ class GroundSurface {
   GroundSurface(std::vector<double> stations, double length, bool closed, double wavelength,
                 const Eigen::MatrixXd& values);
 
-  /// Returns the numbers of `values` at a station.
+  /// Returns the smoothed row of `values` at a station, such as bank and height.
   [[nodiscard]] Eigen::RowVectorXd At(double s) const;
 
  private:
@@ -57,7 +60,8 @@ class GroundLine {
   [[nodiscard]] const std::vector<TrackPoint>& points() const { return points_; }
   [[nodiscard]] bool closed() const { return track_.has_value(); }
   [[nodiscard]] double length() const { return length_; }
-  /// Returns the station of a point. The station of an open line is the length of its chords.
+  /// Returns the station of a point. On an open line, the station of a point is the length of the
+  /// chords up to the point.
   [[nodiscard]] double StationOf(std::size_t point) const;
   /// Returns the point at any station. A closed line repeats; an open line continues straight.
   [[nodiscard]] PathPoint At(double s) const;

@@ -17,9 +17,10 @@
 // the slope or the sign of the fit reveals a contradiction. A wrong unit or sign is recognized if
 // the corrected column agrees with the motion, or if the fitted factor is 3.6, 180/pi or -1. The
 // size of an error is measured by the upper quartile, because the upper quartile is robust against
-// outliers. Noise of the positions makes the derivatives over short times useless: millimeters are
-// radians per second at 100 rows per second. A contradiction between rates must therefore exist for
-// polynomials of all widths, from that of the map to 0.8 s.
+// outliers. Noise of the positions makes the derivatives over short times useless: at 100 rows per
+// second, position errors of millimeters become yaw rate errors of radians per second. A
+// contradiction between rates must therefore exist for polynomials of all widths, from the width
+// that the map specifies to 0.8 s.
 namespace trackbed {
 namespace {
 
@@ -109,12 +110,12 @@ std::vector<double> HalfWidths(const LogMap& map) {
   return widths;
 }
 
-/// Returns the least misfit over all widths until one is below `enough`; none if the vehicle hardly
-/// turns. If only noise turns the course, the misfit of narrow polynomials is near 1, because the
-/// course turns much more than the yaw.
+/// Returns the smallest misfit over all widths; none if the vehicle hardly turns. Skips the
+/// remaining widths after a misfit below `enough`. If only noise turns the course, the misfit of
+/// narrow polynomials is near 1, because the course turns much more than the yaw.
 std::optional<double> LeastMisfit(const LogRows& rows, const LogMap& map, double scale,
                                   double enough) {
-  constexpr double kLikeNoise = 0.3;  // a misfit this close to 1 may be noise
+  constexpr double kLikeNoise = 0.3;  // misfits within this distance of 1 may be noise
   std::optional<double> least;
   for (const double width : HalfWidths(map)) {
     const std::optional<double> misfit = Misfit(Moments(rows, map, scale, width));
@@ -293,7 +294,7 @@ void CheckYawRate(const LogRows& rows, const LogMap& map, Found& found) {
 }
 
 void CheckSteering(const LogRows& rows, const LogMap& map, LogSignal signal, Found& found) {
-  constexpr double kCertain = 0.7;  // least magnitude of a correlation that settles the sign
+  constexpr double kCertain = 0.7;  // smallest |correlation| with a reliable sign
   for (const double width : HalfWidths(map)) {
     // Compare tan(delta) of the steering angle delta with the curvature of the path, because
     // tan(delta) is proportional to the curvature, whatever the wheelbase is.

@@ -8,8 +8,8 @@
 namespace trackbed {
 
 /// Projects the positions of the rows, which are longitudes and latitudes [deg], to meters. Drops
-/// rows without a fix. `lines` are the lines of the rows. Adds notes. Throws InputError if a
-/// position is too far from the origin.
+/// rows without a fix. `lines` contains the line number of each row. Adds notes. Throws InputError
+/// if a position is too far from the origin.
 void ProjectRows(const std::filesystem::path& log, const LogPosition& map, std::vector<int>& lines,
                  LogRows& rows);
 

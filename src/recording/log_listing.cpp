@@ -20,8 +20,8 @@
 // Lists a log and proposes a map (log_map.h).
 // 1. In CSV files, columns are recognized by the names that path files use, too
 //    (FindPoseColumns), and by names that state a unit.
-// 2. In bags, the type of a topic's messages decides. The position is that of an odometry, a pose
-//    or a satellite fix, the first of these that the bag has.
+// 2. In bags, the type of a topic's messages decides. The position comes from the odometry; without
+//    odometry, from a pose; without both, from a satellite fix.
 // 3. GPX, KML and GeoJSON files have positions and times.
 // 4. FitTo chooses the gap and the width of the polynomials from the median step of the times.
 namespace trackbed {
@@ -101,7 +101,8 @@ struct FoundColumn {
   std::string unit;
 };
 
-/// Returns a unit as maps write it, from another spelling of one of `units`; "" if it is none.
+/// Returns the unit among `units` that `spelling` means, as maps write the unit; "" if `spelling`
+/// means none of `units`.
 std::string UnitIn(const std::string& spelling, const Names& units) {
   static const std::vector<std::pair<const char*, const char*>> kSpellings{
       {"mps", "m/s"},     {"ms", "ms"},       {"ms", "m/s"},      {"kmh", "km/h"},
@@ -196,7 +197,7 @@ void TakePlace(const std::vector<std::string>& names, LogMap& map) {
   } else if (const PoseColumns pose = FindPoseColumns(names);
              pose.x && pose.y && pose.x->unit == pose.y->unit &&
              std::find(lengths.begin(), lengths.end(), pose.x->unit) != lengths.end()) {
-    // As paths are read: other names of poses, such as pose_x and pose_y.
+    // Accept the other column names of path files, such as pose_x and pose_y.
     map.position.x = names[pose.x->index];
     map.position.y = names[pose.y->index];
     map.position.unit = pose.x->unit;

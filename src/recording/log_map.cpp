@@ -233,7 +233,7 @@ namespace {
 
 using MapProblems = std::vector<std::pair<std::string, std::string>>;
 
-/// Requires one pair of columns, and refuses to read degrees as meters.
+/// Requires exactly one pair of position columns, and rejects columns of degrees as x and y.
 void AddPositionProblems(const LogPosition& position, MapProblems& found) {
   const bool has_globe = position.latitude || position.longitude;
   const bool has_plane = !position.x.empty() || !position.y.empty();

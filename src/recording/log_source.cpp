@@ -45,8 +45,8 @@ void ReadGlobeNumbers(const std::filesystem::path& path, const std::vector<std::
   }
 }
 
-/// Returns the number of a message for each column; places[i] is an index of the message's
-/// columns, or beyond them for the time at which the message was logged.
+/// Returns the number in a message for each wanted column. places[i] is the index of a column of
+/// the message; larger indices stand for the time at which the message was logged.
 class BagColumns {
  public:
   BagColumns(const std::vector<std::string>& names, const BagMessage& message,
@@ -59,7 +59,7 @@ class BagColumns {
     const bool has_header = Has("header.stamp.sec");
     const bool has_stamp = Has("stamp.sec");
     for (std::string name : names) {
-      // The time of a message is that of its header, or the time at which it was logged.
+      // The time of a message is the time in its header or, without a header, the time of logging.
       if (!has_stamp && (name == "stamp.sec" || name == "stamp.nanosec")) {
         name = has_header ? "header." + name : "log_time" + name.substr(5);
       }

@@ -15,7 +15,7 @@ struct LogSource {
   std::string topic;  ///< Topic of a bag; empty for other files.
 };
 
-/// Columns of rows that are read, and how.
+/// Columns that are read from a log, and the delimiter between columns.
 struct WantedColumns {
   std::vector<std::string> names;
   std::string time;  ///< Column whose cells may be timestamps (TimestampSeconds) in a CSV file.
@@ -43,7 +43,8 @@ BagMessage MessageOfTopic(const std::filesystem::path& file, const std::string& 
 /// Returns the field of a column of a bag, such as "pose.position.x" of "/odom.pose.position.x".
 /// Returns all other names unchanged.
 std::string FieldOfColumn(const std::string& column);
-/// Returns the topic of a column of a bag, "/odom" in this example; "" for all other names.
+/// Returns the topic of a column of a bag, such as "/odom" of "/odom.pose.position.x"; "" for all
+/// other names.
 std::string TopicOfColumn(const std::string& column);
 
 }  // namespace trackbed

@@ -11,13 +11,13 @@
 // refines the delay. The cubic extends over the delays that still explain nine tenths of the
 // signal, so noise of neighboring delays averages out. The standard error is that of an extremum
 // estimator with correlated residuals (Newey and West 1987). Noise that varies faster than the
-// motion has narrow peaks of correlation at random delays. If the reference explains less than most
-// of the signal, both are smoothed by moving averages of growing width, which do not shift one
-// against the other.
+// motion has narrow peaks of correlation at random delays. If the reference explains too little of
+// the signal, reference and signal are smoothed by moving averages of growing width. Equal averages
+// of both do not change the delay between them.
 namespace trackbed {
 namespace {
 
-/// Least share of the signal's variance that the reference must explain.
+/// Smallest share of the signal's variance that the reference must explain.
 constexpr double kLeastExplained = 0.1;
 
 /// Least-squares line signal = a reference + b through pairs of values.
@@ -104,7 +104,7 @@ class Scan {
   int reach_;
 };
 
-/// Returns the correlation of neighboring residuals, from 0 to 0.999.
+/// Returns the correlation between neighboring values, clamped to 0 to 0.999.
 double NeighborCorrelation(const std::vector<double>& values) {
   double products = 0.0;
   double squares = 0.0;
@@ -117,7 +117,7 @@ double NeighborCorrelation(const std::vector<double>& values) {
 }
 
 /// Returns the variance of the sum of correlated values with the mean 0 (Newey and West 1987). The
-/// number of lags is that of Andrews (1991) for the values' correlation at the first lag.
+/// number of lags follows from the correlation of neighboring values by the rule of Andrews (1991).
 double VarianceOfSum(const std::vector<double>& values) {
   const double n = static_cast<double>(values.size());
   const double rho = NeighborCorrelation(values);
@@ -184,7 +184,7 @@ Minimum FindMinimum(const Scan& scan, int middle, int width, int stride) {
     return slope;
   };
   Minimum minimum{.middle = middle, .delay = static_cast<double>(middle)};
-  // The minimum is within the width of the cubic.
+  // Search at most 2 `width` samples, because the minimum is within the width of the cubic.
   for (int step = 0; step < 2 * width; ++step) {
     const double slope = slope_at(minimum.middle);
     const int toward = slope > 0.0 ? -1 : 1;
@@ -206,7 +206,8 @@ Minimum FindMinimum(const Scan& scan, int middle, int width, int stride) {
 /// Returns the standard error of the delay at the minimum of a cubic over +-`width`, in samples.
 double StandardError(const Scan& scan, const Minimum& minimum, int width, int stride) {
   const Line line = scan.Fit(minimum.middle, stride);
-  // Sums over groups of scores have the same variance of their sum, and bound the cost.
+  // Add the scores in groups: the variance of the total stays the same, and the number of groups
+  // bounds the cost.
   constexpr std::size_t kMaxScores = 20000;
   const std::size_t group = 1 + static_cast<std::size_t>(line.count) / kMaxScores;
   const std::vector<double> weights = CubicWeights(width);
@@ -224,7 +225,7 @@ double StandardError(const Scan& scan, const Minimum& minimum, int width, int st
     squares += y * y;
     slopes += slope * slope;
   });
-  // Logs have at least this relative rounding error.
+  // Smallest relative rounding error of the numbers in a log.
   constexpr double kRounding = 1e-6;
   const double rounding = kRounding * kRounding * squares / line.count * slopes;
   const double information = 0.5 * minimum.bend / line.a;
@@ -243,10 +244,10 @@ double IndependentSamples(const Scan& scan, int delay, const Line& line, int str
   return line.count * (1.0 - rho) / (1.0 + rho);
 }
 
-/// Returns the delay in samples whose sum of squared residuals is least. Periodic motion fits
-/// nearly as well at other delays, one period apart: the residuals have several minima, which
-/// significantly worse delays separate. If other minima are not significantly worse than the least
-/// one, returns the minimum with the smallest absolute delay.
+/// Returns the delay in samples whose sum of squared residuals is smallest. Periodic motion fits
+/// nearly as well at other delays, one period apart. The sum then has several minima, separated by
+/// delays that fit significantly worse. If other minima are not significantly worse than the
+/// smallest one, returns the minimum with the smallest absolute delay.
 int BestDelay(const Scan& scan, const std::vector<Line>& lines, int stride) {
   const int reach = scan.reach();
   const auto at = [&](int delay) -> const Line& {
@@ -295,9 +296,9 @@ int WidthOfCubic(const std::vector<Line>& lines, int reach, int best) {
   return width;
 }
 
-/// Returns whether the reference explains more of the signal than noise does at the best of all
-/// delays. This is a likelihood ratio test at three standard deviations, for as many delays as are
-/// independent.
+/// Returns whether the reference explains more of the signal than pure noise would explain at its
+/// best delay. The function applies a likelihood ratio test at three standard deviations, corrected
+/// for the number of independent delays.
 bool IsSignificant(const Scan& scan, int best, const Line& line, int stride) {
   constexpr double kSignificant = 9.0;
   const double independent = IndependentSamples(scan, best, line, stride);
@@ -316,7 +317,7 @@ Estimate EstimateDelay(const std::vector<double>& reference, const std::vector<d
                        const std::vector<bool>& valid, double period) {
   const int reach = static_cast<int>(std::ceil(kMaxSignalDelay / period));
   const int count = static_cast<int>(signal.size());
-  // The scan and the refinement take at most these numbers of samples, which bounds their cost.
+  // Largest numbers of samples for the scan and for the refinement, which bound the cost.
   constexpr int kScanned = 20000;
   constexpr int kRefined = 200000;
   const Scan scan(reference, signal, valid, reach);

@@ -5,7 +5,7 @@
 
 namespace trackbed {
 
-/// By how much a signal lags a reference.
+/// Delay by which a signal lags behind a reference.
 struct SignalDelay {
   double delay = 0.0;  ///< Delay of the signal [s]; negative if the signal precedes the reference.
   double standard_error = 0.0;  ///< Standard error of the delay [s].
@@ -21,19 +21,19 @@ inline constexpr double kMaxSignalDelay = 1.0;
 ///   sqrt(V)/H,  V = variance of sum_i e_i x'_i,  H = a |sum_i (x_i - mean) x''_i|,
 /// with the residuals e and the reference x. V is estimated from the correlation of the products
 /// e_i x'_i over time (Newey and West 1987), because smoothed noise is correlated. H is the
-/// curvature of the correlation of signal and reference, and therefore not increased by noise of
-/// the reference. For a reference that is linear in time, H is 0 and the standard error infinite.
+/// curvature of the correlation of signal and reference, so noise of the reference does not
+/// increase H. For a reference that is linear in time, H is 0 and the standard error is infinite.
 ///
 /// Periodic motion fits at several delays. If the sums of squared residuals of these delays do not
 /// differ significantly (three standard deviations), the smallest absolute delay is returned.
 ///
-/// If the model explains less than 0.8 of the signal's variance, both are smoothed by moving
-/// averages of up to half of kMaxSignalDelay to either side.
+/// If the model explains less than 0.8 of the signal's variance, signal and reference are smoothed
+/// by moving averages over up to half of kMaxSignalDelay to either side.
 ///
 /// All samples have the same distance `period` [s] in time. Returns nullopt if the model explains
-/// less than a tenth of the signal's variance, or not significantly more than at the best delay of
-/// noise. Also returns nullopt if the best delay exceeds kMaxSignalDelay, or if there are fewer
-/// than 4 kMaxSignalDelay/period samples. The cost is at most 1.5 s.
+/// less than a tenth of the signal's variance, or not significantly more than pure noise would
+/// explain at its best delay. Also returns nullopt if the best delay exceeds kMaxSignalDelay, or if
+/// there are fewer than 4 kMaxSignalDelay/period samples. The cost is at most 1.5 s.
 std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
                                      const std::vector<double>& signal,
                                      const std::vector<bool>& valid, double period);
