@@ -22,8 +22,8 @@
 // with equal names in several runs form the pairs; for a single run, all pairs of its plants are
 // compared. The differences are computed again from the logs. If the maxima of the recomputed
 // differences do not match compare.json, the logs have changed, and the report fails with
-// InputError. The curves of all pairs share a limit on the number of rows, to which they are
-// thinned.
+// InputError. The curves are thinned, so that the curves of all pairs together do not exceed a
+// limit on the number of rows.
 namespace trackbed {
 namespace {
 

@@ -7,8 +7,7 @@
 
 namespace trackbed {
 
-/// Returns the name of the log column whose values the page's data contain under `name` in a
-/// plant's `log`.
+/// Returns the name of the column of a plant's log file that is called `name` in the page's data.
 const char* ColumnOfChannel(const std::string& name);
 
 /// Whether the folder contains a finished run.

@@ -9,11 +9,11 @@ namespace trackbed {
 
 /// Returns the data of a search for failures; `table` contains the runs of the search and was read
 /// from `file`. The data consist of the outcome of the search, the margins of each key, and the
-/// tried parts of each key's range. After each run, they give the lowest robustness found so far.
-/// Returns null if `file` is not in the folder of a search.
+/// tried parts of each key's range. The data also contain the lowest robustness that the search had
+/// found after each run. Returns null if `file` is not in the folder of a search.
 ///
 /// Throws InputError naming the file if falsify.json or sweep.json is invalid, or if falsify.json
-/// describes other runs than the table.
+/// does not describe the runs in the table.
 nlohmann::ordered_json SearchData(const std::filesystem::path& file, const TextTable& table);
 
 }  // namespace trackbed

@@ -13,11 +13,11 @@
 
 // Computes the statistics of a study for its page (statistics.h): the pass rate, and statistics of
 // each output. The statistics of an output are its quantiles, its distribution function, and its
-// first-order sensitivity to each varied parameter. The statistics include its mean in each class
-// of a parameter, and its rank correlations with other outputs. Only rows with a result enter the
-// statistics; outputs with fewer than 20 values are omitted. For large studies, StudyRowsToShow
-// selects evenly spaced rows, plus the rows with the ten lowest and ten highest values of each
-// output.
+// first-order sensitivity to each varied parameter. The statistics of an output also include its
+// mean in each class of a parameter, and its rank correlations with other outputs. Only rows with a
+// result enter the statistics; outputs with fewer than 20 values are omitted. For large studies,
+// StudyRowsToShow selects evenly spaced rows, plus the rows with the ten lowest and ten highest
+// values of each output.
 namespace trackbed {
 namespace {
 

@@ -1,8 +1,8 @@
 // Draws the map of a run, with x to the right and y up, in meters.
 // 1. The extent contains the plans, the driven paths and the obstacles. The scales of x and y are
 //    equal, unless the path is long and narrow.
-// 2. Layers from bottom to top: roads, friction patches, track edges, plans, cones, walls,
-//    obstacles, driven paths, cars.
+// 2. The map has these layers, from bottom to top: roads, friction patches, track edges, plans,
+//    cones, walls, obstacles, driven paths, cars.
 // 3. One driven path is colored by the distance between the cars, or by the cross-track error.
 // 4. A button enlarges the distances from the path by the factor LATERAL.
 // Also draws the clock that plays back the run.

@@ -1,7 +1,9 @@
 // Draws the page of a study: the outputs over the parameters, and the table of all rows.
 // 1. Columns are divided by their kind: parameters, status, outputs.
-// 2. drawPlots draws the outputs over the parameter that the user selects, colored by another one.
-// 3. A dot is a row; pointing at it shows the row in the tooltip, the other plots and the table.
+// 2. drawPlots draws the outputs over a parameter that the user selects. Another parameter
+//    determines the color.
+// 3. Each dot is a row of the study. Pointing at a dot shows its row in the tooltip, in all plots
+//    and in the table.
 // 4. drawStudyTable sorts and filters the rows.
 
 function drawStudy(study) {

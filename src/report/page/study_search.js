@@ -1,6 +1,6 @@
 // Draws the page of a search for failures: the result, the margins of each key, the history, and
 // the tried parts of the ranges.
-// 1. The margin of a key is the distance from the nominal value to the values that failed.
+// 1. The margin of a key is the distance from its nominal value to the values at which runs failed.
 // 2. The history shows the robustness of each run in the order of the runs; below 0, a run failed.
 // 3. Each run has a symbol and a color by its phase: nominal point, search, shrinking.
 
