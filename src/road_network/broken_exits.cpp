@@ -35,7 +35,7 @@ class Exits {
   }
 
  private:
-  /// Adds a part that is left out; returns whether the part is left out.
+  /// Adds a part of the network if the reader left the part out. Returns whether it was left out.
   bool AddBroken(const std::string& part) {
     const auto broken = network_.broken.find(part);
     if (broken != network_.broken.end()) {

@@ -41,8 +41,8 @@ MoveRate RateAt(const std::vector<Move>& moves, double s) {
   return rate;
 }
 
-/// Returns the moves that bring the path back to the points, ordered by station of the places that
-/// need them.
+/// Returns the moves that bring the path back to the points. The moves are ordered by the station
+/// of the point at which the path deviates.
 std::vector<Move> NeededMoves(const Path& path, const std::vector<Piece>& runs) {
   std::vector<Move> moves;
   Vec2 moved(0.0, 0.0);
@@ -65,7 +65,7 @@ Vec2 TangentAt(double yaw) {
   return {std::cos(yaw), std::sin(yaw)};
 }
 
-/// Returns heading and curvature of the moved path. The distance stays that of the path before.
+/// Returns heading and curvature of the moved path. The station of the point stays unchanged.
 CurvePoint Moved(const CurvePoint& point, const MoveRate& rate) {
   const Vec2 tangent = TangentAt(point.yaw);
   const Vec2 first = tangent + rate.first;
@@ -90,7 +90,8 @@ bool CloseGaps(const Path& path, std::vector<Piece>& runs) {
   if (moves.empty()) {
     return false;
   }
-  // Moves overlap only with moves of places nearby. `active` holds those near the current point.
+  // A move overlaps only with moves at nearby stations. `active` contains the moves near the
+  // current point.
   std::vector<Move> by_start = moves;
   std::stable_sort(by_start.begin(), by_start.end(),
                    [](const Move& a, const Move& b) { return a.from < b.from; });

@@ -30,12 +30,13 @@ namespace {
 constexpr double kSpacing = 0.25;
 constexpr double kKink = 1e-6;    // Largest kink that is not rounded [rad].
 constexpr double kMaxKink = 0.2;  // Largest kink that is rounded [rad].
-// Largest step of curvature that is rounded as a kink is [1/m]: rounding moves the line by 1e-3/24
-// m, 0.04 mm. Joints of a bank or of a climb on a bank, and rounded numbers in a file, cause such
-// steps. A planner would reserve time for turning the wheels at each step.
+// Largest step of curvature that is rounded in the same way as a kink [1/m]. Rounding the largest
+// step moves the line by 1e-3/24 m, which is 0.04 mm. Steps of this size are caused by joints of
+// superelevation or elevation polynomials, and by rounded numbers in a file. Without rounding, a
+// planner would reserve time for turning the wheels at each step.
 constexpr double kCurvatureStep = 1e-3;
-// Change of the curvature that counts as 0 [1/m]; a curvature of this size turns a line of 100 km
-// by 1e-4 rad.
+// Largest change of the curvature that counts as 0 [1/m]. Along 100 km, a curvature of this size
+// changes the heading by 1e-4 rad.
 constexpr double kSameCurvature = 1e-9;
 // Length of the center line that rounding replaces on either side of a kink [m].
 constexpr double kRounding = 0.5;
@@ -127,9 +128,9 @@ SurfaceLine StateAt(const RoadStretch& own, double s, double piece_of) {
   return SurfaceLineAt(own.road, own.Offset(s, piece_of), s, piece_of);
 }
 
-/// Returns what is wrong with a lane center that lies beyond the road's center of curvature
-/// (SurfaceLine::folded), or that turns too much between two points that are `step` apart. Returns
-/// "" if nothing is wrong.
+/// Returns an error message if a lane center lies beyond the road's center of curvature
+/// (SurfaceLine::folded). Also returns an error message if the lane center turns too much between
+/// two points that are `step` apart. Returns "" if the lane center is valid.
 std::string ShapeProblem(const SurfaceLine& before, const SurfaceLine& state, double step) {
   if (state.folded) {
     return "lies beyond the road's center of curvature";
@@ -145,7 +146,8 @@ std::string ShapeProblem(const SurfaceLine& before, const SurfaceLine& state, do
       turn, step, curvature, state.position.x(), state.position.y());
 }
 
-/// The smooth pieces of a stretch's lane center in driving direction, or why there are none.
+/// The smooth pieces of a stretch's lane center in driving direction, or the reason why the lane
+/// center has no pieces.
 struct SmoothCenter {
   std::vector<Piece> pieces;
   std::string failure;
@@ -199,7 +201,7 @@ std::string Place(const Piece& piece) {
 /// Counts the gaps of more than kKeptOffset, and keeps the largest one.
 class Gaps {
  public:
-  /// Adds a gap of `size` [m]; `place` is for people.
+  /// Adds a gap of `size` [m]; `place` names its position in the note.
   void Add(double size, const std::string& place) {
     if (size <= kKeptOffset) {
       return;
@@ -210,7 +212,8 @@ class Gaps {
       place_ = place;
     }
   }
-  /// Returns a note that states number, size and place; empty if there are no gaps.
+  /// Returns a note that states the number of gaps, and size and place of the largest gap. Returns
+  /// an empty text if there are no gaps.
   [[nodiscard]] std::string Note() const {
     if (count_ == 0) {
       return "";
@@ -273,8 +276,8 @@ class Joiner {
     while (first + 1 != piece.end() && first->curve.s < end.s + kRounding) {
       ++first;
     }
-    // The segment across the joint stays short, so that it follows also pieces that are shorter
-    // than the rounding.
+    // Keep the segment across the joint short, so that the segment also follows pieces that are
+    // shorter than the rounding.
     while (before.size() > 1 && before.back().curve.s > end.s - kRounding &&
            first->curve.s - before[before.size() - 2].curve.s <= kLongestRounding) {
       before.pop_back();
@@ -293,7 +296,7 @@ class Joiner {
   /// Builds the path, which follows the lane centers also beyond gaps and kinks.
   [[nodiscard]] Path Join() {
     // The first pass moves the path. Later passes correct the error of the segments through the
-    // moved points, which is smaller than the moves by more than a factor of ten.
+    // moved points. Each error is less than a tenth of the preceding move.
     constexpr int kPasses = 4;
     Path path = Through();
     for (int i = 0; i < kPasses && CloseGaps(path, runs_); ++i) {
@@ -342,7 +345,7 @@ class Joiner {
 double Deviation(const Path& path, const std::vector<Piece>& pieces) {
   double worst = 0.0;
   double station = 0.0;
-  double ahead = 0.0;  // By how much gaps make the path longer than the pieces so far [m].
+  double ahead = 0.0;  // Length that gaps have added to the path so far [m].
   for (const Piece& piece : pieces) {
     for (const CenterPoint& point : piece) {
       const auto at = [&] {

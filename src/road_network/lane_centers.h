@@ -16,7 +16,7 @@ struct JoinedPath {
   /// Message that explains why the lane centers cannot be joined; empty on success.
   std::string failure;
   Path path;
-  std::string note;        ///< gaps that the path closes, for people; empty without gaps
+  std::string note;        ///< note on the gaps that the path closes; empty without gaps
   double deviation = 0.0;  ///< largest distance of the path from the lane centers [m]
 };
 

@@ -39,8 +39,8 @@ class LaneGraph {
   /// is O(n log n) for n lanes.
   [[nodiscard]] std::vector<std::size_t> ShortestWay(std::size_t from, std::size_t to) const;
 
-  /// Returns the broken parts of the file at which the paths from a lane end, for people, at most
-  /// three. Broken parts are links to roads, junctions or lanes that are missing or left out.
+  /// Returns at most three texts for messages: the broken parts of the file at which the paths from
+  /// a lane end. Broken parts are links to roads, junctions or lanes that are missing or left out.
   [[nodiscard]] std::vector<std::string> BrokenPartsFrom(std::size_t from) const;
 
  private:

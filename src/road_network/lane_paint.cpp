@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWidth = 0.12;      // Width of a line [m].
 constexpr double kDash = 3.0;        // Length of a dash [m].
-constexpr double kDashPeriod = 9.0;  // Distance from the start of a dash to the next [m].
+constexpr double kDashPeriod = 9.0;  // Distance between the starts of two successive dashes [m].
 
 /// Ends of a bound [cm].
 using BoundEnds = std::array<long long, 4>;

@@ -102,8 +102,8 @@ Pose2 PoseAt(const RoadNetwork& network, const LanePlace& place) {
   const Road& road = network.roads.find(place.road)->second;
   const bool follows = FollowsRoad(road, place.lane);
   const std::size_t section = road.SectionAt(place.s);
-  // A route begins on the polynomials beyond merged joints, so less than 1 cm before a kink the
-  // pose has the heading beyond the kink.
+  // The first pose of a route is computed from the polynomials beyond merged joints. If the route
+  // begins less than 1 cm before a kink, the pose therefore has the heading beyond the kink.
   const double beyond = std::clamp(place.s + (follows ? 2.0 : -2.0) * kMergedJoints,
                                    road.sections[section].s, road.SectionEnd(section));
   const double piece_of = 0.5 * (place.s + beyond);

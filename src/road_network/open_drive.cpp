@@ -23,8 +23,8 @@ using tinyxml2::XMLElement;
 /// gigabytes of memory.
 constexpr std::ptrdiff_t kMaxElements = 4000000;
 
-/// Refuses other major versions than 1. A missing header or version is a flaw: the roads are read
-/// as those of 1.4 to 1.7.
+/// Refuses files of OpenDRIVE whose major version is not 1. A missing header or version is a flaw,
+/// and the roads are read as roads of OpenDRIVE 1.4 to 1.7.
 void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& problems) {
   XmlProblems flaws(problems.file());
   const XmlFields fields(root, "OpenDRIVE", flaws);
@@ -133,7 +133,8 @@ class Parts {
   std::set<std::string> ids_;
 };
 
-/// Shortens notes that begin at the note `from` to a few.
+/// Keeps only the first notes after the index `from`, and replaces the remaining notes by their
+/// number.
 void Shorten(std::vector<std::string>& notes, std::size_t from, const char* what) {
   constexpr std::size_t kMaxListed = 5;
   const std::size_t count = notes.size() - from;

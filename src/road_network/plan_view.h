@@ -5,7 +5,8 @@
 namespace trackbed {
 
 /// Reads the reference line of a road from its <planView>. If the plan view has an error, returns
-/// an empty reference line. Coordinates count from the place `origin` of the file [m].
+/// an empty reference line. The returned coordinates are relative to the point `origin` of the file
+/// [m].
 ReferenceLine ReadPlanView(const XmlFields& road, const Vec2& origin);
 
 /// Reads the length of a road [m]. If the attribute is missing or wrong by more than 0.1 m, notes a

@@ -247,7 +247,7 @@ Road ReadRoad(const XMLElement& element, const Vec2& origin, XmlProblems& proble
   const XmlFields lane_fields(*lanes, fields.where() + ".lanes", problems);
   road.lane_offset = ReadCubics(lanes, "laneOffset", "s", lane_fields.where(), problems);
   road.sections = ReadLaneSections(lane_fields, road, road.unread_heights);
-  // The attribute `level` of a lane changes nothing on a road that is level across.
+  // On a road without lateral slope, the attribute `level` of a lane has no effect.
   if (IsZero(road.superelevation) && road.shape.empty()) {
     std::erase(road.unread_heights, "level lane");
   }

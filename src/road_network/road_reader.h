@@ -12,8 +12,8 @@
 namespace trackbed {
 
 /// Reads a <road> element, and adds its errors to `problems`. Adds links with errors to
-/// RoadNetwork::broken; these links are left out. Coordinates count from the place `origin` of the
-/// file [m].
+/// RoadNetwork::broken; these links are left out. The coordinates of the road are relative to the
+/// point `origin` of the file [m].
 Road ReadRoad(const tinyxml2::XMLElement& element, const Vec2& origin, XmlProblems& problems,
               RoadNetwork& network);
 

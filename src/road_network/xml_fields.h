@@ -37,7 +37,7 @@ class XmlProblems {
   void AddFlaw(std::string flaw) { flaws_.push_back(std::move(flaw)); }
   /// Adds the problems of `part`, a part of the file that is left out, as flaws.
   void AddFlaws(const XmlProblems& part);
-  /// Adds the problems of `part` as problems, and its flaws as flaws.
+  /// Adds the problems of `part` to the problems, and the flaws of `part` to the flaws.
   void Append(const XmlProblems& part);
 
   [[nodiscard]] bool empty() const { return problems_.empty(); }
