@@ -106,7 +106,8 @@ class ValueChecker final : public NumberVisitor {
 using Found = std::vector<std::pair<std::string, std::string>>;
 
 /// Checks that the content of a file that the scenario names was read. A program may set the
-/// content without a name; the function then names the file, because the key is required.
+/// content without a file name. In this case, the function sets `file` to a placeholder name,
+/// because the key is required.
 void CheckContent(const std::string& key, bool is_read, std::string& file, Found& found) {
   if (is_read && file.empty()) {
     file = "content set by the program";
@@ -116,7 +117,8 @@ void CheckContent(const std::string& key, bool is_read, std::string& file, Found
   }
 }
 
-/// Checks that the content of each file was read, and names the files without a name.
+/// Checks that the content of each file was read, and sets a placeholder name for files without a
+/// name.
 Found CheckContents(Scenario& scenario) {
   Found found;
   if (auto& record = scenario.record) {

@@ -8,10 +8,10 @@
 
 namespace trackbed {
 
-/// Returns the problem of a camera's name; "" for the name of a camera.
+/// Returns an error message if `camera` is not the name of a camera, else "".
 std::string CameraProblem(const std::string& camera);
 
-/// Returns why a list of numbers is no local origin; "" for an origin.
+/// Returns an error message if the list of numbers is not a valid local origin, else "".
 std::string OriginProblem(const std::vector<double>& origin);
 
 /// Returns the problems of single values of a scenario, each paired with its dotted key: numbers

@@ -64,8 +64,8 @@ std::string PlannersWithHeadings() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Explains why the leg to waypoint `i` from the same point is not valid; returns an empty text if
-/// the car turns there from one heading to another.
+/// Explains why waypoint `i` must not be at the same point as the previous waypoint. Returns an
+/// empty text if the car turns at this point from one heading to another.
 std::string WhyNotInPlace(const Scenario& scenario, std::size_t i) {
   const MissionSpec& mission = scenario.mission;
   const char* what = "same point as the previous waypoint";
@@ -89,8 +89,8 @@ std::string WhyNotInPlace(const Scenario& scenario, std::size_t i) {
   return "";
 }
 
-/// Reports waypoints at the same point as the previous one, unless the car turns there. The car
-/// need not start at the first waypoint.
+/// Reports waypoints at the same point as the previous waypoint, unless the car turns at this
+/// point. The second waypoint may be equal to the first one if the car starts at another point.
 void CheckEqualWaypoints(Diagnostics& c) {
   const MissionSpec& mission = c.scenario.mission;
   if (!c.CouldReadPlan({"method"}) || !c.CouldRead({"mission.headings", "mission.start.yaw"})) {

@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-/// Height of all obstacles [m]; CommonRoad has none.
+/// Height of all obstacles [m], because CommonRoad files specify no heights.
 constexpr double kObstacleHeight = 1.5;
 
 /// Returns the condition that the car's center is in a region, as a formula over the position of
@@ -58,8 +58,9 @@ std::string GoalFormula(const CommonRoadScenario& scenario) {
                                      goal.speed->first, goal.speed->second));
   }
   if (goal.orientation) {
-    // The interval nearest to the route's heading. A plan begins with a heading from -pi to pi, and
-    // the initial state may have another by a whole turn.
+    // Use the interval nearest to the route's heading, and the intervals one turn away. The heading
+    // of a plan begins between -pi and pi; the heading of the initial state may differ by a whole
+    // turn.
     const double middle = 0.5 * (goal.orientation->first + goal.orientation->second);
     const double half = 0.5 * (goal.orientation->second - goal.orientation->first);
     const double yaw = scenario.goal_yaw + AngleDifference(middle, scenario.goal_yaw);
@@ -73,7 +74,8 @@ std::string GoalFormula(const CommonRoadScenario& scenario) {
   if (conditions.empty()) {
     conditions.emplace_back("t_s >= 0");
   }
-  // A formula refuses later times. No run takes as long, so that the goal has no latest time then.
+  // A formula rejects bounds beyond kMaxTimeBound. No run takes that long, so the formula has no
+  // time bounds if the goal's latest time is beyond kMaxTimeBound.
   constexpr double kMaxTimeBound = 1e6;  // [s]
   const std::string interval =
       goal.time.second <= kMaxTimeBound

@@ -17,7 +17,8 @@
 // 1. Each function Check... tests one condition, and adds its problem at the key that the user
 //    should change.
 // 2. A condition is tested only if its keys could be read, so that one mistake causes one message.
-// 3. CrossProblems calls all of them. The conditions of a method belong to its entry (check).
+// 3. CrossProblems calls all of these functions. The conditions of a single method, such as a
+//    planner, are in the registry entry of the method (`check`).
 namespace trackbed {
 namespace {
 
@@ -201,9 +202,9 @@ void CheckGusts(Diagnostics& c) {
   }
 }
 
-/// Largest speed of an obstacle [m/s], as of world.obstacles[N].velocity.
+/// Largest speed of an obstacle [m/s], equal to the limit of world.obstacles[N].velocity.
 constexpr double kMaxObstacleSpeed = 100.0;
-/// Permitted difference of poses that must be the same [m] and [rad].
+/// Permitted difference between poses that must be equal [m], [rad].
 constexpr double kSamePlace = 1e-3;
 
 /// Checks the poses through which an obstacle moves.

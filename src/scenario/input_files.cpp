@@ -132,7 +132,7 @@ Scenario WithResolvedFiles(const Scenario& scenario) {
   }
   if (auto& track = resolved.mission.track) {
     track->file = kTrackCsv;
-    track->width.reset();  // TrackCsv writes the widths
+    track->width.reset();  // the file written by TrackCsv contains the widths
   }
   if (HasOwnVehicle(scenario.vehicle)) {
     resolved.vehicle.model = kVehicleXml;

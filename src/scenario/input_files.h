@@ -5,8 +5,8 @@
 namespace trackbed {
 
 /// Returns the scenario with each file name replaced by the name of the file's copy in a run
-/// folder. The name is kVehicleXml for the vehicle, and the one that InputFiles defines for every
-/// other file.
+/// folder. The copy of the vehicle file is named kVehicleXml. InputFiles defines the names of all
+/// other copies.
 Scenario WithResolvedFiles(const Scenario& scenario);
 
 }  // namespace trackbed

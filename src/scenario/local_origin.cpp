@@ -26,18 +26,20 @@
 #include "trackbed/track/track.h"
 
 // Moves a scenario to its local origin. The function Visit of a scenario declares which keys are
-// coordinates (map_range.h), so every such key is found (place_visitor.h). Further coordinates are
-// in the contents of files: record, track, map, road network, and path. The origin is the middle of
-// the box around all places. The coordinates of the origin are whole meters, so that
-// a coordinate of the file minus the origin, plus the origin, is the same number to the last bit.
+// coordinates (map_range.h). PlaceVisitor finds all of these keys (place_visitor.h). Further
+// coordinates are in the contents of files: record, track, map, road network, and path. The origin
+// is the middle of the box around all places. The coordinates of the origin are whole meters.
+// Therefore, subtracting the origin from a coordinate of the file and adding the origin again
+// yields exactly the same number.
 namespace trackbed {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A chosen origin is a multiple of this distance [m].
+/// The coordinates of an automatically chosen origin are multiples of this distance [m].
 constexpr double kOriginStep = 1000.0;
 
-/// The smallest rectangle along the axes around some points; low > high without a coordinate.
+/// The smallest axis-aligned rectangle around some points. On an axis without coordinates, low >
+/// high.
 struct Bounds2 {
   Vec2 low{kInfinity, kInfinity};
   Vec2 high{-kInfinity, -kInfinity};
@@ -55,7 +57,8 @@ struct Bounds2 {
     low = low.cwiseMin(other.low);
     high = high.cwiseMax(other.high);
   }
-  /// Returns the larger of the distances from a point in x and in y [m]; 0 inside.
+  /// Returns the distance between the rectangle and a point along x or along y, whichever is larger
+  /// [m]; 0 for a point in the rectangle.
   [[nodiscard]] double DistanceFrom(const Vec2& point) const {
     double distance = 0.0;
     for (int i = 0; i < 2; ++i) {
@@ -65,7 +68,7 @@ struct Bounds2 {
     }
     return distance;
   }
-  /// Returns whether a coordinate of the bounds exceeds kOriginReach.
+  /// Returns whether the magnitude of a coordinate of the rectangle exceeds kOriginReach.
   [[nodiscard]] bool IsFar() const {
     return low.minCoeff() < -kOriginReach || high.maxCoeff() > kOriginReach;
   }
@@ -75,14 +78,14 @@ struct Bounds2 {
   }
 };
 
-/// Places that belong together: those of one key, or of one file.
+/// Places that belong together: the places of one key, or the places in one file.
 struct Site {
   std::string key;
   std::string name;
   Bounds2 bounds;
 };
 
-/// Formats a coordinate with centimeters.
+/// Formats the coordinates of a point with two decimals.
 std::string Show(const Vec2& point) {
   return fmt::format("({:.2f}, {:.2f})", point.x(), point.y());
 }
@@ -187,7 +190,8 @@ Bounds2 Moved(Bounds2 bounds, const Vec2& by) {
   return {bounds.low + by, bounds.high + by};
 }
 
-/// Returns the header's offset if the roads are near `place` only with it, otherwise (0, 0).
+/// Returns the header's offset if the roads are near `place` only after adding the offset;
+/// otherwise (0, 0).
 Vec2 OffsetNear(const OpenDriveFile& file, const Bounds2& roads, const Vec2& place) {
   const bool is_near = roads.DistanceFrom(place) <= kOriginReach + kOriginStep;
   const bool is_usable = file.offset != Vec2::Zero() && file.offset_heading == 0.0;
@@ -197,8 +201,8 @@ Vec2 OffsetNear(const OpenDriveFile& file, const Bounds2& roads, const Vec2& pla
              : Vec2(Vec2::Zero());
 }
 
-/// Returns the problem that two places are too far from each other. The two places are those whose
-/// coordinates differ most in x or y.
+/// Returns the key and the message of the problem that places are too far from each other. The
+/// message names the two places whose coordinates differ most in x or y.
 std::pair<std::string, std::string> MixedProblem(const std::vector<Site>& sites) {
   const Site* near = &sites.front();
   const Site* far = &sites.front();
@@ -269,8 +273,9 @@ void TranslateKeys(Struct& value, const Vec2& by) {
 }
 
 /// Moves the scenario to an origin. Makes the start explicit where it would otherwise differ from
-/// the start in the resolved form. This concerns a start at (0, 0) by default, and a start on a
-/// fitted curve, which is rounded to a number that the resolved form can state.
+/// the start in the resolved form. The start would differ in two cases: a start at the default (0,
+/// 0), and a start on a fitted curve. The latter is rounded to a number that the resolved form can
+/// state.
 void Move(Scenario& scenario, const Vec2& origin) {
   const Vec2 before = InitialState(scenario).pose.position();
   TranslateKeys(scenario, -origin);
@@ -281,7 +286,8 @@ void Move(Scenario& scenario, const Vec2& origin) {
       AddRouteGround(scenario.mission.route, scenario.world);
     }
   }
-  // A start at (0, 0) by default follows from no place, and has not moved.
+  // A start at the default (0, 0) does not depend on any place, so TranslateKeys has not moved the
+  // start.
   const Vec2 after = InitialState(scenario).pose.position();
   const bool is_default = after == before && !HasRoute(scenario);
   const Vec2 start = is_default ? Vec2(after - origin) : after;
@@ -307,7 +313,7 @@ std::optional<std::pair<std::string, std::string>> MoveToLocalOrigin(Scenario& s
   for (Site& site : SitesOfFiles(scenario)) {
     sites.push_back(std::move(site));
   }
-  // A key with one coordinate alone is that of a map or of the start, which are sites themselves.
+  // A key with only one coordinate belongs to a map or to the start, which are separate sites.
   std::erase_if(sites, [](const Site& site) {
     return !(site.bounds.low.array() <= site.bounds.high.array()).all();
   });

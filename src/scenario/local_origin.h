@@ -18,11 +18,11 @@ namespace trackbed {
 /// are all this near to (0, 0) needs no local origin.
 inline constexpr double kOriginReach = 1e5;
 
-/// Moves all places of a scenario to its local origin: `scenario.origin` if it is set, otherwise an
-/// origin that is chosen if a coordinate exceeds kOriginReach. Sets Scenario::origin. The start of
-/// a moved scenario becomes explicit, so that its resolved form has the same start to the last
-/// bit. The scenario must have been read without problems. Returns the key and the message of a
-/// problem if the places are in different coordinates.
+/// Moves all places of a scenario to its local origin: `scenario.origin` if it is set. Otherwise,
+/// chooses an origin if a coordinate exceeds kOriginReach. Sets Scenario::origin. The start of a
+/// moved scenario becomes explicit, so that the resolved scenario has exactly the same start. The
+/// scenario must have been read without problems. Returns the key and the message of a problem if
+/// the places are in different coordinate systems.
 std::optional<std::pair<std::string, std::string>> MoveToLocalOrigin(Scenario& scenario);
 
 /// Returns the scenario in the coordinates of the scenario file: the inverse of MoveToLocalOrigin,
@@ -36,12 +36,13 @@ Vec2 ReadOrigin(const std::filesystem::path& file);
 /// Returns a track whose points are moved by a vector [m].
 Track Moved(const Track& track, const Vec2& by);
 
-/// Moves the keys of a world, its map and its roads, which count from (0, 0) of the scenario's
-/// file, to a local origin.
+/// Moves the keys of a world, its map and its roads from the coordinates of the scenario file to
+/// coordinates relative to a local origin.
 void MoveToOrigin(World& world, const Vec2& origin);
 
-/// Returns a road network whose roads count from a local origin of the scenario. The header's
-/// offset is added to the coordinates of the file if only then the roads are near the origin.
+/// Returns a road network whose coordinates are relative to a local origin of the scenario. If the
+/// roads are near the origin only with the header's offset, the offset is added to the coordinates
+/// of the file.
 OpenDriveFile RoadsFrom(OpenDriveFile roads, const Vec2& origin);
 
 }  // namespace trackbed

@@ -60,8 +60,8 @@ std::string ReadMapFile(const fs::path& file) {
   }
 }
 
-/// Removes the keys that other programs add to a map, as map_server ignores them. Keeps those that
-/// may be misspelled, which the reader refuses.
+/// Removes the keys that other programs add to a map, because map_server also ignores these keys.
+/// Keeps keys that may be misspelled, so that the reader refuses the file.
 void RemoveOtherKeys(YAML::Node& root) {
   static const std::vector<std::string> known{"image",           "resolution",  "origin", "negate",
                                               "occupied_thresh", "free_thresh", "mode"};
@@ -115,8 +115,9 @@ MapCell CellOf(const RosMapKeys& map, const MapImage& image, std::size_t pixel) 
                                     : MapCell::kUnknown;
 }
 
-/// Returns the file of the image. map_saver and Cartographer write absolute paths, which other
-/// machines do not have; such a path stands for the file of the same name beside the map.
+/// Returns the file of the image. The programs map_saver and Cartographer write absolute paths,
+/// which other machines do not have. Such a path is replaced by the file of the same name beside
+/// the map.
 fs::path ImageFile(const fs::path& file, const std::string& image) {
   const fs::path named = file.parent_path() / image;
   std::error_code ignored;

@@ -48,8 +48,8 @@ class PgmNumbers {
     return number;
   }
 
-  /// Returns the part of the file after the last number that Next returned and the blank that
-  /// follows this number.
+  /// Returns the rest of the file. The rest begins after the blank that follows the last number
+  /// that Next returned.
   [[nodiscard]] std::string_view AfterBlank() const {
     return rest_.empty() ? rest_ : rest_.substr(1);
   }

@@ -21,7 +21,7 @@ enum class MapAxis { kX, kY };
 class PlaceVisitor final : public NumberVisitor {
  public:
   /// The argument `place` is the dotted key of the place, such as "world.obstacles[0].box" or
-  /// "mission.waypoints[2]"; both coordinates of a place have the same.
+  /// "mission.waypoints[2]"; both coordinates of a place have the same key `place`.
   using Take = std::function<void(const std::string& place, MapAxis axis, double& value)>;
 
   explicit PlaceVisitor(Take take) : take_(std::move(take)) {}

@@ -31,9 +31,10 @@ struct ReaderContext {
   /// Returns whether the key was read; for a list, whether every element was read.
   [[nodiscard]] bool Read(std::string_view dotted) const;
 
-  /// Returns a hint for the key `unknown` of the section `node`. If the option --set has set the
-  /// method of the section, the key may belong to the method that the file names. A local planner
-  /// or replanner needs the section of the planner beside it. Otherwise returns an empty text.
+  /// Returns a hint for the key `unknown` of the section `node`. The hint has one of two reasons.
+  /// If the option --set has set the method of the section, the key may belong to the method that
+  /// the file names. If the unknown key is a local planner or a replanner, the global planner needs
+  /// a section of its own. Without a hint, returns an empty text.
   [[nodiscard]] std::string MethodHint(const std::string& section, const YAML::Node& node,
                                        const std::string& unknown) const;
 

@@ -24,7 +24,8 @@ std::string AddRouteGround(const std::vector<LanePlace>& route, World& world);
 /// mission's route as ground (AddRouteGround). ReadRouteGround does nothing if the mission has no
 /// route. Throws the same errors as ReadOpenDrive. Throws InputError if the mission cannot be read,
 /// if the file of the road network lies outside the scenario's folder, or if the elevation cannot
-/// be used as ground. The roads count from the local origin `origin` of the scenario.
+/// be used as ground. The coordinates of the roads become relative to the local origin `origin` of
+/// the scenario.
 void ReadRouteGround(const std::filesystem::path& scenario, const Vec2& origin, World& world);
 
 }  // namespace trackbed

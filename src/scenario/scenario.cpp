@@ -40,8 +40,8 @@
 // Reads a scenario. ReadScenario parses the YAML, applies the overrides, visits all keys (visit.h)
 // and reads the files that the keys name (inputs.cpp). Finally, ReadScenario checks rules between
 // keys (cross_check.cpp), requirements and names of metrics. All problems are collected and
-// reported in the order of the file. ResolvedYaml converts a scenario that was read to YAML (the
-// resolved scenario). A CommonRoad scenario is first converted to YAML. The resolved scenario
+// reported in the order of the file. A CommonRoad scenario is converted to YAML before it is
+// parsed. ResolvedYaml writes a scenario as YAML (the resolved scenario). The resolved scenario
 // contains all default values explicitly; its file names are the names of the copies in a run
 // folder.
 namespace trackbed {
@@ -60,8 +60,8 @@ void DropUnusedExpectations(Scenario& scenario) {
   });
 }
 
-/// Returns why the key `origin` is no local origin; "" for an origin and for another kind of node,
-/// which the reader reports.
+/// Returns an error message if the list in the key `origin` is not a local origin, else "". The
+/// reader reports nodes that are not lists.
 std::string OriginError(const YAML::Node& node) {
   if (!node || !node.IsSequence()) {
     return "";
@@ -73,7 +73,8 @@ std::string OriginError(const YAML::Node& node) {
   return OriginProblem(numbers);
 }
 
-/// Throws InputError if a file is a study: each of its keys would be an unknown key.
+/// Throws InputError if a file is a study. Otherwise, the reader would report each key of the study
+/// as unknown.
 void RefuseStudy(const YAML::Node& root, const std::string& file) {
   const YAML::Node named = root["scenario"];
   if (named && !root["mission"] && !root["drive"]) {
@@ -102,7 +103,7 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   Scenario scenario;
   scenario.folder = folder;
   scenario.asset_folders = asset_folders;
-  // The section `vehicle` is visited before the section `plan`.
+  // This function may use the vehicle, because Visit reads the section `vehicle` before `plan`.
   context.car_length_scale = [&] { return CarLengthScale(scenario); };
   YamlReader reader(context, root, "");
   Visit(reader, scenario);

@@ -6,7 +6,8 @@
 
 namespace trackbed {
 
-/// Writes a scenario whose files have the names of their copies.
+/// Returns the YAML text of a resolved scenario, whose file names are the names of the copies in a
+/// run folder.
 std::string YamlOf(const Scenario& resolved);
 
 }  // namespace trackbed

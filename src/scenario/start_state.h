@@ -16,7 +16,8 @@ double NeutralSteering(const Scenario& scenario);
 
 /// Returns the initial speed [m/s] if a source other than mission.speed defines the initial speed.
 /// The sources are, in the order of their priority: mission.start.speed, a recording with speeds, a
-/// recorded drive, the speeds of a followed path, up to mission.speed, and control.speed.over_time.
+/// recorded drive, the speeds of a followed path, and control.speed.over_time. A speed of a
+/// followed path is limited to mission.speed.
 std::optional<double> StartSpeedBesideMission(const Scenario& scenario);
 
 /// Returns the initial state of the car, as InitialState does, before the route is known.

@@ -128,8 +128,8 @@ struct BoxKeys {
   Obstacle& obstacle;
 };
 
-/// Reads the box of an obstacle that moves through poses: the center is the pose at time 0 unless
-/// the keys repeat it.
+/// Reads the box of an obstacle that moves through poses. If a coordinate or the yaw of the center
+/// is missing, its value is taken from the pose at time 0.
 inline void VisitMovingBox(KeyVisitor& a, Obstacle& obstacle) {
   OrientedBox& box = obstacle.footprint;
   box.center = {};

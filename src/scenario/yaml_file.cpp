@@ -27,7 +27,8 @@ namespace {
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxValues = 100000;
 constexpr std::size_t kMaxTextBytes = std::size_t{16} << 20U;
-// 40 bytes for each of kMaxValues. yaml-cpp reads about a megabyte per second.
+// The limit allows 40 bytes for each of kMaxValues values. The parser yaml-cpp reads about a
+// megabyte per second.
 constexpr std::size_t kMaxYamlBytes = std::size_t{4} << 20U;
 
 [[noreturn]] void Fail(const std::string& file, const YAML::Mark& mark, std::string message) {

@@ -36,17 +36,17 @@ std::string DescribeWrong(const YAML::Node& node) {
   return DescribeValue(node) + (is_one ? "; write it without quotes" : "");
 }
 
-/// Returns a number of numbers as text: "an empty list", "1 number", "3 numbers".
+/// Returns the length of a list of numbers as text: "an empty list", "1 number", "3 numbers".
 std::string CountNumbers(std::size_t count);
 
-/// Returns the problem of a number that is not finite or outside of the range; "" without one.
+/// Returns an error message if a number is not finite or outside of the range, else "".
 std::string NumberProblem(double number, const Range& range);
 
-/// Returns the problem of a name that cannot be the name of a folder; "" without one.
+/// Returns an error message if a name cannot be the name of a folder, else "".
 std::string FolderNameProblem(const std::string& name);
 
-/// Reads a finite number within the range. Returns "", or the problem of the value; `value` then
-/// stays unchanged.
+/// Reads a finite number within the range. If the node is not such a number, returns an error
+/// message and leaves `value` unchanged; else returns "".
 std::string ParseNumber(const YAML::Node& node, Range range, double& value);
 
 }  // namespace trackbed
