@@ -10,7 +10,7 @@
 namespace trackbed::adapt {
 namespace {
 
-/// Returns the index of the wheel that the body turns with; -1 if it is no wheel's.
+/// Returns the index of the wheel with which the body turns; -1 if the body turns with no wheel.
 int WheelOf(const mjModel& m, const FoundVehicle& vehicle, int body) {
   for (std::size_t w = 0; w < vehicle.wheels.size(); ++w) {
     if (m.body_weldid[body] == m.body_weldid[vehicle.wheels[w].body]) {
@@ -20,7 +20,7 @@ int WheelOf(const mjModel& m, const FoundVehicle& vehicle, int body) {
   return -1;
 }
 
-/// Notes how the base moves, unless by a free joint.
+/// Notes the joints by which the base moves, if none of them is a free joint.
 void NoteBase(const FoundModel& found, const FoundVehicle& vehicle, Findings& findings) {
   const mjModel& m = *found.model;
   std::vector<int> bodies;
@@ -105,7 +105,7 @@ void NoteEqualities(const FoundModel& found, const FoundVehicle& vehicle, Findin
   }
 }
 
-/// Notes joints that the proposed file does not have.
+/// Notes joints of the vehicle that do not become joints in the proposed file.
 void NoteLocked(const FoundModel& found, const FoundVehicle& vehicle, Findings& findings) {
   const mjModel& m = *found.model;
   std::vector<std::string> locked;
@@ -134,7 +134,7 @@ void NoteFaults(const FoundModel& found, const FoundVehicle& vehicle, Findings& 
   NoteBase(found, vehicle, findings);
   NoteEqualities(found, vehicle, findings);
   NoteLocked(found, vehicle, findings);
-  std::set<std::pair<int, int>> rubbing;  // wheels, and geoms that they touch
+  std::set<std::pair<int, int>> rubbing;  // pairs of a wheel and a geom that it touches
   NoteRubbing(found, vehicle, *found.data, "at rest", rubbing, findings);
   // Repeat the search with the front wheels at both ends of their steering ranges.
   const mjModel& m = *found.model;

@@ -108,8 +108,9 @@ void FindCarriers(const FoundModel& found, int base, std::vector<FoundWheel>& wh
   }
 }
 
-/// Returns whether a wheel swivels behind its steering axis, as a caster does. The axis is then
-/// ahead of the wheel, by more than a fifth of its radius, and its joint is not limited.
+/// Returns whether a wheel swivels behind its steering axis, as a caster does. The steering joint
+/// of a caster is not limited. The steering axis is ahead of the wheel by more than a fifth of the
+/// wheel radius.
 bool IsCaster(const FoundModel& found, const FoundWheel& wheel) {
   if (wheel.steer < 0 || found.model->jnt_limited[wheel.steer] != 0) {
     return false;
@@ -133,8 +134,8 @@ void RequireParallel(const FoundModel& found, const std::vector<FoundWheel>& whe
   }
 }
 
-/// Sets the axes of V: z up, y along the wheel axes, x ahead up to its sign. Sorts the wheels from
-/// the rear to the front.
+/// Sets the axes of V: z up, y along the wheel axes, and x forward or backward. Sorts the wheels
+/// from the rear to the front.
 void AlignFrame(std::vector<FoundWheel>& wheels, FoundVehicle& vehicle) {
   Vector left = Vector::Zero();
   for (const FoundWheel& wheel : wheels) {
@@ -170,8 +171,8 @@ int BodyDirection(const FoundModel& found, const FoundVehicle& vehicle) {
   return std::abs(along) < kVertical ? 0 : along > 0.0 ? 1 : -1;
 }
 
-/// Names the hinges between the wheels and the base that are not vertical, for a vehicle that seems
-/// not to steer.
+/// Returns the names of the hinges between the wheels and the base that are not vertical. A message
+/// names them if no steering joint was found.
 std::string OtherHinges(const FoundModel& found, const FoundVehicle& vehicle) {
   const mjModel& m = *found.model;
   std::vector<std::string> names;
@@ -194,8 +195,8 @@ std::string OtherHinges(const FoundModel& found, const FoundVehicle& vehicle) {
                              fmt::join(names, ", "));
 }
 
-/// Turns V such that the steered axle of four wheels is in front, and removes the steering of the
-/// rear axle if only the front shall steer.
+/// For a vehicle with four wheels, turns V such that the steered axle is in front. Removes the
+/// steering of the rear axle if `options.steers_front_only` is true.
 void OrientCar(const FoundModel& found, const AdaptOptions& options, FoundVehicle& vehicle,
                Findings& findings) {
   auto& wheels = vehicle.wheels;
@@ -327,7 +328,7 @@ void Measure(const FoundModel& found, const AdaptOptions& options, FoundVehicle&
     highest = std::max(highest, own);
     lowest = std::min(lowest, own);
   }
-  // A ball has the width of its diameter; a tyre is narrower.
+  // Limit the width to the radius: the width of a ball is its diameter, but a tyre is narrower.
   vehicle.width = std::min(vehicle.width, vehicle.radius);
   const std::size_t rear = wheels.size() - 2;
   const Vector middle = 0.5 * (wheels[rear].round.center + wheels[rear + 1].round.center);

@@ -10,7 +10,8 @@
 
 namespace trackbed::adapt {
 
-/// A wheel of the model as found. Indices are those of the compiled model; -1: there is none.
+/// A wheel that was found in the model. The indices refer to the compiled model; -1 means that the
+/// wheel has no such part.
 struct FoundWheel {
   int body = -1;   ///< Body that turns with the wheel.
   int spin = -1;   ///< Hinge joint of the wheel.
@@ -21,8 +22,8 @@ struct FoundWheel {
   std::string name;               ///< Name of the joint or the body, in quotation marks.
 };
 
-/// A vehicle of the model as found. The vehicle frame V is that of docs/models.md: its origin is on
-/// the ground under the rear axle or the driven axle, x points forward.
+/// A vehicle that was found in the model. The vehicle frame V is that of docs/models.md: its origin
+/// is on the ground under the rear axle or the driven axle, x points forward.
 struct FoundVehicle {
   VehicleKind kind = VehicleKind::kSteered;
   int root = -1;  ///< Body below the world that contains the vehicle.
@@ -51,7 +52,7 @@ struct Findings {
   }
 };
 
-/// Returns the quoted name of a body, joint, geom or actuator; its number if it has no name.
+/// Returns the quoted name of a body, joint, geom or actuator; for an unnamed object, its number.
 std::string NameOf(const mjModel& model, int type, int id);
 
 /// Finds the wheels, the axles and the frame of the vehicle. Throws InputError, with a question and

@@ -9,7 +9,8 @@
 namespace trackbed::adapt {
 namespace {
 
-/// Largest relative deviation from a circle, and offset from the axis relative to the radius.
+/// Largest deviation of a round geom from a circle, and largest offset from the axis, both divided
+/// by the radius.
 constexpr double kOutOfRound = 0.1;
 /// Smallest cosine of the angle between two axes that count as parallel (8 degrees).
 constexpr double kParallel = 0.99;

@@ -16,8 +16,8 @@ Vector ToVector(const mjtNum* numbers);
 /// Rotation matrix from MuJoCo's nine numbers, row by row.
 Matrix ToMatrix(const mjtNum* numbers);
 
-/// Returns the largest coordinate of a geom along the unit vector `direction` [m]. Planes and
-/// height fields have none.
+/// Returns the largest coordinate of a geom along the unit vector `direction` [m]. Returns nullopt
+/// for planes and height fields, which are unbounded.
 std::optional<double> ReachAlong(const mjModel& model, const mjData& data, int geom,
                                  const Vector& direction);
 
@@ -30,8 +30,8 @@ struct RoundGeom {
 };
 
 /// Returns the geom as a wheel about the line through `anchor` along the unit vector `axis`;
-/// nullopt if the geom is not round about this line. The geom may be off the line by a tenth of its
-/// radius, and a mesh may be out of round by as much.
+/// nullopt if the geom is not round about this line. The geom's center may be a tenth of its radius
+/// away from the line, and the radius of a mesh may vary by a tenth.
 std::optional<RoundGeom> RoundAbout(const mjModel& model, const mjData& data, int geom,
                                     const Vector& anchor, const Vector& axis);
 

@@ -21,10 +21,11 @@ namespace {
 
 /// Ranges of steering joints beyond this angle [rad] only keep a joint from turning over.
 constexpr double kLargestLimit = 1.3;
-/// Ranges below this angle [rad] are those of a model whose unit of angles is wrong.
+/// Ranges below this angle [rad] occur in models whose unit of angles is wrong.
 constexpr double kSmallestLimit = 0.05;
 
-/// Returns the range of a joint to the side where it is smaller [rad]; infinite without a range.
+/// Returns the smaller one of a joint's ranges to both sides [rad]; infinite for an unlimited
+/// joint.
 double SmallerSide(const mjModel& m, int joint) {
   const mjtNum* range = m.jnt_range + 2 * joint;
   return m.jnt_limited[joint] != 0 ? std::min(-range[0], range[1])
@@ -36,7 +37,7 @@ struct Range {
   std::string evidence;
 };
 
-/// Returns the range of a joint other than `front` that the joint `front` follows.
+/// Returns the range that the joint `front` has because it is coupled to another joint.
 Range RangeOfLeader(const mjModel& m, int front) {
   for (int i = 0; i < m.neq; ++i) {
     if (m.eq_type[i] != mjEQ_JOINT || m.eq_obj2id[i] < 0 ||
@@ -93,8 +94,8 @@ Range SteeringRange(const mjModel& m, const FoundVehicle& vehicle) {
       leader = std::move(own);
     }
   }
-  // The joint that leads a wheel may be the joint of the other wheel. The range is then an
-  // Ackermann angle of a wheel, not an angle of a joint between the wheels.
+  // A front wheel may be coupled to the other front wheel instead of a joint between the wheels. In
+  // this case, the range is an Ackermann angle of a wheel.
   Range wheel{std::min(SmallerSide(m, left), SmallerSide(m, right)),
               fmt::format("the ranges of the joints {} and {}", NameOf(m, mjOBJ_JOINT, left),
                           NameOf(m, mjOBJ_JOINT, right))};
@@ -147,8 +148,8 @@ void FindSteering(const FoundModel& found, const FoundVehicle& vehicle, const Ad
     limits.steering_limit = range.limit;
     findings.Guess("steering limit", fmt::format("{:.4g} rad", range.limit), range.evidence);
   }
-  // From lock to lock in a second for the wheelbase of a car on roads. Times of models scale with
-  // the root of their length, as for all motions under gravity (Froude).
+  // Assume that a car with the wheelbase kCarWheelbase steers from lock to lock in one second. For
+  // smaller vehicles, times scale with the square root of the length (Froude scaling).
   constexpr double kCarWheelbase = 2.7;  // [m]
   const double lock_to_lock = std::min(std::sqrt(vehicle.wheelbase / kCarWheelbase), 1.0);
   limits.steering_rate = options.steering_rate.value_or(2.0 * limits.steering_limit / lock_to_lock);
@@ -220,7 +221,7 @@ void FindDrive(const FoundModel& found, const FoundVehicle& vehicle, double mass
   const std::string named = fmt::format("{}", fmt::join(motors.names, ", "));
   std::string evidence = "actuators " + named;
   if (motors.names.empty()) {
-    // Rear-wheel drive; with differential drive, both wheels.
+    // Assume rear-wheel drive. With differential drive, these are the two driven wheels.
     const std::size_t first = vehicle.wheels.size() - 2;
     limits.driven[first] = limits.driven[first + 1] = true;
     evidence = "assumed: no actuator acts on a wheel";

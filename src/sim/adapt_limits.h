@@ -24,15 +24,17 @@ struct MassSum {
   Vector center = Vector::Zero();   ///< Center of gravity [m].
   Matrix inertia = Matrix::Zero();  ///< Inertia about the center of gravity [kg m^2].
 
-  /// Adds another group; `sign` -1 removes a group that is part of this one.
+  /// Adds another group of bodies. With `sign` -1, removes the other group, which must be part of
+  /// this group.
   void Add(const MassSum& other, double sign = 1.0);
 };
 
-/// Returns the mass of one body of the model.
+/// Returns the mass properties of one body of the model.
 MassSum MassOfBody(const FoundModel& found, const FoundVehicle& vehicle, int body);
 
-/// Finds the limits, in joint ranges, couplings and actuators of the model. Throws InputError, with
-/// a question and the option that answers it, if the model does not limit the steering.
+/// Determines the limits from joint ranges, couplings and actuators of the model. Throws
+/// InputError, with a question and the option that answers it, if the model does not limit the
+/// steering.
 FoundLimits FindLimits(const FoundModel& found, const FoundVehicle& vehicle, double mass,
                        const AdaptOptions& options, Findings& findings);
 

@@ -19,15 +19,16 @@
 namespace trackbed::adapt {
 namespace {
 
-/// Share of the whole mass below which a wheel is too light to be simulated with tyre forces, and
-/// the share that it gets instead.
+/// Share of the vehicle's mass below which a wheel is too light to be simulated with tyre forces. A
+/// wheel that is too light gets the share kProposedWheel instead.
 constexpr double kLightWheel = 0.001;
 constexpr double kProposedWheel = 0.01;
-/// Share of a wheel that becomes its knuckle if the model has no body for it.
+/// Share of a wheel's mass that becomes the mass of its knuckle if the model has no body for the
+/// knuckle.
 constexpr double kKnuckleShare = 0.1;
-/// Share of the chassis that becomes the rack.
+/// Share of the chassis mass that becomes the mass of the rack.
 constexpr double kRackShare = 0.001;
-/// Meshes with more faces than this are drawn as boxes.
+/// Largest number of faces of a mesh; meshes with more faces are drawn as boxes.
 constexpr int kMaxFaces = 4000;
 
 bool IsWithin(const mjModel& m, int body, int part) {

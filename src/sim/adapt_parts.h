@@ -7,13 +7,13 @@
 
 namespace trackbed::adapt {
 
-/// Masses of the parts of the proposed vehicle. Together they have the mass, center of gravity and
-/// inertia of the model.
+/// Masses of the parts of the proposed vehicle. All parts together have the mass, center of gravity
+/// and inertia of the model.
 struct PartMasses {
   MassSum total;
   MassSum chassis;
   MassSum rack;                   ///< Part of cars only.
-  std::vector<MassSum> knuckles;  ///< One for each wheel; mass 0: the wheel is on the chassis.
+  std::vector<MassSum> knuckles;  ///< One for each wheel; mass 0 without a knuckle.
   std::vector<MassSum> wheels;
 };
 
@@ -32,7 +32,7 @@ struct Footprint {
 
 Footprint FindFootprint(const FoundModel& found, const FoundVehicle& vehicle);
 
-/// Returns the position of a wheel's center in the proposed file, in V.
+/// Returns the position of a wheel's center in the proposed file, in the vehicle frame V.
 Vector HubOf(const FoundVehicle& vehicle, std::size_t wheel);
 
 /// MJCF text of the geoms that only show the vehicle.
@@ -42,7 +42,7 @@ struct CopiedLooks {
   std::string chassis;
 };
 
-/// Copies the visible geoms. Meshes become boxes if `as_boxes`, or if they have many faces.
+/// Copies the visible geoms. Meshes become boxes if `as_boxes` is true, or if they have many faces.
 CopiedLooks CopyLooks(const FoundModel& found, const FoundVehicle& vehicle, bool as_boxes);
 
 }  // namespace trackbed::adapt

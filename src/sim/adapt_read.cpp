@@ -21,9 +21,9 @@
 #include "trackbed/sim/mujoco_error.h"
 #include "trackbed/sim/scene.h"
 
-// Reads a model that was written for another program. MJCF goes through ComposeScene. A URDF file
-// is given to MuJoCo's own reader of URDF, after its meshes have been replaced by plain names of
-// checked files; meshes that MuJoCo cannot read are removed.
+// Reads a model that was written for another program. MJCF goes through ComposeScene. MuJoCo's own
+// URDF reader reads URDF files. Before MuJoCo reads a URDF file, mesh paths are replaced by plain
+// names of checked files. Meshes that MuJoCo cannot read are removed.
 namespace trackbed::adapt {
 namespace {
 
@@ -33,7 +33,7 @@ using tinyxml2::XMLElement;
 
 /// Maximum size of a URDF file [bytes], as for MJCF.
 constexpr std::size_t kMaxUrdfBytes = std::size_t{16} << 20U;
-/// Maximum number of URDF elements inside one another; MuJoCo's reader is recursive.
+/// Maximum nesting depth of URDF elements, limited because MuJoCo's reader is recursive.
 constexpr int kMaxUrdfLinks = 2000;
 
 [[noreturn]] void FailRead(const fs::path& file, int line, std::string message) {
@@ -69,8 +69,8 @@ class MeshReader {
       : own_(fs::absolute(file).parent_path()), folders_(options.asset_folders), scene_(scene) {
     std::error_code error;
     folders_.push_back(own_);
-    // A package is the folder with package.xml. The file's own package may be read, because meshes
-    // of a URDF file are beside its folder.
+    // A package is the folder with package.xml. Allow reading from the package of the URDF file,
+    // because its meshes are in other folders of the package.
     for (fs::path folder = own_; folder.has_relative_path(); folder = folder.parent_path()) {
       if (fs::is_regular_file(folder / "package.xml", error)) {
         folders_.push_back(folder);
@@ -147,7 +147,8 @@ class MeshReader {
   std::size_t bytes_ = 0;
 };
 
-/// Drops what follows the three numbers of a mesh's scale; some programs write a fourth.
+/// Removes any text after the three numbers of a mesh's scale, because some programs write a fourth
+/// number.
 void KeepThreeScales(XMLElement& mesh) {
   std::array<double, 3> scale{};
   const char* text = mesh.Attribute("scale");
@@ -240,7 +241,8 @@ Scene ComposeUrdf(const fs::path& file, XMLDocument& document, const AdaptOption
 }
 
 /// Returns the scene with MuJoCo's remedies for bodies without mass or with impossible inertia.
-/// `drops_visual` drops visual geometry of URDF, whose meshes may have no volume.
+/// If `drops_visual` is true, MuJoCo discards the visual geometry of URDF, whose meshes may have no
+/// volume.
 Scene WithRemedies(const Scene& scene, bool is_urdf, bool drops_visual) {
   Scene own = scene;
   XMLDocument document;
@@ -270,7 +272,8 @@ MujocoModel CompileFound(const Scene& scene, const std::string& name, bool is_ur
         text.find("mesh") == std::string::npos) {
       throw;
     }
-    // Files for display have wheels with visual geometry only: keep it if MuJoCo can.
+    // In files for display only, wheels have only visual geometry, so keep visual geometry if
+    // MuJoCo can compile it.
     for (const bool drops_visual : {false, true}) {
       try {
         MujocoModel model =

@@ -9,7 +9,7 @@
 
 namespace trackbed::adapt {
 
-/// A model as found, compiled by MuJoCo with all its geoms.
+/// The model of another program, compiled by MuJoCo with all its geoms.
 struct FoundModel {
   std::string file;  ///< Name of the file, for messages.
   bool is_urdf = false;

@@ -13,7 +13,7 @@ namespace trackbed::adapt {
 namespace {
 
 constexpr double kHorizontal = 0.35;  // Largest vertical component of a wheel axis.
-constexpr double kOnGround = 0.3;     // Largest height of a tyre over the lowest one [radii].
+constexpr double kOnGround = 0.3;     // Largest height of a tyre above the lowest tyre [radii].
 
 /// Finds the wheels of a model.
 class WheelFinder {
@@ -34,8 +34,8 @@ class WheelFinder {
   }
 
  private:
-  /// Adds the wheel of a hinge joint, if it has one. Of two hinges about one axis, the wheel
-  /// belongs to the deeper one.
+  /// Adds the wheel that turns about a hinge joint, if any. If two hinges have the same axis, the
+  /// wheel belongs to the hinge that is deeper in the tree of bodies.
   void AddHinge(int joint, std::vector<FoundWheel>& wheels) const {
     const Vector axis = ToVector(d_.xaxis + 3 * joint);
     const Vector anchor = ToVector(d_.xanchor + 3 * joint);
@@ -70,15 +70,15 @@ class WheelFinder {
                      .name = NameOf(m_, mjOBJ_JOINT, joint)};
     for (FoundWheel& other : wheels) {
       if ((other.round.center - wheel.round.center).norm() < 0.5 * wheel.round.radius) {
-        other = wheel;  // joints of a child follow those of its parent
+        other = wheel;  // the joints of a child body come later than those of its parent
         return;
       }
     }
     wheels.push_back(std::move(wheel));
   }
 
-  /// Adds round geoms that do not turn, if the hinges give fewer than four wheels. A wheel without
-  /// a hinge has a twin on the other side of the vehicle.
+  /// Adds round geoms without a hinge as wheels, if fewer than four wheels have hinges. A wheel
+  /// without a hinge has a twin on the other side of the vehicle.
   void AddFixed(std::vector<FoundWheel>& wheels) const {
     if (wheels.size() >= 4) {
       return;

@@ -22,7 +22,7 @@ namespace {
 /// Time constant of the steering servo [s]. The servo is critically damped: with the inertia I that
 /// it turns, kp = 4 I/tau^2 and damping = 4 I/tau.
 constexpr double kServoTime = 0.01;
-/// Magic Formula coefficients of rubber on dry ground, over the wheel load.
+/// Magic Formula coefficients of rubber on dry ground, for forces relative to the wheel load.
 constexpr const char* kTyreCoefficients =
     R"(    <numeric name="p_cx1" data="1.6"/>
     <numeric name="p_kx1" data="12"/>
@@ -92,7 +92,7 @@ std::string Defaults(const FoundVehicle& vehicle, const Proposal& proposal) {
       "      <joint type=\"hinge\" axis=\"0 1 0\" frictionloss=\"{3:.3g}\" solreffriction=\"0.004 "
       "1\" solimpfriction=\"0.9999 0.9999 0.001\"/>\n    </default>\n  </default>\n",
       vehicle.radius, 0.5 * vehicle.width, proposal.limits.friction,
-      // bearings: a thousandth of the weight on the wheels
+      // bearing friction: a thousandth of the weight on the wheels
       0.001 * proposal.masses.total.mass * proposal.gravity * vehicle.radius /
           static_cast<double>(vehicle.wheels.size()));
 }
@@ -252,8 +252,8 @@ std::string WriteCar(const FoundModel& found, const FoundVehicle& vehicle, const
   for (std::size_t w = 0; w < 2; ++w) {
     turned += masses.wheels[w].inertia(2, 2) + masses.knuckles[w].inertia(2, 2);
   }
-  // A tenth of a radius of trail at the full lateral force of the front axle turns the servo by
-  // 0.005 rad.
+  // The full lateral force of the front axle, with a trail of 0.1 wheel radii, deflects the servo
+  // by at most 0.005 rad.
   const double least =
       10.0 * proposal.limits.friction * masses.total.mass * proposal.gravity * vehicle.radius;
   const double inertia = std::max(1.5 * turned, 0.25 * least * kServoTime * kServoTime);
@@ -279,8 +279,9 @@ std::string WriteWheelPair(const FoundVehicle& vehicle, const Proposal& proposal
   const double radius = vehicle.radius;
   const double track = vehicle.track[1];
   const double torque = 0.5 * proposal.limits.drive_torque;
-  // A motor has an eighth of the vehicle's inertia; its servo answers in two steps of 2 ms while
-  // the wheel slips. The integral term is critically damped against the yaw inertia.
+  // The inertia of a motor is an eighth of the vehicle's inertia at the wheel. While the wheel
+  // slips, the servo responds within two steps of 2 ms. The integral term is critically damped
+  // against the yaw inertia.
   const double own = 0.125 * total.mass * radius * radius;
   const double armature = std::max(0.0, own - proposal.masses.wheels[0].inertia(1, 1));
   const double gain = std::max(own / 0.004, 4.0 * torque / proposal.limits.wheel_speed);

@@ -60,9 +60,9 @@ Stand RestPoseOn(const VehicleParams& params, const Pose2& pose, const Ground& g
   return {height + deepest, Upright(slope.x() * ahead + slope.y() * LeftNormal(ahead), pose.yaw)};
 }
 
-/// Returns yaw, pitch and roll of a trailer relative to its car that stands at `stand`, so that
-/// both wheels of the trailer touch the ground. The heights of the ground are taken where the
-/// wheels would be on level ground.
+/// Returns yaw, pitch and roll of a trailer relative to its car, such that both wheels of the
+/// trailer touch the ground. The car stands at `stand`. The ground's height is sampled at the
+/// positions that the wheels would have on level ground.
 std::array<double, 3> RestingHitch(const TrailerParts& trailer, const Pose2& car, double angle,
                                    const Stand& stand, const Ground& ground) {
   if (IsFlat(ground)) {

@@ -68,8 +68,9 @@ class CarReader final : private PartsReader {
     params_.steering_ratio = Number("steering_ratio");
   }
 
-  /// Adds hints to the list of missing names: which joints move the base if it has no free joint,
-  /// and how to get a car file if the model has none of the names of wheels.
+  /// Adds hints to the list of missing names. If the base has no free joint, a hint names the
+  /// joints that move the base. If the model has none of the names of wheels, a hint explains how
+  /// to make a car file.
   void ExplainForeignModel() {
     const int body = chassis_.chassis;
     if (free_ < 0 && body >= 0 && m_.body_jntnum[body] > 0) {

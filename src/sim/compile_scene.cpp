@@ -81,8 +81,8 @@ std::string SizeLimitMessage() {
   return fmt::format("takes more than {} MB of memory", kMemory >> 20);
 }
 
-// The compiling process first sends one of these letters, then the bytes of the model or the text
-// of an error.
+// The first byte that the compiling process sends is one of these letters. After the letter, the
+// process sends the bytes of the model, or the text of an error.
 constexpr char kModelFollows = 'M';
 constexpr char kErrorFollows = 'E';
 
@@ -155,7 +155,7 @@ CompileError ParseMujocoError(const std::string& message) {
 /// A word of MJCF that older versions of MuJoCo do not know.
 struct NewerWord {
   std::string_view word;
-  int version;  ///< As mjVERSION_HEADER: 222 is 2.2.2, and 3010000 is 3.10.0.
+  int version;  ///< First version, encoded like mjVERSION_HEADER (222: 2.2.2, 3010000: 3.10.0).
   const char* text;
 };
 

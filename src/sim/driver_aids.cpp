@@ -81,8 +81,8 @@ void DriverAids::Update(const CarMotion& motion, const std::array<WheelMotion, 4
   for (std::size_t w = 0; w < wheels.size(); ++w) {
     const double wanted = std::min(brakes[w] + asked[w], largest_[w]);
     if (options_.abs || asked[w] > 0.0) {
-      // Stability control knows the road, and keeps the slip of its wheel at the peak of the tyre
-      // in turns, too.
+      // Stability control knows the friction factor of the road. It therefore keeps the slip of the
+      // braked wheel at the peak of the tyre force, in turns too.
       const double least_use = asked[w] > 0.0 ? std::min(1.0, wheels[w].road) : 0.0;
       slip_[w].Update(wheels[w], wanted, pull / mass_, least_use, timestep);
     } else {
@@ -92,7 +92,7 @@ void DriverAids::Update(const CarMotion& motion, const std::array<WheelMotion, 4
   const std::array<double, 2> axle{FrontTorque(timestep), RearTorque()};
   for (std::size_t w = 0; w < wheels.size(); ++w) {
     const double wanted = std::min(brakes[w] + asked[w], largest_[w]);
-    // Stability control brakes its wheel up to the limit of this wheel alone.
+    // A wheel that stability control brakes has only its own limit, not the limit of its axle.
     const double shared = asked[w] > 0.0 ? kUnlimited : axle[w / 2];
     torque_[w] = std::min({wanted, slip_[w].limit(), shared});
     limited_[w] = torque_[w] < wanted;
@@ -100,9 +100,9 @@ void DriverAids::Update(const CarMotion& motion, const std::array<WheelMotion, 4
   }
 }
 
-/// Returns the largest torque of a front wheel [N m]. The wheel with more grip may exceed the
-/// torque of the other wheel by an excess that grows within a second. This gives the driver time to
-/// steer against the yaw moment.
+/// Returns the largest brake torque of a front wheel [N m]. The brake torque of the wheel with more
+/// grip may exceed that of the other wheel by an excess that grows within a second. The slow growth
+/// gives the driver time to steer against the yaw moment.
 double DriverAids::FrontTorque(double timestep) {
   constexpr double kYawDelay = 1.0;  // [s]
   const double low = std::min(slip_[0].limit(), slip_[1].limit());
@@ -114,8 +114,8 @@ double DriverAids::FrontTorque(double timestep) {
   return low + front_excess_;
 }
 
-/// Returns the largest torque of a rear wheel [N m]. By select-low, both rear wheels get the torque
-/// that the wheel with less grip can take.
+/// Returns the largest brake torque of a rear wheel [N m]. By select-low control, the rear wheel
+/// with less grip limits the brake torque of both rear wheels.
 double DriverAids::RearTorque() const {
   return options_.abs ? std::min(slip_[2].limit(), slip_[3].limit()) : kUnlimited;
 }

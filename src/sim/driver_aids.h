@@ -22,19 +22,19 @@ class DriverAids {
     double drive_share = 0.0;  ///< Torque on both wheels per unit of the drive control.
   };
 
-  /// `data` has the car at its start, after mj_forward. Throws InputError if the car has no driven
-  /// axle for the differential.
+  /// `data` is the state of the car at the start, after mj_forward. Throws InputError if the car
+  /// has no driven axle for the differential.
   DriverAids(const AidOptions& options, const CarModel& car, const mjModel_& model,
              const mjData_& data);
 
-  /// Updates the brake torques for the coming step. `brakes` has the brake torque that the driver
-  /// commands for each wheel [N m].
+  /// Updates the brake torques for the coming step. `brakes` contains the brake torque that the
+  /// driver commands for each wheel [N m].
   void Update(const CarMotion& motion, const std::array<WheelMotion, 4>& wheels,
               const std::array<double, 4>& brakes, double timestep);
 
   /// Returns the brake torque of each wheel [N m].
   [[nodiscard]] const std::array<double, 4>& brake_torque() const { return torque_; }
-  /// Returns the share of the commanded drive torque that stability control lets through.
+  /// Returns the fraction of the commanded drive torque that stability control permits.
   [[nodiscard]] double drive_share() const { return esc_ ? esc_->state().drive_share : 1.0; }
   /// Returns the axles with a locked or limited-slip differential.
   [[nodiscard]] const std::vector<DrivenAxle>& coupled_axles() const { return coupled_; }
@@ -58,12 +58,12 @@ class DriverAids {
   double mass_;
   std::array<double, 4> largest_{};  // Largest brake torque of each wheel [N m].
   std::vector<WheelSlipControl> slip_;
-  // Torque by which a front wheel may exceed the other one while anti-lock control acts [N m].
+  // Excess of brake torque of one front wheel that anti-lock control permits (FrontTorque) [N m].
   double front_excess_ = 0.0;
   std::optional<StabilityControl> esc_;
   std::array<double, 4> esc_torque_{};  // Brake torque that stability control adds [N m].
   std::array<double, 4> torque_{};
-  std::array<bool, 4> limited_{};  // Whether the torque is below the commanded one.
+  std::array<bool, 4> limited_{};  // Whether the torque is limited below the command.
 };
 
 }  // namespace trackbed

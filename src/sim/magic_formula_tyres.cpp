@@ -265,7 +265,8 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data, std::span<cons
         speed < kWalkingPace ? Damping(side_omega, timestep_) * (1.0 - speed / kWalkingPace) : 0.0;
     const Relaxation along(speed, sigma_x, timestep_);
     const double kappa = along.Step(slip.x, contact.slip_speed_x, tau_x);
-    // Most tyres have one relaxation length, for which the exponential function is evaluated once.
+    // In most tyres, both relaxation lengths are equal. In this case, evaluate the exponential
+    // function only once.
     const Relaxation across = sigma_x == sigma_y ? along : Relaxation(speed, sigma_y, timestep_);
     const double tangent = across.Step(slip.y, contact.slip_speed_y, tau_y);
     // Limits the slip to the largest deflection that friction can hold; otherwise a larger

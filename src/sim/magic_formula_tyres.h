@@ -29,8 +29,8 @@ struct TyreWheel {
 /// Returns the wheels of a car. Throws the InputError of RequireTyres if the car has no tyre
 /// coefficients.
 std::vector<TyreWheel> TyreWheelsOfCar(const CarModel& car, const mjModel_& model);
-/// Returns the wheels of the car's trailer. The tyres of these wheels have the coefficients of the
-/// car's rear tyres, and the vertical stiffness and damping of these tyres in proportion to the
+/// Returns the wheels of the car's trailer. The trailer's tyres have the coefficients of the car's
+/// rear tyres. The vertical stiffness and damping of the rear tyres are scaled in proportion to the
 /// load at rest.
 std::vector<TyreWheel> TyreWheelsOfTrailer(const CarModel& car, const mjModel_& model);
 

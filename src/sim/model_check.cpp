@@ -38,7 +38,7 @@ constexpr std::array kCustomBounds{
     Bound{"side_area", 1e2}, Bound{"center_of_pressure", 1e2}, Bound{"F_z0", 1e6},
     Bound{"tyre_vertical_stiffness", 1e8}, Bound{"tyre_vertical_damping", 1e6},
     Bound{"relaxation_length", 1e1}, Bound{"rolling_resistance", 1.0},
-    // These multiply the square of the camber, at most 0.1.
+    // The following two coefficients multiply the square of the camber, which is at most 0.1.
     Bound{"r_bx3", 1e6}, Bound{"r_by4", 1e6}, Bound{"camber_gain_front", 1e1},
     Bound{"camber_gain_rear", 1e1}};
 // bound of a tyre's Magic Formula coefficients, such as "p_cx1"

@@ -70,7 +70,8 @@ class MujocoPlant : public Plant, private MujocoSimulation {
   /// wheels.
   explicit MujocoPlant(const PlantSetup& setup, TyreSupport support = TyreSupport::kContacts);
   /// Sets the speeds of the wheels' spin joints to those of wheels that roll without slip.
-  /// `spin_dof` has the degrees of freedom of the spin joints in the order of CarModel::wheels().
+  /// `spin_dof` contains the degrees of freedom of the spin joints, in the order of
+  /// CarModel::wheels().
   void RollWheels(std::span<const int> spin_dof, const StartState& start);
   /// Begin() must be called after the wheel spin and the actuators are set, and before the first
   /// step.

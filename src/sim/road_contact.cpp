@@ -49,7 +49,7 @@ RoadContact::RoadContact(const CarModel& car, TyreSupport support, mjModel& mode
   const std::size_t of_car = car.tyres().size();
   const std::vector<int>& tyres = tyres_;
   for (std::size_t i = 0; i < tyres.size(); ++i) {
-    // The numbers of the trailer's wheels do not depend on the number of the car's wheels.
+    // The trailer's wheels always have the indices 4 and 5, even if the vehicle has two wheels.
     const std::size_t w = i < of_car ? i : 4 + i - of_car;
     const int tyre = tyres[i];
     if (has_planes_) {

@@ -37,8 +37,8 @@ std::string DiscardLooks(const std::string& xml);
 /// the model contains elements from which MuJoCo makes bodies itself, such as <composite>.
 bool GivesAllMasses(const std::string& xml);
 
-/// Replaces the tyre coefficients in the model by `numbers`, which are names and values under
-/// <custom>. A number with another name is replaced if `numbers` has its name.
+/// Removes all tyre coefficients from the model, and adds `numbers`, which are names and values
+/// under <custom>. Other numbers in the model are removed only if `numbers` contains their names.
 void SetTyreNumbers(tinyxml2::XMLElement& root,
                     const std::vector<std::pair<std::string, double>>& numbers);
 

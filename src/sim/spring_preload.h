@@ -15,7 +15,7 @@ namespace trackbed {
 void PreloadSprings(const CarModel& car, tinyxml2::XMLElement& root,
                     const std::array<double, 4>& more, const std::string& key);
 
-/// Whether a spring with stiffness carries the wheel.
+/// Whether a spring with nonzero stiffness carries the wheel.
 bool HasSpring(const CarModel& car, std::size_t wheel);
 
 }  // namespace trackbed

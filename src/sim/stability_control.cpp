@@ -8,15 +8,16 @@
 namespace trackbed {
 namespace {
 
-/// Largest reference of the yaw rate, as a share of mu g/v (Rajamani 2012, 8.3).
+/// Largest yaw rate reference, as a fraction of mu g/v (Rajamani 2012, 8.3).
 constexpr double kLargestReference = 0.85;
-/// Half width of the band about the reference without intervention, as a share of mu g/v.
+/// Half width of the band about the reference in which the control does not act, as a fraction of
+/// mu g/v.
 constexpr double kBand = 0.05;
-/// Largest sideslip angle is atan(kSideslip mu g) [s^2/m] (Rajamani 2012, 8.3).
+/// Factor in the sideslip limit atan(kSideslip mu g) [s^2/m] (Rajamani 2012, 8.3).
 constexpr double kSideslip = 0.02;
-/// Time in which the demanded moment would remove the excess [s].
+/// Time in which the commanded yaw moment would remove the excess [s].
 constexpr double kMomentTime = 0.02;
-/// Times in which the drive torque is cut and restored [s].
+/// Times in which the drive torque decreases to 0 and increases to its full value [s].
 constexpr double kCutTime = 0.1;
 constexpr double kRestoreTime = 0.5;
 
@@ -60,7 +61,7 @@ double StabilityControl::Moment(const CarMotion& motion) const {
   const double grip = params_.friction_lateral * motion.road * gravity_;
   const double rotation =
       Excess(motion.yaw_rate - state_.yaw_rate_reference, kBand * grip / motion.speed);
-  // The car turns out of its course if its nose turns away from its velocity.
+  // The car spins if its heading turns away from the direction of its velocity.
   const bool spins = motion.sideslip * motion.yaw_rate < 0.0;
   const double sideslip =
       spins ? Excess(motion.sideslip, std::atan(kSideslip * grip)) / kMomentTime : 0.0;
@@ -83,7 +84,7 @@ void StabilityControl::Update(const CarMotion& motion, double timestep) {
   const double moment = acts ? Moment(motion) : 0.0;
   std::array<double, 4> wanted{};
   if (moment != 0.0) {
-    // The moment opposes the turn of a car that oversteers.
+    // If the car oversteers, the moment is opposite to the yaw rate.
     const bool oversteers = moment * motion.yaw_rate < 0.0;
     const std::size_t side = moment > 0.0 ? 0 : 1;
     const double arm = 0.5 * (oversteers ? params_.track_front : params_.track_rear);

@@ -18,16 +18,16 @@ struct CarMotion {
 
 /// Electronic stability control (Rajamani 2012, ch. 8; van Zanten 2000).
 ///
-/// The driver asks for the yaw rate of the linear single-track model in a steady turn,
+/// The driver demands the yaw rate of the linear single-track model in a steady turn,
 ///   r_s = v tan(delta)/(L + K v^2),  limited to |r_s| <= 0.85 mu g/v,
 /// with the understeer gradient K of the unladen car, and mu = friction_lateral times the road's
 /// factor. The reference r follows r_s with a lag equal to the delay of the linear single-track
 /// model at low frequencies. The control acts if the yaw rate leaves the band of 0.05 mu g/v about
 /// the reference. The control also acts if the sideslip angle exceeds atan(0.02 s^2/m mu g) while
-/// the car turns out of its course. The excess e asks for the yaw moment I_z e/0.02 s. Against
-/// oversteer, the moment comes from the outer front wheel, against understeer from the inner rear
-/// wheel. While a wheel brakes, the drive torque is cut. The control does not act below the speed
-/// sqrt(g L), nor in reverse.
+/// the heading turns away from the direction of the velocity. For an excess e, the control commands
+/// the yaw moment I_z e/0.02 s. Against oversteer, the outer front wheel brakes. Against
+/// understeer, the inner rear wheel brakes. While a wheel brakes, the drive torque is cut. The
+/// control does not act below the speed sqrt(g L), nor in reverse.
 class StabilityControl {
  public:
   StabilityControl(const CarModel& car, double gravity);
@@ -39,7 +39,7 @@ class StabilityControl {
   [[nodiscard]] const EscState& state() const { return state_; }
 
  private:
-  /// Returns the yaw moment that the control asks for [N m], positive to the left.
+  /// Returns the commanded yaw moment [N m], positive to the left.
   [[nodiscard]] double Moment(const CarMotion& motion) const;
 
   const VehicleParams& params_;
@@ -47,7 +47,7 @@ class StabilityControl {
   double gravity_;
   double understeer_;  // K [rad s^2/m]
   EscState state_;
-  bool runs_ = false;  // Whether the reference has a value of the step before.
+  bool runs_ = false;  // Whether the reference was computed in an earlier step.
 };
 
 }  // namespace trackbed

@@ -51,8 +51,8 @@ std::vector<Vec2> ReadCurve(const Numerics& numerics) {
   return curve;
 }
 
-/// Adds the numeric steering_offset to the angles of the curve. Without a curve, the offset is
-/// added to the commanded angles up to the limit.
+/// Adds the number steering_offset to the angles of the curve. If the model has no curve, makes a
+/// curve that adds the offset to each commanded angle up to the limit.
 void AddOffset(const Numerics& numerics, double limit, std::vector<Vec2>& curve) {
   const std::string name = "steering_offset";
   double offset = 0.0;
@@ -67,7 +67,7 @@ void AddOffset(const Numerics& numerics, double limit, std::vector<Vec2>& curve)
     return;
   }
   if (curve.empty()) {
-    // The monotone curve through points of a line is this line.
+    // Use points on a straight line, because the monotone curve through such points is the line.
     for (const double part : {-1.0, -1.0 / 3.0, 1.0 / 3.0, 1.0}) {
       curve.emplace_back(part * std::abs(limit), part * std::abs(limit));
     }

@@ -17,24 +17,24 @@
 
 // Adds a trailer with one axle to the MJCF of its car.
 // 1. The body of the trailer has three hinges at the hitch. Positions are relative to the hitch.
-// 2. Wheels, tyres, springs and their masses are those of the car's rear axle, scaled to the
-//    trailer.
-// 3. The mass, center and inertia of the body are chosen such that the whole trailer has the given
-//    ones.
-// 4. Springs and dampers follow from a deflection at rest and a damping ratio.
+// 2. Wheels, tyres and springs are copies of those of the car's rear axle, with masses and sizes
+//    scaled to the trailer.
+// 3. The mass, center of gravity and yaw inertia of the body are computed such that the whole
+//    trailer has the specified values.
+// 4. Stiffness and damping are computed from a deflection at rest and a damping ratio.
 namespace trackbed {
 namespace {
 
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// Deflection of a spring at rest, as a fraction of the wheel's radius: 1.5 Hz for wheels of 0.31
-/// m.
+/// Deflection of a spring at rest, as a fraction of the wheel's radius. For a radius of 0.31 m, the
+/// natural frequency is 1.5 Hz.
 constexpr double kSpringDeflection = 0.35;
 constexpr double kDampingRatio = 0.3;
 /// Travel of the suspension in each direction, as a fraction of the wheel's radius.
 constexpr double kTravel = 0.25;
-/// Half width of a tyre whose geom in the car's file is not an ellipsoid, divided by its radius.
+/// Ratio of half width to radius for a tyre whose geom in the car's file is not an ellipsoid.
 constexpr double kTyreWidth = 0.3;
 
 /// Adds the MJCF of a trailer to that of its car. Positions are relative to the hitch.
@@ -141,7 +141,8 @@ class TrailerWriter {
     return carrier_mass_ * trailer_.wheel_radius * trailer_.wheel_radius / 8.0;
   }
 
-  /// Sets mass, position and inertia of the body such that the whole trailer has the given ones.
+  /// Sets mass, center of gravity and inertia of the body such that the whole trailer has the
+  /// specified values.
   void WriteInertia(XMLElement& body) const {
     const double mass = trailer_.mass - unsprung();
     const double axle = -trailer_.tongue;
@@ -262,8 +263,8 @@ class TrailerWriter {
   const mjModel& model_;
   TrailerParams trailer_;
   bool sprung_;
-  double scale_;               // Unsprung mass of a wheel, divided by that of the car's rear wheel.
-  double size_;                // Radius of a wheel, divided by that of the car.
+  double scale_;               // Unsprung mass per wheel, divided by that of the car's rear wheel.
+  double size_;                // Radius of a wheel, divided by that of the car's wheel.
   double hub_z_;               // Height of the wheel centers above the hitch [m].
   double wheel_mass_ = 0.0;    // [kg]
   double carrier_mass_ = 0.0;  // Mass of the body that carries a wheel [kg].

@@ -40,7 +40,7 @@ struct WheelContact {
 WheelContact ContactAt(const mjModel_& model, const mjData_& data, int body, double radius,
                        const Eigen::Vector3d& point, const Eigen::Vector3d& up);
 
-/// Returns the same for a wheel of a car.
+/// As above, for the wheel with the index `wheel` of a car.
 WheelContact ContactAt(const CarModel& car, const mjModel_& model, const mjData_& data,
                        std::size_t wheel, const Eigen::Vector3d& point, const Eigen::Vector3d& up);
 

@@ -192,8 +192,9 @@ class WheelPairReader final : private PartsReader {
 
   /// Returns the positions of all other supports that touch the ground in the configuration qpos0,
   /// such as caster wheels [m]; positions are measured forward from the driven wheels. Only
-  /// spheres, ellipsoids and capsules are recognized as supports. Each support is treated as the
-  /// only one, because the distribution of the load among several supports would depend on springs.
+  /// spheres, ellipsoids and capsules are recognized as supports. Each support is treated as if
+  /// there were no other supports, because the distribution of the load among several supports
+  /// would depend on springs.
   [[nodiscard]] std::vector<double> OtherSupports() const {
     constexpr double kMaxGroundGap = 1e-3;  // [m]
     std::vector<double> ahead;

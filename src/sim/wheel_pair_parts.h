@@ -14,7 +14,8 @@ inline constexpr std::array<const char*, 2> kDrivenWheels{"left", "right"};
 /// has no steering.
 bool IsWheelPair(const mjModel_& model);
 
-/// Finds and checks the parts of a vehicle with differential drive; otherwise like DescribeVehicle.
+/// Finds and checks the parts of a vehicle with differential drive. Throws the same errors as
+/// DescribeVehicle.
 VehicleDescription DescribeWheelPair(const mjModel_& model, const std::string& file);
 
 }  // namespace trackbed

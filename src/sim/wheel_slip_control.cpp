@@ -9,11 +9,11 @@ namespace {
 
 /// Time constant with which the slip approaches its target [s].
 constexpr double kSlipTime = 0.02;
-/// Share of the target slip that does not depend on the used friction. A wheel takes up this slip
-/// before its force has built up over the relaxation length.
+/// Fraction of the largest target slip that does not depend on the used friction. This fraction
+/// lets the wheel slip before its force has built up over the relaxation length.
 constexpr double kSlipAtOnce = 0.1;
-/// The control acts at speeds at which a tyre rolls over its relaxation length in less than this
-/// time [s]. For a relaxation length of 0.3 m, the lowest speed is 1.5 m/s.
+/// Longest time in which a tyre rolls over its relaxation length while the control acts [s]. For a
+/// relaxation length of 0.3 m, the control acts from 1.5 m/s on.
 constexpr double kLongestRelaxation = 0.2;
 
 }  // namespace

@@ -18,36 +18,37 @@ struct BrakedWheel {
   double radius = 0.0;   ///< Radius R [m].
   double inertia = 0.0;  ///< Moment of inertia I about the spin axis [kg m^2].
   double largest = 0.0;  ///< Largest brake torque [N m].
-  /// Brake slip with the largest force on a dry road, and this force divided by the load.
+  /// Brake slip at the largest braking force on a dry road, and that force divided by the load.
   double peak_slip = 0.0;
   double peak_friction = 0.0;
   double slowest = 0.0;  ///< Speed below which the control does not act [m/s].
 };
 
-/// Returns the constants of a wheel whose tyre carries `load` [N] at rest. The peak is searched up
-/// to a brake slip of 0.3.
+/// Returns the constants of a wheel whose tyre carries `load` [N] at rest. The largest braking
+/// force is searched up to a brake slip of 0.3.
 BrakedWheel MakeBrakedWheel(const MagicFormula& tyre, double load, double radius, double inertia,
                             double largest);
 
 /// Controls the brake slip of one wheel (van Zanten 2000).
 ///
 /// The target of the brake slip is kappa* = kappa_p (0.1 + 0.9 u), with the slip kappa_p of the
-/// largest force on a dry road. The used friction u is |F_x|/F_z divided by the largest one on a
-/// dry road. A road with the friction factor lambda scales the curve u(kappa) of the tyre by lambda
-/// along both axes. Below the peak of this curve, the target exceeds the slip, and beyond the peak,
-/// the slip exceeds the target. The control therefore finds the peak without knowing lambda. In a
-/// turn, the lateral slip lowers F_x and with it the target, which keeps side force.
+/// largest force on a dry road. The used friction u is |F_x|/F_z, divided by the largest |F_x|/F_z
+/// on a dry road. A road with the friction factor lambda scales the curve u(kappa) of the tyre by
+/// lambda along both axes. Below the peak of this curve, the target exceeds the slip, and beyond
+/// the peak, the slip exceeds the target. The control therefore finds the peak without knowing
+/// lambda. In a turn, the lateral slip reduces F_x and thus the target, so that the tyre can still
+/// generate lateral force.
 ///
-/// With the torque T = |F_x| R - I omega', the slip approaches its target with the time constant of
-/// 20 ms. T is a limit on the driver's torque. The limit rises and falls at the rates of a
-/// hydraulic unit.
+/// The control limits the driver's brake torque to T = |F_x| R - I omega'. Here, omega' is the spin
+/// acceleration at which the slip approaches its target with a time constant of 20 ms. The limit
+/// changes at the rates of a hydraulic unit.
 class WheelSlipControl {
  public:
   explicit WheelSlipControl(const BrakedWheel& wheel) : wheel_(wheel) {}
 
   /// Updates the limit for a step of `timestep` [s] in which the brake torque `wanted` [N m] is
-  /// commanded. `acceleration` is the car's acceleration along x [m/s^2]. The used friction counts
-  /// as at least `least_use`, from 0 to 1.
+  /// commanded. `acceleration` is the car's acceleration along x [m/s^2]. A used friction below
+  /// `least_use` is replaced by `least_use`, a number from 0 to 1.
   void Update(const WheelMotion& motion, double wanted, double acceleration, double least_use,
               double timestep);
   /// Ends the control of the wheel.
@@ -65,7 +66,8 @@ class WheelSlipControl {
 };
 
 /// Moves the torque `from` [N m] toward `to` at the rates of a hydraulic unit. The unit raises the
-/// brake torque from 0 to `largest` in 0.1 s and lowers it in 0.05 s.
+/// brake torque from 0 to `largest` in 0.1 s, and lowers the brake torque from `largest` to 0 in
+/// 0.05 s.
 double MoveBrakeTorque(double from, double to, double largest, double timestep);
 
 }  // namespace trackbed
