@@ -328,7 +328,7 @@ std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
                        : points[at].width_right - line.deviations[at];
       };
       const double inner = std::min(width(i), width(next));
-      // FindFold finds smaller folds when it checks the finished track.
+      // Ignore smaller folds here, because FindFold finds them when it checks the finished track.
       if (bend.turn > kPi || bend.curvature * inner > 1.0) {
         return TrackFold{i, 1.0 / bend.curvature, inner, bend.turn};
       }

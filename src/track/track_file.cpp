@@ -20,7 +20,7 @@
 
 // Reads the center line and widths of a track from a CSV file.
 // 1. TrackRows reads the columns and checks the numbers.
-// 2. CheckShape refuses center lines with large gaps or points that turn back.
+// 2. CheckShape refuses center lines with large gaps, and center lines that turn back at a point.
 // 3. If an edge folds over in a tight bend, Narrow moves this edge inwards, with a note, but by at
 //    most half of its width.
 namespace trackbed {
@@ -95,8 +95,8 @@ std::string DescribeFold(const TrackFold& fold, double given) {
                    fold.radius, given, kMaxRadiusFraction);
 }
 
-/// Returns the points with half of their widths, the narrowest widths to which an edge may be
-/// narrowed.
+/// Returns the points with half of their widths. The edges may be narrowed to half of the widths,
+/// but not further.
 std::vector<TrackPoint> Halved(std::vector<TrackPoint> points) {
   for (TrackPoint& point : points) {
     point.width_left *= 0.5;
@@ -105,7 +105,7 @@ std::vector<TrackPoint> Halved(std::vector<TrackPoint> points) {
   return points;
 }
 
-/// Refuses points at which an edge would have to be narrowed to less than half.
+/// Refuses points at which an edge would have to be narrowed to less than half of its width.
 void CheckFolds(TrackRows& rows, std::optional<double> smoothing) {
   if (std::optional<TrackFold> fold = FindFold(Halved(rows.points), smoothing)) {
     rows.Add(fold->point, "", DescribeFold(*fold, 2.0 * fold->width));
@@ -113,11 +113,12 @@ void CheckFolds(TrackRows& rows, std::optional<double> smoothing) {
   rows.problems.ThrowIfAny();
 }
 
-/// Largest distance by which a default smoothing may move a point or swing aside on a long step, as
-/// a fraction of the narrowest width of the track.
+/// Limit for a default smoothing, as a fraction of the narrowest width of the track. The smoothed
+/// line may neither move a point farther, nor deviate farther from the straight line of a long
+/// step.
 constexpr double kMaxShift = 0.1;
 
-/// Largest shift of a point of this track by a default smoothing [m].
+/// Returns the largest distance by which a default smoothing may move a point of this track [m].
 double LargestShift(const TrackRows& rows) {
   double narrowest = std::numeric_limits<double>::infinity();
   for (const TrackPoint& point : rows.points) {
@@ -126,7 +127,8 @@ double LargestShift(const TrackRows& rows) {
   return kMaxShift * narrowest;
 }
 
-/// Whether the center line leaves the straight line of a long step by more than LargestShift.
+/// Whether the center line deviates from the straight line of a long step by more than
+/// LargestShift.
 bool SwingsAside(const Track& track, const TrackRows& rows) {
   const TrackSteps steps = StepsOf(rows.points);
   const double largest = LargestShift(rows);
@@ -149,8 +151,9 @@ bool SwingsAside(const Track& track, const TrackRows& rows) {
   return false;
 }
 
-/// Returns the track if no edge would have to be narrowed to less than half, no point is moved by
-/// more than LargestShift, and the track does not swing aside on long steps.
+/// Returns the track if no edge would have to be narrowed to less than half of its width. The
+/// smoothing must not move a point by more than LargestShift, or swing aside on long steps
+/// (SwingsAside). Otherwise returns nullopt.
 std::optional<Track> FittingTrack(const TrackRows& rows, std::optional<double> smoothing) {
   if (FindFold(Halved(rows.points), smoothing)) {
     return std::nullopt;
@@ -160,7 +163,8 @@ std::optional<Track> FittingTrack(const TrackRows& rows, std::optional<double> s
   return fits ? std::optional(std::move(track)) : std::nullopt;
 }
 
-/// Whether the polyline turns to both sides within eight points before and after a point.
+/// Whether the polyline turns both left and right within eight points before and eight points after
+/// a point.
 bool Zigzags(const std::vector<TrackPoint>& points, std::size_t at) {
   constexpr std::size_t kAround = 8;
   const std::size_t count = points.size();
@@ -176,10 +180,11 @@ bool Zigzags(const std::vector<TrackPoint>& points, std::size_t at) {
   return turns_left && turns_right;
 }
 
-/// Reads points that the default of Track does not fit: fills long steps between them, and takes
-/// the nearest default times a power of 2 that does (FittingTrack). Points on the grid of a picture
-/// turn to the left and to the right alternately, and take a longer wavelength. Points with long
-/// straights between them take a shorter wavelength. Returns nullopt if no wavelength fits.
+/// Finds a smoothing wavelength for points for which the default wavelength of Track is unsuitable.
+/// Fills long steps between the points. Then multiplies the default wavelength by powers of 2,
+/// beginning near 1, until the track fits (FittingTrack). Points on the grid of a picture turn to
+/// the left and to the right alternately, so they need a longer wavelength. Points with long
+/// straights between them need a shorter wavelength. Returns nullopt if no wavelength fits.
 std::optional<Track> FitOtherwise(TrackRows& rows) {
   FillLongSteps(rows);
   if (std::optional<Track> track = FittingTrack(rows, std::nullopt)) {
@@ -192,7 +197,7 @@ std::optional<Track> FitOtherwise(TrackRows& rows) {
   const double usual = kDefaultSmoothing * length / static_cast<double>(rows.points.size());
   const std::optional<TrackFold> fold = FindFold(Halved(rows.points), std::nullopt);
   if (fold && !Zigzags(rows.points, fold->point)) {
-    return std::nullopt;  // the track itself bends too tightly, not only its points
+    return std::nullopt;  // the track bends too tightly even without zigzags
   }
   constexpr int kMostDoublings = 6;
   for (int i = 1; i <= kMostDoublings; ++i) {
@@ -227,7 +232,7 @@ EdgeLimits FindEdgeLimits(const Track& track) {
     for (int k = 0; k < kFoldSamples; ++k) {
       const double s = StationOfSample(track, i, k);
       const double curvature = track.At(s).curvature;
-      // Slightly less, because the edge is interpolated with rounding errors.
+      // Factor slightly below 1, because the edge is interpolated with rounding errors.
       constexpr double kRounding = 1.0 - 1e-9;
       const double limit = kRounding * kMaxRadiusFraction / std::abs(curvature);
       std::vector<double>& side = curvature > 0.0 ? limits.left : limits.right;
@@ -240,7 +245,7 @@ EdgeLimits FindEdgeLimits(const Track& track) {
   return limits;
 }
 
-/// Notes the narrowed places of one edge: consecutive points are one place.
+/// Collects notes on the narrowed places of one edge; consecutive narrowed points form one place.
 class NarrowedPlaces {
  public:
   NarrowedPlaces(TrackRows& rows, const char* edge) : rows_(rows), edge_(edge) {}
@@ -362,7 +367,7 @@ TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& r
   }
   Track track = std::move(*fitting);
   if (FindFold(track)) {
-    // The narrower track could be read with another smoothing.
+    // Keep the smoothing, because the default for the narrower track may be different.
     const double smoothing = track.smoothing();
     track = Track(Narrow(track, rows), smoothing);
     chosen = reading.smoothing ? std::nullopt : std::optional(smoothing);

@@ -12,9 +12,9 @@
 
 #include "trackbed/core/csv_rows.h"
 
-// Reads the rows of a track. The columns are found by their usual names; without names, four
-// columns are TUM's, and two are x and y. Missing widths come from the scenario. All faults of the
-// rows are collected before the file is refused.
+// Reads the rows of a track. The columns are found by their usual names. Without names, four
+// columns are read in the order of TUM's track files, and two columns are x and y. Missing widths
+// come from the scenario. All faults of the rows are collected before the file is refused.
 
 namespace trackbed {
 namespace {
@@ -27,7 +27,8 @@ constexpr double kMaxWidth = 1000.0;  // Largest permitted track width on either
 /// Quantities in the columns of a track.
 enum Quantity { kX, kY, kRight, kLeft, kWidth };
 
-/// Usual names of the columns of each quantity, in order of preference; the first is TUM's.
+/// Usual names of the columns of each quantity, in order of preference. The first name is that of
+/// TUM's track files.
 const std::array<std::vector<const char*>, kTrackQuantities>& UsualNames() {
   static const std::array<std::vector<const char*>, kTrackQuantities> names{
       {{"x_m", "x", "x [m]", "pos_x", "position_x", "center_x", "x_center", "easting"},
@@ -116,7 +117,7 @@ void TrackRows::TakeNames(const std::vector<std::string>& names, int line) {
   }
 }
 
-/// Takes the columns of a file without names in the order of TUM.
+/// Assigns the columns of a file without names in the order of TUM's track files.
 void TrackRows::TakeNumbers(int line) {
   constexpr std::size_t kWithWidths = 4;
   if (names_.size() != (reading_.width ? 2 : kWithWidths)) {

@@ -17,7 +17,7 @@ namespace trackbed {
 inline constexpr std::size_t kTrackQuantities = 5;
 using TrackNumbers = std::array<double, kTrackQuantities>;
 
-/// How to read a file without columns of widths as the log of a drive.
+/// Parameters for reading a file without columns of widths as the log of a drive.
 struct LogReading {
   double spacing = 0.0;     // Distance between points; rows in between are skipped [m].
   double half_width = 0.0;  // Width of the road to either side [m].
@@ -27,7 +27,7 @@ struct LogReading {
 class TrackRows {
  public:
   /// Reads the rows of a file. Throws InputError if a row or the header has a problem. Drops the
-  /// first point if the file repeats it at its end. With `log`, the file needs no widths.
+  /// first point if the file repeats it at its end. If `log` is given, the file needs no widths.
   TrackRows(const std::filesystem::path& file, const TrackReading& reading,
             std::optional<LogReading> log = {});
 
@@ -54,7 +54,7 @@ class TrackRows {
 
   std::string name_;
   const TrackReading& reading_;
-  std::optional<LogReading> log_;  // How to read the log; reset if the file has widths.
+  std::optional<LogReading> log_;  // Parameters for reading a log; empty if the file has widths.
   std::vector<std::string> names_;
   std::array<std::optional<std::size_t>, kTrackQuantities> columns_;
   bool is_broken_ = false;

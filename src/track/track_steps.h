@@ -17,7 +17,7 @@ struct TrackSteps {
   [[nodiscard]] bool IsLong(std::size_t i) const { return lengths[i] > 4.0 * median; }
 };
 
-/// Returns the steps of at least one point.
+/// Returns the steps between the points; there must be at least one point.
 TrackSteps StepsOf(const std::vector<TrackPoint>& points);
 
 /// Adds points on the straight lines of long steps, with a note.
