@@ -38,7 +38,7 @@ void CheckSection(const GgvSection& section, std::size_t size) {
 }
 
 /// Position of a value in an ascending list: the index of the next lower list value, and the
-/// fraction of the distance from this to the following list value.
+/// relative position between this list value and the next one.
 struct Place {
   std::size_t index = 0;
   double share = 0.0;

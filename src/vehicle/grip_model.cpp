@@ -42,8 +42,8 @@ std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double 
   if (side * below.longitudinal >= wanted) {
     return below.lateral;
   }
-  // Slip ratios on a road with the friction factor 1. On another road, the peak of the force is at
-  // a slip ratio that is proportional to the road's factor.
+  // Slip ratios on a road with the friction factor 1. The slip ratio at the peak of the force is
+  // proportional to the road's friction factor.
   constexpr std::array<double, 11> kRatios{0.01, 0.02, 0.03, 0.045, 0.06, 0.08,
                                            0.10, 0.13, 0.17, 0.23,  0.30};
   for (const double on_dry_road : kRatios) {
@@ -116,8 +116,8 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
     }
     return sum;
   };
-  // Largest slip angle of the search [rad]. The angle of the peak is proportional to the road's
-  // factor.
+  // Largest slip angle of the search [rad]. The slip angle at the peak of the lateral force is
+  // proportional to the road's friction factor.
   const double max_slip = 0.5 * demand.road;
   // Number of correct bits of the slip angle; a few bits suffice, because the force is flat around
   // the peak.
@@ -216,7 +216,7 @@ class SteadyState {
   }
 
  private:
-  // Upper bound of accelerations [m/s^2], which no car without downforce reaches.
+  // Upper bound of accelerations [m/s^2]; no car without downforce reaches this bound.
   static constexpr double kMaxAcceleration = 40.0;
   // Change of the drag and of the front axle's force, per mass, at which the iteration ends
   // [m/s^2].
@@ -320,8 +320,9 @@ GgvSection ComputeSection(const GripModel& car, double road, double speed) {
 
 /// Returns the speeds of the sections of a diagram [m/s]. Drag and its load transfer are linear in
 /// the squared speed, like the interpolation between sections. The curvature of a turn is inversely
-/// proportional to the squared speed, so the squared speeds of the sections double, from the speed
-/// at which a turn with full lock needs 1 g. Slower turns at the limit do not exist.
+/// proportional to the squared speed, so the squared speed doubles from each section to the next.
+/// At the lowest speed, a turn with full lock needs 1 g; at lower speeds, no turn reaches the grip
+/// limit.
 std::vector<double> TableSpeeds(const GripModel& car, double top) {
   std::vector<double> speeds;
   const double slowest = std::sqrt(kGravity * car.wheelbase / std::tan(car.steering_limit));
@@ -343,7 +344,8 @@ std::vector<double> Interpolate(const std::vector<double>& from, const std::vect
 
 /// Returns the sections of a car that steers. `slow` and `fast` are sections without steering
 /// angle, at speed 0 and at the largest speed. The steering angle reduces the largest lateral
-/// acceleration; at the same fraction of it, the car drives and brakes as without steering angle.
+/// acceleration. At each fraction of the largest lateral acceleration, the limits of driving and
+/// braking are those without steering angle.
 std::vector<GgvSection> SteeredSections(const GripModel& car, const GgvSection& slow,
                                         const GgvSection& fast) {
   std::vector<GgvSection> sections;

@@ -145,7 +145,7 @@ PureForce LongitudinalForce(const MagicFormula& t, double load, double road, dou
   return x;
 }
 
-/// The shifts S_hy and S_vy/(road F_z).
+/// The horizontal shift S_hy and the relative vertical shift S_vy/(road F_z).
 struct LateralShifts {
   double horizontal = 0.0;
   double vertical = 0.0;
@@ -295,9 +295,9 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
     const double norm = std::hypot(x.force / x.peak, y.force / y.peak);
     return {x.force / std::max(1.0, norm), y.force / std::max(1.0, norm)};
   }
-  // A tyre slides at smaller slips on a slippery road. The pure forces take this into account by
-  // B = K/(C D), the weighting factors of combined slip by similar slips. The shifts belong to the
-  // slips, so the sums kappa + S_hx and alpha + S_hy are multiplied.
+  // On a slippery road, a tyre slides at smaller slips. The pure forces account for the road by B =
+  // K/(C D), and the weighting factors of combined slip by similar slips. The similarity factor
+  // multiplies the sums kappa + S_hx and alpha + S_hy, because the shifts are parts of the slips.
   const double similar = SimilarSlip(slip, road);
   const double kappa = similar * slip.ratio + (similar - 1.0) * x.shift;
   const double alpha = similar * LateralSlip(t, slip.angle) + (similar - 1.0) * y.shift;

@@ -37,7 +37,7 @@ void Check(const TrailerParams& trailer, const VehicleParams& car) {
   }
 }
 
-/// A side of an outline, seen from the hitch.
+/// A side of an outline, in coordinates relative to the hitch.
 struct Side {
   Vec2 from;
   Vec2 to;
@@ -149,9 +149,9 @@ VehicleParams TrailerBody(const TrailerParams& trailer) {
 }
 
 double JackknifeAngle(const TrailerParams& trailer, const VehicleParams& car) {
-  // Car and trailer touch first where a corner of one meets a side of the other. A corner moves
-  // relative to the other outline on a circle about the hitch, so that each such angle has a closed
-  // form. The outlines are symmetric, so that only positive angles are searched.
+  // Car and trailer first touch where a corner of one outline meets a side of the other outline.
+  // Relative to the other outline, a corner moves on a circle about the hitch, so each angle of
+  // contact has a closed form. The outlines are symmetric, so only positive angles are searched.
   const double near = trailer.hitch - car.rear_overhang;
   const double half_width = 0.5 * car.width;
   const std::vector<Vec2> car_corners{{near, half_width},

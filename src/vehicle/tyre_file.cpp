@@ -167,7 +167,8 @@ void TyreFileReader::CheckType() {
   }
 }
 
-/// Returns the version that PROPERTY_FILE_FORMAT states; 0 if it leaves the version open.
+/// Returns the version that PROPERTY_FILE_FORMAT states; 0 if the format does not determine the
+/// version.
 double TyreFileReader::VersionOfFormat(const TyreFileEntry& entry) {
   const std::string format = InCapitals(entry.text);
   static const std::map<std::string, double> versions{
@@ -259,7 +260,8 @@ void TyreFileReader::ReadUnits() {
   }
 }
 
-/// Adds a note with the entries that had no part, by section. Entries without effect are left out.
+/// Adds a note that lists the unused entries by section. The note leaves out entries whose values
+/// have no effect.
 void TyreFileReader::NoteIgnored() {
   const MagicFormula& tyre = result_.tyre;
   if (tyre.r_bx1 == 0.0 && tyre.r_by1 == 0.0) {

@@ -10,7 +10,8 @@
 // Takes the Magic Formula coefficients from a tyre property file.
 // 1. ReadCoefficients copies the coefficients by their names, such as PCX1 to p_cx1, and lists
 //    missing ones.
-// 2. NormalizeSigns turns pairs of coefficients with reversed signs, which give the same forces.
+// 2. NormalizeSigns reverses the signs of coefficients in pairs that some files give with both
+//    signs reversed. Such a pair yields the same forces.
 // 3. ApplyScaleFactors and ApplyPressure fold scale factors and the change of pressure into the
 //    coefficients.
 // 4. ApplySide mirrors the tyre of a right wheel.
@@ -29,12 +30,13 @@ std::string KeyOf(const char* field) {
   return key;
 }
 
-/// Whether a field is a coefficient of the formulas, which tyre property files name alike.
+/// Whether a field is a coefficient of the Magic Formula, whose key in tyre property files follows
+/// from the name of the field (KeyOf).
 bool IsCoefficient(const MagicFormulaField& field) {
   return field.name[1] == '_' && (field.name[0] == 'p' || field.name[0] == 'r');
 }
 
-/// Whether only MF6.1 has the coefficient.
+/// Whether only version 6.1 of the Magic Formula has the coefficient.
 bool IsOfVersion6(double M::*field) {
   static const std::initializer_list<double M::*> fields{&M::p_ey5, &M::p_ky4, &M::p_ky5, &M::p_ky6,
                                                          &M::p_ky7, &M::r_bx3, &M::r_by4};
@@ -263,7 +265,7 @@ void TyreFileReader::CheckResult() {
   };
   for (const MagicFormulaField& field : MagicFormulaFields()) {
     if (IsCoefficient(field)) {
-      // These two multiply the square of the camber, at most 0.1.
+      // The coefficients r_bx3 and r_by4 multiply the square of the camber, which is at most 0.1.
       const bool is_of_square = field.value == &M::r_bx3 || field.value == &M::r_by4;
       need(KeyOf(field.name), tyre.*field.value, is_of_square ? 1e6 : 1e3);
     }

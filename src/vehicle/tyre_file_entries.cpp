@@ -58,7 +58,7 @@ std::optional<double> NumberIn(std::string_view token) {
   return is_number ? std::optional(value) : std::nullopt;
 }
 
-/// Whether a line has only numbers, as the row of a table.
+/// Whether a line has only numbers, like the row of a table.
 bool IsRowOfNumbers(std::string_view content) {
   while (!content.empty()) {
     const std::size_t end = content.find_first_of(kBlanks);

@@ -37,8 +37,8 @@ class TyreFileReader {
   /// twice with different values.
   const TyreFileEntry* Find(const std::string& key);
   std::optional<double> Number(const std::string& key);
-  /// Returns a scale factor under one of its names; 1 if the file has none. Adds a problem if the
-  /// scale factor is below 0.
+  /// Returns the scale factor that the file gives under one of the names; 1 if the file has none of
+  /// the names. Adds a problem if the scale factor is below 0.
   double Factor(std::initializer_list<const char*> names);
   void Multiply(double factor, std::initializer_list<Field> fields);
 
