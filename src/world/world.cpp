@@ -66,7 +66,8 @@ struct MotionPiece {
   double yaw_rate;  // [rad/s]
 };
 
-/// Returns the piece of a motion at `time`: the first or the last piece beyond the ends.
+/// Returns the piece of a motion at `time`. Before the start of the motion, returns the first
+/// piece, and after the end the last piece.
 MotionPiece PieceAt(const std::vector<TimedPose>& motion, double time) {
   const auto after =
       std::upper_bound(motion.begin() + 1, motion.end() - 1, time,
