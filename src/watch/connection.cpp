@@ -173,8 +173,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   void Upgrade(const Request& request) {
     const std::string_view origin = View(request[http::field::origin]);
-    // A request without the header Origin does not come from a browser, so a page of another site
-    // cannot be its cause.
+    // A WebSocket request without the header Origin does not come from a browser, and therefore not
+    // from a page of another site.
     const bool own = request.count(http::field::origin) == 0 ||
                      IsOwnOrigin(origin, View(request[http::field::host]));
     if (!own) {

@@ -25,8 +25,8 @@ class LiveConnection;
 /// The open connections of a server, which are all handled in one thread.
 class Connections {
  public:
-  /// Serves HTTP requests on a new connection, and changes to a WebSocket if the client requests
-  /// this. `site` must outlive this object.
+  /// Serves HTTP requests on a new connection. Changes the connection to a WebSocket if the client
+  /// requests a WebSocket. `site` must outlive this object.
   void Add(boost::asio::ip::tcp::socket socket, const Site& site);
 
   /// Sends new messages on each WebSocket that is not currently sending.
