@@ -74,7 +74,8 @@ std::array<double, 3> RestingHitch(const TrailerParts& trailer, const Pose2& car
       stand.turn * Eigen::Vector3d(-params.hitch, 0.0, params.hitch_height);
   const double left = GroundHeight(ground, ToWorld(axle, {0.0, 0.5 * params.track}));
   const double right = GroundHeight(ground, ToWorld(axle, {0.0, -0.5 * params.track}));
-  // The ground under the axle is below the hitch by hitch_height plus tongue times the pitch.
+  // The ground under the axle is below the hitch by hitch_height minus tongue times the pitch,
+  // which is positive for a lowered nose.
   const double below = stand.height + hitch.z() - 0.5 * (left + right);
   const double pitch = (params.hitch_height - below) / params.tongue;
   const double roll = (left - right) / params.track;

@@ -27,10 +27,10 @@ double CouplingTorque(const AxleWheel& left, const AxleWheel& right, double most
     return 0.0;
   }
   // The transmitted torque opposes the difference of the wheel speeds. With c = sign x, the
-  // function x -> -sign * difference(sign x) increases from a negative value at x = 0.
+  // function x -> sign * difference(sign x) increases from a negative value at x = 0.
   const double sign = unlocked > 0.0 ? -1.0 : 1.0;
   const auto rising = [&](double x) { return sign * difference(sign * x); };
-  // Torques that bring the free speeds of the wheels to zero.
+  // Transmitted torques at which each wheel, without dry friction, would end the step at rest.
   const double to_rest_left = -(left.speed * left.inertia / timestep + left.torque);
   const double to_rest_right = right.speed * right.inertia / timestep + right.torque;
   // At this torque, the sign of the speed difference has changed in any case.
