@@ -270,7 +270,7 @@ bool IsClosedLine(const std::vector<TrackPoint>& points) {
     return false;
   }
   constexpr double kLargestGap =
-      2.0;  // largest gap, divided by the largest distance of neighbors
+      2.0;  // largest gap, divided by the largest distance between neighbors
   constexpr double kSameDirection = kPi / 6.0;
   const auto chord = [&](std::size_t i) -> Vec2 {
     return points[(i + 1) % points.size()].position - points[i].position;

@@ -108,7 +108,7 @@ class Clocks {
   double start_;
   std::vector<bool> valid_;
   Motion pose_;    // computed from the pose
-  Motion motion_;  // measured, on the clock of the pose
+  Motion motion_;  // measured motion, on the clock of the pose
   std::vector<SignalClock> clocks_;
 };
 

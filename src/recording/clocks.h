@@ -26,9 +26,9 @@ struct SignalClock {
 /// Estimates the delays of all signals of a log that can be compared with the motion (FindDelay):
 ///   speed          against the derivative of the position along the car
 ///   yaw_rate       against the derivative of the yaw
-///   accelerometer  against the derivatives of the speeds along and across the car in the turning
-///                  car, at the place of the accelerometer. Measured speeds and yaw rates are
-///                  shifted by their delays for this comparison.
+///   accelerometer  against the acceleration at the place of the accelerometer, which is computed
+///                  from longitudinal speed, lateral speed and yaw rate. Measured speeds and yaw
+///                  rates are shifted by their delays for this comparison.
 ///   steering, steering_command  the yaw rate against speed times the tangent of the angle; here
 ///                  the delay is that of the yaw rate, and negative if the steering is logged late.
 /// The samples of `drive` contain the motion that was computed from the pose; `start` is the time
@@ -39,9 +39,9 @@ std::vector<SignalClock> MeasureClocks(const LogRows& rows, const LogMap& map,
 /// Returns a note for each signal that is delayed by more than its uncertainty. If `map.align` is
 /// true, also shifts the times of these signals in `rows` onto the clock of the pose.
 ///
-/// Steering angles and commands are shifted only if the yaw rate precedes them, which no car can
-/// do, and then by as much as the yaw rate precedes them. A yaw rate that follows the steering is
-/// the response of the car, or a delay, or both; a note states its delay.
+/// Steering angles and commands are shifted only if the yaw rate precedes them, which is impossible
+/// for a car. The shift is the time by which the yaw rate precedes the steering. A yaw rate that
+/// follows the steering is the response of the car, or a delay, or both; a note states its delay.
 std::vector<std::string> CompareClocks(LogRows& rows, const LogMap& map, const RecordedDrive& drive,
                                        double start);
 

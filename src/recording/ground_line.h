@@ -66,7 +66,8 @@ class GroundLine {
   /// Returns the point at any station. A closed line repeats; an open line continues straight.
   [[nodiscard]] PathPoint At(double s) const;
   [[nodiscard]] TrackEdges EdgesAt(double s) const;
-  /// Returns the distance of a station beyond the ends of an open line [m], or 0.
+  /// Returns the distance of a station beyond the ends of an open line [m]; 0 for stations on the
+  /// line and for closed lines.
   [[nodiscard]] double BeyondEnds(double s) const;
   /// Returns a smooth surface with the given values at the points: one row for each point.
   [[nodiscard]] GroundSurface SurfaceThrough(const Eigen::MatrixXd& values) const;

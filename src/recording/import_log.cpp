@@ -21,9 +21,9 @@
 // grid with a constant period by fitting local polynomials (local_polynomial.h: Cleveland 1979).
 // Velocity and acceleration are the derivatives of the fitted polynomials. If the log contains a
 // measured speed, yaw rate or acceleration, the measured value replaces the derivative of the
-// polynomial. Delays between the two are noted, and removed on request (clocks.h). Inputs of the
-// car, such as the steering angle, are interpolated linearly. Gaps in the log are filled by linear
-// interpolation, and the samples within a gap are marked invalid.
+// polynomial. Delays between measured values and derivatives are noted, and removed on request
+// (clocks.h). Inputs of the car, such as the steering angle, are interpolated linearly. Gaps in the
+// log are filled by linear interpolation, and the samples within a gap are marked invalid.
 namespace trackbed {
 namespace {
 

@@ -153,7 +153,8 @@ std::optional<FoundColumn> AnyOf(const std::vector<std::string>& names, const Na
   return std::nullopt;
 }
 
-/// Takes a found column with the unit that its name states; otherwise, keeps the default unit.
+/// Sets `column` to the found column, if any. The unit is the one that the column's name states;
+/// without one, the default unit is kept.
 template <typename Column>
 void Take(const std::optional<FoundColumn>& found, std::optional<Column>& column) {
   if (found) {
@@ -165,7 +166,7 @@ void Take(const std::optional<FoundColumn>& found, std::optional<Column>& column
   }
 }
 
-/// Takes the time and the position of a table with usual names.
+/// Proposes columns for time and position, for a table whose columns have usual names.
 void TakePlace(const std::vector<std::string>& names, LogMap& map) {
   // rostopic echo -p writes nanoseconds in the column %time.
   const Names times{"s", "ms", "us", "ns"};

@@ -8,12 +8,12 @@
 
 // Estimates a delay by least squares: a scan over whole samples computes the sum of squared
 // residuals for each delay. The slope of a cubic that is fitted to the sums around the chosen delay
-// refines the delay. The cubic extends over the delays that still explain nine tenths of the
-// signal, so noise of neighboring delays averages out. The standard error is that of an extremum
-// estimator with correlated residuals (Newey and West 1987). Noise that varies faster than the
-// motion has narrow peaks of correlation at random delays. If the reference explains too little of
-// the signal, reference and signal are smoothed by moving averages of growing width. Equal averages
-// of both do not change the delay between them.
+// refines the delay. The cubic extends over the delays that explain at least nine tenths of what
+// the best delay explains, so noise of neighboring delays averages out. The standard error is that
+// of an extremum estimator with correlated residuals (Newey and West 1987). Noise that varies
+// faster than the motion has narrow peaks of correlation at random delays. If the reference
+// explains too little of the signal, reference and signal are smoothed by moving averages of
+// growing width. Equal averages of both do not change the delay between them.
 namespace trackbed {
 namespace {
 
