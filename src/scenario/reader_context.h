@@ -22,7 +22,7 @@ struct ReaderContext {
   // Returns the factor on default lengths that follow from the size of the car (car_lengths.h); not
   // called if the file gives all of these lengths.
   std::function<double()> car_length_scale{};
-  std::optional<double> length_scale{};  // the result of the first call
+  std::optional<double> length_scale{};  // result of the first call of car_length_scale
 
   /// Adds a problem of a key whose value is at position `mark` of the file. If the option --set has
   /// set the key, the problem refers to --set instead of the file position.
