@@ -7,8 +7,8 @@
 // Evaluates the Magic Formula: forces of a tyre at given slips, load, camber and road friction.
 // 1. On a slippery road, the slips are multiplied by up to 1/road, so that the force curves keep
 //    their shape (similarity method, section 4.2).
-// 2. Pure slip: F = D sin(C atan(u - E (u - atan u))) + S_v with u = B (slip + S_h), along and
-//    across.
+// 2. Pure slip: both forces are F = D sin(C atan(u - E (u - atan u))) + S_v with u = B (slip +
+//    S_h).
 // 3. Combined slip: each force is multiplied by a weight G that depends on the slip in the other
 //    direction.
 // 4. Friction and stiffness stay above a tenth of their nominal values at extreme loads and

@@ -10,8 +10,8 @@
 // Takes the Magic Formula coefficients from a tyre property file.
 // 1. ReadCoefficients copies the coefficients by their names, such as PCX1 to p_cx1, and lists
 //    missing ones.
-// 2. NormalizeSigns reverses the signs of coefficients in pairs that some files give with both
-//    signs reversed. Such a pair yields the same forces.
+// 2. NormalizeSigns corrects pairs of coefficients that some files give with both signs reversed.
+//    The correction does not change the forces.
 // 3. ApplyScaleFactors and ApplyPressure fold scale factors and the change of pressure into the
 //    coefficients.
 // 4. ApplySide mirrors the tyre of a right wheel.
