@@ -38,7 +38,8 @@ void NoteWheels(const FoundVehicle& vehicle, Findings& findings) {
   }
 }
 
-/// Returns the points on which a vehicle with differential drive stands beside its wheels.
+/// Returns the points on which a vehicle with differential drive stands, except for its driven
+/// wheels.
 std::vector<Vector> FindSupports(const FoundModel& found, const FoundVehicle& vehicle) {
   const mjModel& m = *found.model;
   std::vector<Vector> supports;

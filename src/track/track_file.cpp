@@ -113,9 +113,8 @@ void CheckFolds(TrackRows& rows, std::optional<double> smoothing) {
   rows.problems.ThrowIfAny();
 }
 
-/// Limit for a default smoothing, as a fraction of the narrowest width of the track. The smoothed
-/// line may neither move a point farther, nor deviate farther from the straight line of a long
-/// step.
+/// Limit for a default smoothing, as a fraction of the narrowest width of the track. The limit
+/// applies to the shift of each point, and to the deviation from the straight line of a long step.
 constexpr double kMaxShift = 0.1;
 
 /// Returns the largest distance by which a default smoothing may move a point of this track [m].

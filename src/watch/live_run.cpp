@@ -118,8 +118,8 @@ std::string LiveRun::StateText() const {
 }
 
 std::optional<std::string> LiveRun::RowsText(Cursor& cursor) const {
-  // approximate size of a message over all kinds of rows [bytes]; may be exceeded by one row of
-  // each kind
+  // approximate limit of the size of a message [bytes]; one row of each kind and plant may exceed
+  // the limit
   constexpr std::size_t kMessage = 80000;
   const std::size_t most = kMessage / (kAdded.size() * plants_.size());
   cursor.places.resize(plants_.size());
