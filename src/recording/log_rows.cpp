@@ -243,7 +243,7 @@ class LogReader {
   // column of additional nanoseconds.
   std::optional<std::pair<double, double>> origin_;
   std::size_t kept_ = 0;
-  bool is_globe_;            // whether positions are longitudes and latitudes [deg] before projection
+  bool is_globe_;            // whether positions are on the globe [deg] until projection
   double globe_unit_ = 1.0;  // degrees per unit of the columns
   std::vector<int> lines_;   // line of each position on the globe
 };
