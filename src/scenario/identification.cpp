@@ -118,7 +118,7 @@ void CheckRecordNames(const Identification& study, const YAML::Node& root, Reade
 }
 
 /// Reads the track of the bank, which becomes the ground. Checks that the plant simulates the
-/// ground, and that no scenario defines ground of its own.
+/// ground, and that no scenario defines another ground.
 void ReadBank(Identification& study, const std::vector<fs::path>& assets, const YAML::Node& root,
               ReaderContext& context) {
   const auto add_error = [&](const std::string& key, std::string message) {

@@ -34,7 +34,7 @@ struct ReaderContext {
   /// Returns a hint for the key `unknown` of the section `node`. The hint has one of two reasons.
   /// If the option --set has set the method of the section, the key may belong to the method that
   /// the file names. If the unknown key is a local planner or a replanner, the global planner needs
-  /// a section of its own. Without a hint, returns an empty text.
+  /// a separate section. Without a hint, returns an empty text.
   [[nodiscard]] std::string MethodHint(const std::string& section, const YAML::Node& node,
                                        const std::string& unknown) const;
 
