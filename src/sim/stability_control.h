@@ -20,14 +20,14 @@ struct CarMotion {
 ///
 /// The driver demands the yaw rate of the linear single-track model in a steady turn,
 ///   r_s = v tan(delta)/(L + K v^2),  limited to |r_s| <= 0.85 mu g/v,
-/// with the understeer gradient K of the unladen car, and mu = friction_lateral times the road's
-/// factor. The reference r follows r_s with a lag equal to the delay of the linear single-track
-/// model at low frequencies. The control acts if the yaw rate leaves the band of 0.05 mu g/v about
-/// the reference. The control also acts if the sideslip angle exceeds atan(0.02 s^2/m mu g) while
-/// the heading turns away from the direction of the velocity. For an excess e, the control commands
-/// the yaw moment I_z e/0.02 s. Against oversteer, the outer front wheel brakes. Against
-/// understeer, the inner rear wheel brakes. While a wheel brakes, the drive torque is cut. The
-/// control does not act below the speed sqrt(g L), nor in reverse.
+/// with the understeer gradient K of the unladen car, and with mu = friction_lateral times the
+/// road's friction factor. The reference r follows r_s with a lag equal to the delay of the linear
+/// single-track model at low frequencies. The control acts if the yaw rate leaves the band of 0.05
+/// mu g/v about the reference. The control also acts if the sideslip angle exceeds atan(0.02 s^2/m
+/// mu g) while the heading turns away from the direction of the velocity. For an excess e, the
+/// control commands the yaw moment I_z e/0.02 s. Against oversteer, the outer front wheel brakes.
+/// Against understeer, the inner rear wheel brakes. While a wheel brakes, the drive torque is cut.
+/// The control does not act below the speed sqrt(g L), nor in reverse.
 class StabilityControl {
  public:
   StabilityControl(const CarModel& car, double gravity);

@@ -31,13 +31,13 @@ BrakedWheel MakeBrakedWheel(const MagicFormula& tyre, double load, double radius
 
 /// Controls the brake slip of one wheel (van Zanten 2000).
 ///
-/// The target of the brake slip is kappa* = kappa_p (0.1 + 0.9 u), with the slip kappa_p of the
-/// largest force on a dry road. The used friction u is |F_x|/F_z, divided by the largest |F_x|/F_z
-/// on a dry road. A road with the friction factor lambda scales the curve u(kappa) of the tyre by
-/// lambda along both axes. Below the peak of this curve, the target exceeds the slip, and beyond
-/// the peak, the slip exceeds the target. The control therefore finds the peak without knowing
-/// lambda. In a turn, the lateral slip reduces F_x and thus the target, so that the tyre can still
-/// generate lateral force.
+/// The target of the brake slip is kappa* = kappa_p (0.1 + 0.9 u), where kappa_p is the slip at the
+/// largest braking force on a dry road. The used friction u is |F_x|/F_z, divided by the largest
+/// |F_x|/F_z on a dry road. A road with the friction factor lambda scales the curve u(kappa) of the
+/// tyre by lambda along both axes. Below the peak of this curve, the target exceeds the slip, and
+/// beyond the peak, the slip exceeds the target. The control therefore finds the peak without
+/// knowing lambda. In a turn, the lateral slip reduces F_x and thus the target, so that the tyre
+/// can still generate lateral force.
 ///
 /// The control limits the driver's brake torque to T = |F_x| R - I omega'. Here, omega' is the spin
 /// acceleration at which the slip approaches its target with a time constant of 20 ms. The limit
