@@ -332,9 +332,9 @@ TEST(Ahead, StartsFromRestAndStopsAtACusp) {
 }
 
 TEST(ErrorModel, TheModelOfEachStepStaysInTheTurnAtAChangingSpeed) {
-  // On a circle, the steady turn of each step is a fixed point of the model of its speed: x_0 = a
-  // x_0
-  // + d kappa + c (tan(delta_0) - delta_0). The model of the present speed has other fixed points.
+  // On a circle, the steady turn of each step is a fixed point of the model of its speed:
+  // x_0 = a x_0 + d kappa + c (tan(delta_0) - delta_0). The model of the present speed has other
+  // fixed points.
   const VehicleParams car = ReferenceCarWithTyres();
   const Reference reference{Path({}, {{200.0, 0.02, 1}}),
                             SpeedProfile({{0.0, 15.0}, {100.0, 5.0}, {200.0, 5.0}})};
@@ -361,7 +361,8 @@ TEST(ErrorModel, TheModelOfEachStepStaysInTheTurnAtAChangingSpeed) {
     EXPECT_LT((after - turn).norm(), Tolerance(1e-11));
     ahead.Next(model);
   }
-  EXPECT_LT(ahead.Now().speed, 10.0);  // the car has braked
+  // The car has braked by 1 m/s^2 for 4 s.
+  EXPECT_NEAR(ahead.Now().speed, 11.0, Tolerance(1e-9));
 }
 
 }  // namespace
