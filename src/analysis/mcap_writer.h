@@ -39,7 +39,7 @@ class McapWriter {
   [[nodiscard]] std::string Statistics() const;
 
   std::string out_;
-  /// Number of each schema, keyed by the schema's name and shape.
+  /// MCAP id of each schema (1, 2, ...), keyed by the schema's name and its JSON text.
   std::map<std::pair<std::string, std::string>, std::uint16_t> schemas_;
   std::vector<std::uint32_t> counts_;  ///< Number of messages in each channel.
   std::string schema_records_;

@@ -53,7 +53,8 @@ Scenario Bare(Scenario scenario) {
   return scenario;
 }
 
-/// Checks only the first scenario with each key, and collects the problems that the checks report.
+/// Of the scenarios with the same key, checks only the first one, and collects the problems that
+/// the checks report.
 template <typename Key>
 class OncePerKey {
  public:

@@ -99,7 +99,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
 
   [[nodiscard]] std::unique_ptr<SteeringController> Clone() const override {
     auto copy = std::make_unique<Mppi>(*this);
-    copy->surroundings_ = nullptr;  // the surroundings belong to the loop of the original
+    copy->surroundings_ = nullptr;  // See() sets the surroundings of the copy
     return copy;
   }
 

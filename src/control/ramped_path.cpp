@@ -72,7 +72,8 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
       const double room = std::min(step.station - step.tail, station - step.station);
       step.ramp = std::min(step.ramp, room / (0.5 + kShortestTail));
       step.tail = std::min(kTail * step.ramp, room - 0.5 * step.ramp);
-      // The curvatures of the tails of two steps may add up.
+      // The tails of two neighboring curvature steps may overlap, so their curvatures add up. The
+      // factor 2 in `bend` therefore leaves steering angle for two tails.
       const double ramp_by_tail = step.ramp / step.tail;
       const double bend = 2.0 * kTailBend / 24.0 * ramp_by_tail * ramp_by_tail;
       const auto share = [&](double curvature) {

@@ -22,8 +22,9 @@ struct CsvHead {
 /// row of numbers that have the same number of cells as this row, the topmost line has the names.
 /// Lines above the names are a preamble only if the first line has another number of cells. Lines
 /// between the names and the numbers are units if one of their cells is a unit and none is a
-/// number. Tries `delimiter` before other delimiters; keeps `delimiter` if no table has a preamble
-/// or units. In VBO files, finds the table by the names of sections (FindVboHead).
+/// number. Tries `delimiter` first, then other delimiters, and takes the first one with which the
+/// file has a preamble or units. If none of them does, takes `delimiter`. In VBO files, finds the
+/// table by the names of sections (FindVboHead).
 CsvHead FindCsvHead(const std::filesystem::path& file, char delimiter);
 
 /// Appends the unit to the name of a column, as in "Speed [km/h]", unless the name already has a

@@ -56,9 +56,9 @@ double ProgressOf(const PathPoints& given, std::size_t from, std::size_t to) {
 /// Returns the direction of each step.
 std::vector<int> DirectionsOf(const PathPoints& given, const std::vector<Place>& places,
                               const std::vector<double>& progress, double noise) {
-  // Weight of a turn back by 180 degrees as evidence for a change of direction, as a fraction of
-  // the shorter step. The weight is below 1, because given directions and headings are better
-  // evidence than the positions.
+  // Bonus for a change of direction where the steps turn back by 180 degrees, divided by the length
+  // of the shorter of the two steps. The bonus is below 1, because given directions and headings
+  // are better evidence than the positions.
   constexpr double kTurnShare = 0.5;
   constexpr std::array<int, 2> kDirections{1, -1};
   const auto at = [&](std::size_t place) { return given.points[places[place].first]; };

@@ -32,7 +32,7 @@ Vec2 OnLines(const ChordPoints& chords, double u) {
 struct PointGroup {
   Vec2 low;
   Vec2 high;
-  std::size_t begin = 0;      // Index of the first point among the given points.
+  std::size_t begin = 0;      // Index of the group's first point in the given points.
   std::size_t count = 1;      // Number of distinct points.
   bool is_noise = false;      // Whether a step within the group turned back.
   std::optional<Vec2> end{};  // Position of a group that contains an end of an open path.

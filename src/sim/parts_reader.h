@@ -50,8 +50,8 @@ class PartsReader {
   /// Reads the address of the chassis in the state vector, and the mass, inertia and center of
   /// gravity of all bodies that move with the free joint.
   void ReadChassis(int free_joint);
-  /// Checks that the origin of the chassis lies below the middle of the wheels of `axle`. Error
-  /// messages call the two wheels `wheels`.
+  /// Checks that the origin of the chassis lies below the middle of the wheels of `axle`. `wheels`
+  /// is the name of the two wheels in error messages.
   void CheckOrigin(const char* axle, const char* wheels, int left, int right);
   /// Checks the axis and the tyre of the wheel whose joint is spin_`wheel`. Adds the error "`all`
   /// must be equal" if the size of the tyre differs from that of the geom `first`.

@@ -19,7 +19,8 @@
 //      SceneOptions::asset_folders.
 //   2. Check elements and assets, since the files may be untrusted, and give the assets file names
 //      without folders.
-//   3. Set the steering rate, the compiler's defaults and the timestep.
+//   3. Set the steering rate, the given tyre numbers, MuJoCo's option `autolimits` and the
+//   timestep.
 //   4. Record the line of each element in the car's file, so that error messages can name the line.
 // A scene is trusted if all files of the scene are shipped with Trackbed; the files are recognized
 // by their SHA-256.

@@ -35,9 +35,10 @@ double Weight(double b, double c, double e, double shift, double slip) {
 }
 
 /// Returns the factor by which slips on a road with the friction factor `road` are multiplied to
-/// get similar slips on a road with the factor 1. The factor is 1/road, but no slip is enlarged
-/// beyond that of a locked wheel, kappa = -1, or of a wheel that moves sideways, alpha = pi/2. Both
-/// slips have the same factor, because their ratio is the direction in which the tyre slides.
+/// get similar slips on a road with the factor 1. The slips are divided by the friction factor
+/// `road`. The division enlarges them at most to the slip of a locked wheel (abs(kappa) = 1) or of
+/// a wheel that moves sideways (abs(alpha) = pi/2). Both slips have the same factor, because their
+/// ratio is the direction in which the tyre slides.
 double SimilarSlip(const TyreSlip& slip, double road) {
   if (road >= 1.0) {
     return 1.0 / road;

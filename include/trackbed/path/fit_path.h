@@ -106,15 +106,16 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 
 /// Fits a path through or along the points.
 ///
-/// The points are divided into legs, each driven in one direction of motion. The points' directions
-/// determine the legs; where directions are missing, the headings determine the legs. The car
-/// drives in reverse where its heading is opposite to the step to the next point. A leg that is
-/// shorter than max_deviation counts as noise. The car changes its direction of motion only at some
-/// of the points, which are the cusps of the path. Each leg is fitted as a separate curve. At a
-/// cusp, the heading is continuous. The heading at a cusp is the given heading, corrected by the
-/// mean difference between curves and given headings. Without suitable given headings, the heading
-/// at a cusp is the mean of the headings of the two curves. The curvature may jump at a cusp, where
-/// the car stands. A path without directions and headings has one forward leg.
+/// The points are divided into legs, each driven in one direction of motion. The legs follow from
+/// the directions of motion at the points (+1 forwards, -1 backwards). Where these directions are
+/// unknown, the legs follow from the headings. The car drives in reverse where its heading is
+/// opposite to the step to the next point. A leg that is shorter than max_deviation counts as
+/// noise. The car changes its direction of motion only at some of the points, which are the cusps
+/// of the path. Each leg is fitted as a separate curve. At a cusp, the heading is continuous. The
+/// heading at a cusp is the given heading, corrected by the mean difference between curves and
+/// given headings. Without suitable given headings, the heading at a cusp is the mean of the
+/// headings of the two curves. The curvature may jump at a cusp, where the car stands. A path
+/// without directions and headings has one forward leg.
 ///
 /// Because a Path has a continuous heading, each corner of a polyline becomes an arc. The arc is at
 /// most 2 mm long, is within 1 mm of the corner, and is far too tight for any car.

@@ -147,9 +147,10 @@ struct ClosestApproach {
 /// Guarantees: every contact deeper than 1 mm is detected. The returned clearance exceeds the true
 /// minimum by at most 5 mm or a hundredth of the clearance. If the car and the obstacles are
 /// further apart than they move between the samples, the cost is negligible. Otherwise, the
-/// function calls Clearance() several times, at most 10^5 times. A motion over kilometers may need
-/// more than 10^5 calls; the function then searches only a part of this motion. Throws
-/// InternalError if the world has no obstacles. Throws PreconditionError if a sample is not finite.
+/// function calls Clearance() several times, at most 10^5 times. For a motion over kilometers, 10^5
+/// calls of Clearance() may not suffice. The search for the minimum then ends early, and the later
+/// part of the motion is not searched. Throws InternalError if the world has no obstacles. Throws
+/// PreconditionError if a sample is not finite.
 ClosestApproach ApproachBetween(const World& world, const VehicleParams& vehicle,
                                 const ClearanceSample& from, const ClearanceSample& to);
 

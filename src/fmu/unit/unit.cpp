@@ -269,7 +269,8 @@ void Unit::Set(Type type, std::uint32_t reference, double value) {
   const Commands start = StartCommands(state_.parameters);
   state_.commands.controller_steers = start.controller_steers;
   state_.commands.plan_sets_speed = start.plan_sets_speed;
-  // Discard the loop. Its next use plans the mission again.
+  // Discard the loop. The next call that needs the loop plans the mission again and makes a new
+  // loop.
   state_.loop.reset();
   outputs_.clear();
 }

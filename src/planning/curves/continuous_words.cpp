@@ -34,7 +34,8 @@ CurvePiece TurnPiece(const ClothoidTurn& turn, int side, int direction, double f
                     .direction = direction}};
 }
 
-/// The turn between the state of `end` and a junction, as seen from the state.
+/// Returns the turn that leaves the state of `end` and ends at a junction. For the last turn of a
+/// chain, the caller reverses the result.
 CurvePiece EndPiece(const TurnCircle& circle, const TurnEnd& end, const TurnJunction& junction,
                     bool to_zero, bool both_ways) {
   const ClothoidTurn turn = TurnFrom(circle, end, junction.yaw, to_zero, both_ways);

@@ -103,7 +103,8 @@ class PoseTree : public PoseSearch {
     return (segment.direction < 0) == from_start_;
   }
 
-  /// Returns whether a rolling car is at a node.
+  /// Returns whether the car must drive forwards from a node: the node is the start pose, and the
+  /// car rolls at the start.
   [[nodiscard]] bool MustGoForwards(const Node& node) const {
     return problem_.rolls && from_start_ && node.parent < 0;
   }

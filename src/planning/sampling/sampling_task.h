@@ -146,15 +146,15 @@ inline bool IsTooNear(const Plan& plan) {
          plan.status == PlanStatus::kUTurn || plan.status == PlanStatus::kWaypointMissed;
 }
 
-/// Plans with `plan_trees`. If the plan fails because its first corner is too near,
-/// PlanWithLeadIn retries with up to `tries` longer initial straights. The first retry uses
-/// the longest initial straight, on which the car can stop. If an obstacle blocks the longest
-/// straight, the next retries add only a half or a quarter of the additional length. For a car at
-/// rest, the next retry uses half of the initial straight, because an obstacle ahead may block the
-/// whole straight. The last retries begin with DeparturesToNearWaypoint, unless the options have no
-/// initial straight, or allow only one retry. Each retry after the first one grows only one tree,
-/// because many refused missions have no plan at all. A rejection of the first plan is explained
-/// (Refusal::kExplained).
+/// Plans with `plan_trees`. If the plan fails because its first corner is too near, PlanWithLeadIn
+/// retries with up to `tries` longer initial straights. The first retry uses the longest initial
+/// straight, on which the car can stop. If an obstacle blocks the longest straight, the next
+/// retries add only a half or a quarter of the additional length. For a car at rest, the next retry
+/// uses half of the initial straight, because an obstacle ahead may block the whole straight. The
+/// last retries begin with DeparturesToNearWaypoint, unless the options have no initial straight,
+/// or allow only one retry. Later retries grow only one tree each. Many of the retried missions
+/// have no plan at all, so more trees would waste computing time. A rejection of the first plan is
+/// explained (Refusal::kExplained).
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
                     int tries) {

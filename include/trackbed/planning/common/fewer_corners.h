@@ -10,7 +10,7 @@ namespace trackbed {
 
 /// Room that the curve of a corner needs.
 struct CornerRoom {
-  double tangent = 0.0;  ///< Length of each leg that the curve replaces [m].
+  double tangent = 0.0;  ///< Length that the curve replaces on each leg of the corner [m].
   double gap = 0.0;      ///< Distance of the curve from the corner [m].
 };
 

@@ -38,8 +38,8 @@ Plan CheckPoses(const PlanRequest& request);
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius);
 
 /// Returns the checker for plans that keep `safe_distance` [m] from the obstacles of the request.
-/// An obstacle may be nearer than `safe_distance` to the car at its start. From this obstacle, the
-/// car keeps at least half of the distance at the start.
+/// An obstacle may be nearer than `safe_distance` to the car at its start. The plan may come closer
+/// to this obstacle, but only to half of the initial distance.
 CollisionChecker CheckerFromStart(const PlanRequest& request, double safe_distance);
 
 /// Returns the waypoints after the first at which the car may be clear of obstacles.
