@@ -15,6 +15,13 @@
 #include "src/control/tracking.h"
 #include "src/control/turn_round.h"
 
+// MacAdam's optimal preview control (MacAdam 1981):
+//   1. Choose the preview distance R at which this law and the single-point law have equal gains.
+//   2. Compute the car's free motion y_0 and its response A to a unit step of the steering at ten
+//      Gauss nodes within R, by the linear single-track model; without tyres, by the kinematic one.
+//   3. Steer by the angle that minimizes the weighted integral of the squared distance from the
+//      path: int (f - y_0) A W / int A^2 W, with the lateral displacement f of the path.
+//   4. Reduce this angle until the wheels can turn back in time (TimelySteering), and delay it.
 namespace trackbed {
 namespace {
 
