@@ -247,10 +247,11 @@ TEST(Tutorial, EndsAsItsPageSays) {
   EXPECT_THAT(
       text,
       testing::HasSubstr(fmt::format(
-          "At 5 s, the wheel angles of the kinematic car and of the car on tyres are {:.3f} and "
-          "{:.3f} rad, but the yaw rates are {:.3f} and {:.3f} rad/s",
-          AtFiveSeconds(kinematic, "steering_rad"), AtFiveSeconds(tyres, "steering_rad"),
-          AtFiveSeconds(kinematic, "yaw_rate_radps"), AtFiveSeconds(tyres, "yaw_rate_radps"))));
+          "At 5 s, the kinematic car has a wheel angle of {:.3f} rad and a yaw rate of "
+          "{:.3f} rad/s. The car on tyres has nearly the same wheel angle, {:.3f} rad, but "
+          "a yaw rate of only {:.3f} rad/s.",
+          AtFiveSeconds(kinematic, "steering_rad"), AtFiveSeconds(kinematic, "yaw_rate_radps"),
+          AtFiveSeconds(tyres, "steering_rad"), AtFiveSeconds(tyres, "yaw_rate_radps"))));
   EXPECT_THAT(
       text,
       testing::HasSubstr(fmt::format(
