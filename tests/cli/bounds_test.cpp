@@ -118,9 +118,15 @@ TEST(InputPipe, OfACommandLineIsRefused) {
 
 // --- lengths and numbers -------------------------------------------------------------------------
 
-/// Runs the program with 1.5 GB of address space, including its libraries, and 20 s.
+/// Runs the program with 1.5 GB of address space, including its libraries, and 20 s. Sanitizers get
+/// more.
 Outcome Bounded(const TempFolder& folder, const std::string& arguments) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  // Sanitizers reserve terabytes of address space and are several times slower.
+  return Shell(folder, "timeout 200 " TRACKBED_PROGRAM " " + arguments);
+#else
   return Shell(folder, "ulimit -v 1500000; timeout 20 " TRACKBED_PROGRAM " " + arguments);
+#endif
 }
 
 TEST(LongPath, IsRefusedWithItsRows) {
