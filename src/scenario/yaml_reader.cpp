@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/scenario/key_lister.h"
 #include "src/scenario/yaml_value.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/car_lengths.h"
@@ -13,7 +14,8 @@
 // mapping and checks type, range and allowed names. Each problem is reported with the key's
 // position in the file and a hint. Finish reports duplicate keys and unknown keys, and suggests the
 // most similar valid key. If a key is misspelled, Finish marks the intended key as unread, so that
-// the missing value causes no follow-up errors.
+// the missing value causes no follow-up errors. If the method of a section is missing or unknown,
+// FinishWithoutMethod checks the names of the section's keys against the keys of all methods.
 namespace trackbed {
 
 YamlReader::YamlReader(ReaderContext& context, const YAML::Node& node, std::string key)
@@ -92,14 +94,49 @@ void YamlReader::VisitMethod(const Key& key, Need need, const Methods& methods) 
   inner.Field(kMethod, method, Need::kRequired, names);
   const auto found = std::find(names.begin(), names.end(), method);
   if (found == names.end()) {
-    // Stop here, because the valid keys of the section depend on the method, and the method is
-    // unknown.
+    inner.FinishWithoutMethod(methods);
     return;
   }
   methods.select(static_cast<std::size_t>(found - names.begin()));
   methods.visit_selected(inner);
   methods.rest(inner);
   inner.Finish();
+}
+
+void YamlReader::FinishWithoutMethod(const Methods& methods) {
+  std::vector<KeySection> sections;
+  KeyLister lister(sections, {key_, "", "", {}});
+  methods.rest(lister);
+  for (std::size_t i = 0; i < methods.entries.size(); ++i) {
+    methods.visit_defaults(i, lister);
+  }
+  method_is_known_ = false;
+  CheckNames(sections, key_);
+}
+
+void YamlReader::CheckNames(const std::vector<KeySection>& sections, const std::string& section) {
+  for (const KeySection& listed : sections) {
+    for (std::size_t i = 0; listed.key == section && i < listed.keys.size(); ++i) {
+      known_.push_back(listed.keys[i].name);
+    }
+  }
+  const auto check = [&](const YAML::Node& inner, const std::string& key,
+                         const std::string& listed) {
+    const bool is_listed = std::any_of(sections.begin(), sections.end(),
+                                       [&](const KeySection& any) { return any.key == listed; });
+    if (inner.IsMap() && is_listed) {
+      YamlReader(context_, inner, key).CheckNames(sections, listed);
+    }
+  };
+  for (const auto& entry : node_) {
+    const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
+    check(entry.second, Dotted(name.c_str()), section + "." + name);
+    for (std::size_t i = 0; entry.second.IsSequence() && i < entry.second.size(); ++i) {
+      check(entry.second[i], fmt::format("{}[{}]", Dotted(name.c_str()), i),
+            section + "." + name + "[N]");
+    }
+  }
+  Finish();
 }
 
 bool YamlReader::HasAny(const char* key, const Names& inner) const {
@@ -363,9 +400,13 @@ void YamlReader::Finish() {
     if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
       AddError(entry.first, Dotted(name.c_str()), "duplicate key");
     } else if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
-      AddError(entry.first, Dotted(name.c_str()),
-               "unknown key " + UnknownName(name, known_) + context_.MethodHint(key_, node_, name));
-      if (const std::string meant = NearestSpelling(name, known_); !meant.empty()) {
+      const std::string meant = NearestSpelling(name, known_);
+      AddError(
+          entry.first, Dotted(name.c_str()),
+          "unknown key " + (method_is_known_ || !meant.empty()
+                                ? UnknownName(name, known_) + context_.MethodHint(key_, node_, name)
+                                : fmt::format("'{}'; no method has this key", name)));
+      if (!meant.empty()) {
         context_.unread.push_back(Dotted(meant.c_str()));
       }
     }

@@ -15,6 +15,7 @@
 #include "src/scenario/reader_context.h"
 #include "trackbed/core/error.h"
 #include "trackbed/options/key_visitor.h"
+#include "trackbed/scenario/keys.h"
 
 namespace trackbed {
 
@@ -66,6 +67,12 @@ class YamlReader final : public KeyVisitor {
   void VisitMethod(const Key& key, Need need, const Methods& methods) override;
 
  private:
+  /// Reports the unknown keys of a section whose method is missing or unknown. The keys of all
+  /// methods are known.
+  void FinishWithoutMethod(const Methods& methods);
+  /// Reports the unknown keys of this mapping and of the mappings inside. `section` is the dotted
+  /// key of this mapping in `sections`. No value is read.
+  void CheckNames(const std::vector<KeySection>& sections, const std::string& section);
   void ReadMap(const YAML::Node& node, const std::string& dotted, const Inside& inside);
   [[nodiscard]] std::string Dotted(const char* key) const;
   std::optional<YAML::Node> Take(const char* key, Need need);
@@ -80,6 +87,7 @@ class YamlReader final : public KeyVisitor {
   YAML::Node node_;
   std::string key_;
   Names known_;
+  bool method_is_known_ = true;
   YAML::Mark last_key_mark_;  // position in the file of the key that was read last
 };
 
