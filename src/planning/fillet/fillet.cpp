@@ -23,6 +23,7 @@ using fillet::Route;
 FilletPlan PlanRoute(const VehicleParams& vehicle, const Route& route, double speed,
                      const FilletOptions& options, std::uint64_t seed) {
   std::vector<FilletTurn> turns = fillet::FindTurns(route);
+  fillet::CheckMisses(vehicle, speed, options, turns);
   std::vector<RadiusLimits> limits;
   for (FilletTurn& turn : turns) {
     limits.push_back(fillet::LimitRadius(vehicle, speed, options, turn));

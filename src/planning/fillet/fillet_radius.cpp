@@ -204,10 +204,6 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
   turn.speed = speed;
   turn.neutral = options.neutral_steering;
   const double near = LargestRadiusNear(options.max_waypoint_miss, turn.interior_angle);
-  if (const double smallest = options.radius.value_or(r_min); smallest > near) {
-    throw Refusal{PlanStatus::kWaypointMissed, turn.waypoint,
-                  DescribeMiss(options.max_waypoint_miss, turn, smallest)};
-  }
   RadiusInterval bounds =
       options.radius ? RadiusInterval{*options.radius, *options.radius}
                      : RadiusInterval{r_min, std::min(near, std::max(r_min, options.max_radius))};
@@ -240,6 +236,26 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
                                                         : ActiveConstraint::kMaxRadius;
   }
   return limits;
+}
+
+void CheckMisses(const VehicleParams& vehicle, double speed, const FilletOptions& options,
+                 const std::vector<FilletTurn>& turns) {
+  const double smallest = options.radius.value_or(vehicle.min_turning_radius());
+  const auto worst =
+      std::max_element(turns.begin(), turns.end(), [](const FilletTurn& a, const FilletTurn& b) {
+        return UnitMiss(a.interior_angle) < UnitMiss(b.interior_angle);
+      });
+  if (worst == turns.end() ||
+      smallest <= LargestRadiusNear(options.max_waypoint_miss, worst->interior_angle)) {
+    return;
+  }
+  FilletOptions unbounded = options;
+  unbounded.max_waypoint_miss = std::numeric_limits<double>::infinity();
+  for (FilletTurn turn : turns) {
+    static_cast<void>(LimitRadius(vehicle, speed, unbounded, turn));
+  }
+  throw Refusal{PlanStatus::kWaypointMissed, worst->waypoint,
+                DescribeMiss(options.max_waypoint_miss, *worst, smallest)};
 }
 
 ActiveConstraint ActiveAt(const RadiusLimits& limits, double radius) {

@@ -14,8 +14,14 @@ struct RadiusLimits {
   RadiusConstraint constraint;  ///< kind of the constraint that limits the turn's radius
 };
 
+/// Throws a Refusal if the arcs of the smallest radius miss a waypoint by more than
+/// FilletOptions::max_waypoint_miss. The Refusal names the largest miss, so a bound of this size is
+/// sufficient for all turns. If a turn is refused for every bound, throws that turn's Refusal.
+void CheckMisses(const VehicleParams& vehicle, double speed, const FilletOptions& options,
+                 const std::vector<FilletTurn>& turns);
+
 /// Sets the speed of a turn and returns the limits of its radius. If the speed of the turn is below
-/// `speed`, also stores a note with the reason.
+/// `speed`, also stores a note with the reason. CheckMisses must have accepted the turn.
 RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
                          FilletTurn& turn);
 

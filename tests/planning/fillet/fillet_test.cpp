@@ -1173,6 +1173,22 @@ TEST(WaypointMiss, RefusesRadiiThatAreTooLarge) {
   EXPECT_THAT(given.reason, HasSubstr("missed by 4.142 m, more than 4 m"));
 }
 
+// The bound that a refusal names must be sufficient, so it is that of the sharpest turn. If a turn
+// has no room, no bound is sufficient, and the refusal names the turn.
+TEST(WaypointMiss, IsNotTheReasonIfNoBoundHelps) {
+  const std::vector<Vec2> sharper_later{{0, 0}, {60, 0}, {60, 60}, {20, 0}};
+  const FilletPlan missed = PlanNear(sharper_later, 2.0);
+  EXPECT_EQ(missed.status, PlanStatus::kWaypointMissed);
+  EXPECT_EQ(missed.waypoint, 2);
+  // The second turn has the interior angle 90 deg - atan(60/40). An arc with the car's smallest
+  // radius, 5.1 m, misses it by 5.1 (1/sin(33.69 deg/2) - 1) = 12.50 m.
+  EXPECT_THAT(missed.reason, HasSubstr("missed by 12.5 m, more than 2 m"));
+  EXPECT_EQ(PlanNear(sharper_later, 12.6).status, PlanStatus::kOk);
+  const FilletPlan tight = PlanNear({{0, 0}, {48.8, 0}, {46.23, -5.64}, {-14.29, 119.86}}, 2.0);
+  EXPECT_EQ(tight.status, PlanStatus::kTurnTooTight);
+  EXPECT_EQ(tight.waypoint, 1);
+}
+
 TEST(OpenLoop, MirroredPlanDrivesMirrored) {
   std::vector<Vec2> mirrored = RouteB();
   for (Vec2& w : mirrored) {
