@@ -169,14 +169,23 @@ void CheckArguments(double length, double start_speed, const SpeedLimits& limits
   }
 }
 
-/// Returns the caps with stations that count from the station `start`.
+/// Returns the caps on each leg, with stations that count from the start of the leg.
 template <typename Cap>
-std::vector<Cap> From(double start, std::vector<Cap> caps) {
-  for (Cap& cap : caps) {
-    cap.from -= start;
-    cap.to -= start;
+std::vector<std::vector<Cap>> OnLegs(const std::vector<Stations>& legs,
+                                     const std::vector<Cap>& caps) {
+  std::vector<std::vector<Cap>> own(legs.size());
+  for (const Cap& cap : caps) {
+    const auto first =
+        std::lower_bound(legs.begin(), legs.end(), cap.from,
+                         [](const Stations& leg, double station) { return leg.to < station; });
+    for (auto i = static_cast<std::size_t>(first - legs.begin());
+         i < legs.size() && legs[i].from <= cap.to; ++i) {
+      own[i].push_back(cap);
+      own[i].back().from -= legs[i].from;
+      own[i].back().to -= legs[i].from;
+    }
   }
-  return caps;
+  return own;
 }
 
 }  // namespace
@@ -225,16 +234,19 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
 SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits& limits,
                          const std::vector<SpeedCap>& caps, const std::vector<double>& stops,
                          const std::vector<AccelerationCap>& sections) {
+  CheckArguments(path.length(), start_speed, limits, caps, sections);
   std::vector<SpeedProfile::Knot> knots;
-  for (const Stations& leg : SplitIntoLegs(path, stops)) {
+  const std::vector<Stations> legs = SplitIntoLegs(path, stops);
+  const std::vector<std::vector<SpeedCap>> own_caps = OnLegs(legs, caps);
+  const std::vector<std::vector<AccelerationCap>> own_sections = OnLegs(legs, sections);
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const Stations& leg = legs[i];
     if (!knots.empty() && leg.to - leg.from < 2.0 * kNegligible) {
       continue;
     }
-    const std::vector<SpeedCap> own = From(leg.from, caps);
-    const std::vector<AccelerationCap> own_sections = From(leg.from, sections);
     const bool first = knots.empty();
-    const SpeedProfile profile =
-        StopAtEnd(leg.to - leg.from, first ? start_speed : 0.0, limits, own, own_sections);
+    const SpeedProfile profile = StopAtEnd(leg.to - leg.from, first ? start_speed : 0.0, limits,
+                                           own_caps[i], own_sections[i]);
     for (const SpeedProfile::Knot& knot : profile.knots()) {
       // Skip a knot that coincides with the previous knot due to rounding errors in the sum of
       // stations.

@@ -44,10 +44,27 @@ double RampSpeedLimit(const VehicleParams& vehicle, const Step& step) {
   return vehicle.steering_rate * step.room / step.steering;
 }
 
-bool ContainsStation(const std::vector<double>& stations, double s) {
+/// Returns whether a sorted list contains a station, within rounding.
+bool ContainsStation(const std::vector<double>& sorted, double s) {
   constexpr double kEqualityTolerance = 1e-9;  // [m]
-  return std::any_of(stations.begin(), stations.end(),
-                     [&](double station) { return std::abs(station - s) < kEqualityTolerance; });
+  const auto station = std::upper_bound(sorted.begin(), sorted.end(), s - kEqualityTolerance);
+  return station != sorted.end() && *station < s + kEqualityTolerance;
+}
+
+/// Returns the lowest speed of the caps at each step; infinite at steps without a cap. The steps
+/// are sorted by their joints.
+std::vector<double> CapsAtSteps(const std::vector<Step>& steps, const std::vector<SpeedCap>& caps) {
+  std::vector<double> speeds(steps.size(), std::numeric_limits<double>::infinity());
+  for (const SpeedCap& cap : caps) {
+    const auto first =
+        std::lower_bound(steps.begin(), steps.end(), cap.from,
+                         [](const Step& step, double station) { return step.joint < station; });
+    for (auto i = static_cast<std::size_t>(first - steps.begin());
+         i < steps.size() && steps[i].joint <= cap.to; ++i) {
+      speeds[i] = std::min(speeds[i], cap.speed);
+    }
+  }
+  return speeds;
 }
 
 }  // namespace
@@ -66,16 +83,16 @@ std::vector<SteeringRamp> RampsOfSteps(const VehicleParams& vehicle,
                                        const std::vector<SpeedCap>& caps,
                                        const std::vector<double>& stops) {
   std::vector<SteeringRamp> ramps;
-  for (const Step& step : CurvatureSteps(vehicle, segments)) {
-    if (step.cusp || ContainsStation(stops, step.joint)) {
+  const std::vector<Step> steps = CurvatureSteps(vehicle, segments);
+  const std::vector<double> capped = CapsAtSteps(steps, caps);
+  std::vector<double> sorted_stops = stops;
+  std::sort(sorted_stops.begin(), sorted_stops.end());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Step& step = steps[i];
+    if (step.cusp || ContainsStation(sorted_stops, step.joint)) {
       continue;
     }
-    double at = std::min(speed, RampSpeedLimit(vehicle, step));
-    for (const SpeedCap& cap : caps) {
-      if (cap.from <= step.joint && step.joint <= cap.to) {
-        at = std::min(at, cap.speed);
-      }
-    }
+    const double at = std::min({speed, RampSpeedLimit(vehicle, step), capped[i]});
     const double half = 0.5 * at * step.steering / vehicle.steering_rate;
     ramps.push_back({step.joint, step.joint - half, step.joint + half, at, step.steering});
   }

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
+#include <random>
 
 #include "tests/tolerance.h"
 
@@ -46,6 +50,59 @@ TEST(LongestLeg, KeepsTheOrderOfARouteThatIsDrivenTwice) {
   const auto leg = LongestLeg(path, {{0, 0}, {10, 10}, {0, 20}, {-10, 10}, {0, 0}}, 5.0);
   ASSERT_TRUE(leg.has_value());
   EXPECT_EQ(leg->to, 4U);
+}
+
+/// Returns the longest leg by trying all samples for all waypoints, with a table of all sums.
+double LongestExtraByTable(const Path& path, const std::vector<Vec2>& waypoints, double spacing) {
+  const std::vector<PathPoint> samples = path.Sample(spacing);
+  const std::size_t goal = waypoints.size() - 1;
+  std::vector<std::vector<double>> sums(goal, std::vector<double>(samples.size(), 0.0));
+  std::vector<std::vector<std::size_t>> at(goal, std::vector<std::size_t>(samples.size(), 0));
+  for (std::size_t i = 1; i < goal; ++i) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const double sum = sums[i - 1][k] + (samples[k].pose.position() - waypoints[i]).norm();
+      at[i][k] = sum < least ? k : at[i][k - 1];
+      least = std::min(least, sum);
+      sums[i][k] = least;
+    }
+  }
+  double most = 0.0;
+  std::size_t end = samples.size() - 1;
+  for (std::size_t i = goal; i > 0; --i) {
+    const std::size_t start = i > 1 ? at[i - 1][end] : 0;
+    const double straight = (waypoints[i] - waypoints[i - 1]).norm();
+    most = std::max(most, samples[end].s - samples[start].s - straight);
+    end = start;
+  }
+  return most;
+}
+
+TEST(LongestLeg, IsThatOfATableOfAllSums) {
+  // Routes of random arcs, whose waypoints lie up to 1 m beside the path.
+  std::mt19937 random(47);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<Segment> segments;
+    for (int i = 0; i < 8; ++i) {
+      segments.push_back({.length = 20.0 + 15.0 * share(random), .curvature = 0.2 * share(random)});
+    }
+    const Path path({}, segments);
+    std::vector<Vec2> waypoints{{0, 0}};
+    double station = 0.0;
+    for (const Segment& segment : segments) {
+      station += segment.length;
+      waypoints.push_back(path.At(station).pose.position() + Vec2(share(random), share(random)));
+    }
+    waypoints.back() = path.At(path.length()).pose.position();
+    const double excess = 3.0;
+    const auto leg = LongestLeg(path, waypoints, excess);
+    const double most = LongestExtraByTable(path, waypoints, excess / 16.0);
+    ASSERT_EQ(leg.has_value(), most >= excess) << trial;
+    if (leg) {
+      EXPECT_NEAR(leg->length - leg->straight, most, Tolerance(1e-9)) << trial;
+    }
+  }
 }
 
 }  // namespace

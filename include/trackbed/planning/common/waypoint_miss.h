@@ -29,7 +29,8 @@ inline constexpr double kSameMiss = 1e-6;
 /// Returns the waypoint from which the path is farthest, or the first of several such waypoints
 /// (kSameMiss); nullopt if there are fewer than two waypoints. The distance is exact on lines and
 /// arcs, and has the precision of Path::Project on other segments. Throws PreconditionError if a
-/// waypoint is not finite. Cost: one call of Path::Project for each waypoint.
+/// waypoint is not finite. Cost: for each waypoint, about the square root of the number of the
+/// path's segments, if the path passes each place only a few times.
 std::optional<WaypointMiss> LargestWaypointMiss(const Path& path,
                                                 const std::vector<Vec2>& waypoints);
 
