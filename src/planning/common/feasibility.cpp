@@ -70,6 +70,8 @@ void CheckStart(const Plan& plan, const PlanRequest& request, std::vector<Excess
   }
 }
 
+constexpr const char* kSlope = "pull of gravity";
+
 void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   const VehicleParams& vehicle = request.vehicle;
   const VehicleParams car = feasible_speeds::SteeredCar(plan, request);
@@ -77,7 +79,7 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
   WorstExcess lateral("lateral acceleration", "m/s^2", Remedy::kLowerSpeed);
   WorstExcess speed("speed", "m/s", Remedy::kLowerSpeed);
   WorstExcess rate("steering rate along the path", "rad/s", Remedy::kLowerSpeed);
-  WorstExcess slope("pull of gravity", "m/s^2", Remedy::kNone);
+  WorstExcess slope(kSlope, "m/s^2", Remedy::kNone);
   WorstExcess combined("combined acceleration", "m/s^2", Remedy::kGentlerBends);
   const Path& path = plan.reference.path;
   const RoadHold road(request);
@@ -108,6 +110,9 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
     combined.Take(both.required, both.limit, s);
   });
   slope.AddTo(found);
+  if (!found.empty() && found.back().what == kSlope) {
+    found.back().hint = feasible_speeds::FrictionForSlope(found.back(), path, request);
+  }
   steering.AddTo(found);
   lateral.AddTo(found);
   combined.AddTo(found);
@@ -118,15 +123,17 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
 void CheckSteeringRate(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   WorstExcess rate("steering rate", "rad/s", Remedy::kLowerSpeed);
   const std::vector<Stations> legs = SplitIntoLegs(plan.reference.path, plan.stops);
+  const std::vector<SpeedProfile::Knot>& knots = plan.schedule_speed.knots();
   feasible_speeds::ForEachRamp(plan.schedule, [&](double from, double to, double slope) {
     if (feasible_speeds::EndsAtStop(legs, to)) {
       return;
     }
     double fastest = std::max(plan.schedule_speed.SpeedAt(from), plan.schedule_speed.SpeedAt(to));
-    for (const SpeedProfile::Knot& knot : plan.schedule_speed.knots()) {
-      if (knot.s > from && knot.s < to) {
-        fastest = std::max(fastest, knot.speed);
-      }
+    auto knot = std::upper_bound(
+        knots.begin(), knots.end(), from,
+        [](double station, const SpeedProfile::Knot& each) { return station < each.s; });
+    for (; knot != knots.end() && knot->s < to; ++knot) {
+      fastest = std::max(fastest, knot->speed);
     }
     rate.Take(fastest * slope, request.vehicle.steering_rate, from);
   });

@@ -1,10 +1,13 @@
 #include "src/planning/common/feasible_speeds.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "trackbed/planning/common/speed_at_limit.h"
+#include "trackbed/world/world.h"
 
 // Finds speeds at which a car can drive a given path (used by feasibility.cpp).
 // 1. The path is divided into pieces of at most kCheckSpacing.
@@ -47,11 +50,23 @@ RoadHold::Combined CombinedOver(const RoadHold& road, const Path& path, const Pa
   return road.Both(path, from, along, bends_left ? across : -across);
 }
 
+std::string FrictionForSlope(const Excess& slope, const Path& path, const PlanRequest& request) {
+  constexpr double kReserve = 1.1;
+  const double factor = RoadFactor(request.friction, request.friction_patches,
+                                   path.At(slope.station).pose.position());
+  const double needed = 0.01 * std::ceil(100.0 * kReserve * factor * slope.required / slope.limit);
+  return fmt::format(
+      "the road has a friction factor of {:.3g} there; set world.friction, or that of the friction "
+      "patch, to at least {:.3g}, or make the slope gentler",
+      factor, needed);
+}
+
 bool EndsAtStop(const std::vector<Stations>& legs, double s) {
   constexpr double kEqualityTolerance = 1e-6;  // [m]
-  return std::any_of(legs.begin(), legs.end(), [&](const Stations& leg) {
-    return &leg != &legs.back() && std::abs(leg.to - s) < kEqualityTolerance;
-  });
+  const auto leg =
+      std::upper_bound(legs.begin(), legs.end(), s - kEqualityTolerance,
+                       [](double station, const Stations& each) { return station < each.to; });
+  return leg < legs.end() - 1 && leg->to < s + kEqualityTolerance;
 }
 
 VehicleParams SteeredCar(const Plan& plan, const PlanRequest& request) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "trackbed/path/acceleration_caps.h"
@@ -43,6 +44,11 @@ double LateralOver(const RoadHold& road, const Path& path, const Stations& piece
 /// the checks of the single directions suffice there.
 RoadHold::Combined CombinedOver(const RoadHold& road, const Path& path, const PathPiece& piece,
                                 double v_from, double v_to);
+
+/// Describes the friction factor that the road needs at a place where the pull of gravity exceeds
+/// the grip, as a remedy. The grip is proportional to the factor. The factor in the text is a tenth
+/// larger, which leaves grip for a slow start and for gentle braking.
+std::string FrictionForSlope(const Excess& slope, const Path& path, const PlanRequest& request);
 
 /// Returns whether a leg ends at the station s with an intermediate stop, at which the wheels may
 /// turn at standstill.

@@ -416,6 +416,21 @@ TEST(Feasibility, RefusesASlopeThatTheRoadDoesNotHold) {
   EXPECT_EQ(Course(request, {{.length = 60.0, .curvature = 0.0}}).status, PlanStatus::kInfeasible);
 }
 
+TEST(Feasibility, NamesTheFrictionThatASlopeNeeds) {
+  const std::string remedy = "or that of the friction patch, to at least ";
+  for (const Vec2& grade : {Vec2(-0.15, 0.0), Vec2(0.15, 0.0), Vec2(0.0, 0.15), Vec2(0.1, 0.1)}) {
+    PlanRequest request = Request(3.0, {{0.0, 0.0}});
+    request.friction = 0.1;
+    request.ground.grade = {grade.x(), grade.y()};
+    const std::vector<CoursePiece> straight{{.length = 60.0, .curvature = 0.0}};
+    const std::string reason = Course(request, straight).reason;
+    const std::size_t at = reason.find(remedy);
+    ASSERT_NE(at, std::string::npos) << reason;
+    request.friction = std::stod(reason.substr(at + remedy.size()));
+    EXPECT_EQ(Course(request, straight).status, PlanStatus::kOk) << reason;
+  }
+}
+
 TEST(Feasibility, SlowsDownMoreWhereTheRoadFallsToTheOutside) {
   PlanRequest request = Request(18.0, {{0.0, 0.0}});
   // At the end of the arc, the car does not brake yet.
