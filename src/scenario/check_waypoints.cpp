@@ -32,6 +32,19 @@ void CheckHeadings(Diagnostics& c) {
   }
 }
 
+/// Largest number of waypoints. A path with steps of curvature takes about 10 ms for each leg.
+constexpr std::size_t kMaxWaypoints = 5000;
+
+void CheckNumber(Diagnostics& c) {
+  const std::size_t count = c.scenario.mission.waypoints.size();
+  if (count > kMaxWaypoints) {
+    c.AddError("mission.waypoints",
+               fmt::format("{} given; must be at most {}: give a recorded path to plan: {{method: "
+                           "path_file}}, or divide the route",
+                           count, kMaxWaypoints));
+  }
+}
+
 /// Limits the length of the route, and thereby the computing time of the planner and the number of
 /// rows of plan.csv.
 void CheckRouteLength(Diagnostics& c) {
@@ -111,6 +124,7 @@ void CheckEqualWaypoints(Diagnostics& c) {
 
 void CheckWaypoints(Diagnostics& c) {
   const std::vector<Vec2>& waypoints = c.scenario.mission.waypoints;
+  CheckNumber(c);
   CheckRouteLength(c);
   CheckEqualWaypoints(c);
   if (c.scenario.plan && PlannerFor(c.scenario.plan->global).min_waypoints == 0 &&

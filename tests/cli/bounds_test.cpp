@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -167,6 +168,21 @@ TEST(LongRoute, IsRefusedWithItsLeg) {
       refused.output,
       HasSubstr("mission.waypoints[2]: the route is 270000 m long; must be at most 200000 m: "
                 "the leg to this waypoint is 180000 m"));
+}
+
+TEST(LongRoute, OfManyWaypointsIsRefused) {
+  const TempFolder folder;
+  std::string points = "[0, 0]";
+  for (int i = 1; i <= 5000; ++i) {
+    points += fmt::format(", [{}, {}]", 20 * i, i % 2);
+  }
+  folder.Write("s.yaml", ScenarioText("mission: {speed: 3, waypoints: [" + points +
+                                      "]}\nplan: {method: dubins}\n"));
+  const Outcome refused = Bounded(folder, "check s.yaml");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.output,
+              HasSubstr("mission.waypoints: 5001 given; must be at most 5000: give a recorded path "
+                        "to plan: {method: path_file}, or divide the route"));
 }
 
 TEST(LongCourse, IsRefusedWithItsLongestSegment) {
