@@ -23,9 +23,9 @@ struct LongLeg {
 /// the waypoints are those for which the sum of the distances between path and waypoints is
 /// smallest. Lengths are multiples of a spacing, which is at most a sixteenth of `excess` or, if
 /// larger, a ten thousandth of the path. Time: proportional to the number of waypoints times the
-/// number of samples, at most 10 000. Memory: proportional to the number of waypoints plus the number
-/// of samples. If the whole path exceeds the straight lines by less than `excess`, the function
-/// returns at once.
+/// number of samples, at most 10 000. Memory: proportional to the number of waypoints plus the
+/// number of samples. If the whole path exceeds the straight lines by less than `excess`, the
+/// function returns at once.
 std::optional<LongLeg> LongestLeg(const Path& path, const std::vector<Vec2>& waypoints,
                                   double excess);
 
