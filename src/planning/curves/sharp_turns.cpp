@@ -25,6 +25,17 @@ Vec2 DoubleAngle(const Vec2& half) {
   return {half.x() * half.x() - half.y() * half.y(), 2.0 * half.x() * half.y()};
 }
 
+/// An angle with the direction of its half, which takes a cosine and a sine to compute.
+struct HalvedAngle {
+  double angle = 0.0;
+  Vec2 half{1, 0};
+
+  /// Returns the angle plus half a turn (`sign` +1) or minus half a turn (`sign` -1).
+  [[nodiscard]] HalvedAngle Opposite(double sign) const {
+    return {angle + sign * kPi, sign * LeftNormal(half)};
+  }
+};
+
 /// A turn between curvatures of 0.
 struct ZeroTurn {
   double along = 0.0;   // distance from start to end along the heading of the end
@@ -115,8 +126,10 @@ class SharpEnd {
     return TurnByAngle(circle_, Deflection(side, alpha), half.dot(side.half),
                        order_ * side.side * Cross(side.half, half));
   }
-  /// Heading alpha of a turn that only straightens the wheels.
-  [[nodiscard]] double neutral() const { return neutral_; }
+  /// Heading alpha of a turn that only straightens the wheels, with the direction of alpha/2.
+  [[nodiscard]] HalvedAngle neutral() const {
+    return {neutral_, sides_[state_ > 0.0 ? 0 : 1].half};
+  }
 
   [[nodiscard]] CurvePiece Piece(const Side& side, double alpha) const {
     const double a = Deflection(side, alpha);
@@ -256,14 +269,12 @@ class AlphaSearch {
   AlphaSearch(const SharpWords& words, double limit) : words_(words), limit_(limit) {}
 
   /// Searches the words from one value of alpha to another.
-  void Search(double from, double to) {
-    const Vec2 start = Direction(0.5 * from);
-    const Vec2 end = Direction(0.5 * to);
-    if (words_.AreBehind(DoubleAngle(start), DoubleAngle(end))) {
+  void Search(const HalvedAngle& from, const HalvedAngle& to) {
+    if (words_.AreBehind(DoubleAngle(from.half), DoubleAngle(to.half))) {
       return;
     }
-    const Word a = words_.At(from, start);
-    const Word b = words_.At(to, end);
+    const Word a = words_.At(from.angle, from.half);
+    const Word b = words_.At(to.angle, to.half);
     Take(a);
     Take(b);
     Split(a, b);
@@ -385,23 +396,22 @@ ShortestCurve SharpWord(const TurnCircle& at_start, const TurnCircle& at_goal, d
   const Pose2 wrapped{goal.pose.x, goal.pose.y, WrapAngle(goal.pose.yaw)};
   const SharpEnd unwound(at_goal, {wrapped, goal.curvature}, -1);
   for (const int circles : {0, 1, -1}) {
+    const SharpEnd last = unwound.Wound(circles);
     // Neither turn makes a loop between the first and the last of these values of alpha. At the
     // values of alpha between these two, a turn changes its side.
-    const double neutral = unwound.neutral() + circles * 2.0 * kPi;
-    const double low = std::min(first.neutral(), neutral);
-    const double high = std::max(first.neutral(), neutral);
-    const std::array<double, 4> knots{high - kPi, low, high, low + kPi};
-    if (knots[0] >= knots[3]) {
-      continue;
+    const bool is_left = first.neutral().angle < last.neutral().angle;
+    const HalvedAngle low = is_left ? first.neutral() : last.neutral();
+    const HalvedAngle high = is_left ? last.neutral() : first.neutral();
+    std::array<HalvedAngle, 4> knots{high.Opposite(-1.0), low, high, low.Opposite(1.0)};
+    if (knots[0].angle > low.angle) {
+      knots[1] = knots[0];
+      knots[2] = knots[3];
     }
-    const SharpEnd last = unwound.Wound(circles);
     for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-      const double from = std::clamp(knots[i], knots[0], knots[3]);
-      const double to = std::clamp(knots[i + 1], knots[0], knots[3]);
-      if (from < to) {
-        const SharpWords words(first, last, from, to);
+      if (knots[i].angle < knots[i + 1].angle) {
+        const SharpWords words(first, last, knots[i].angle, knots[i + 1].angle);
         AlphaSearch search(words, limit);
-        search.Search(from, to);
+        search.Search(knots[i], knots[i + 1]);
         if (search.best()) {
           best = words.Curve(*search.best());
           limit = search.limit();
