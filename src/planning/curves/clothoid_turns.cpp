@@ -62,10 +62,10 @@ TurnEnd LeaveDirectly(const TurnCircle& circle, const CurveState& state, int sid
   const double turned = 0.5 * curvature * curvature / circle.sharpness;
   TurnEnd end{.side = side, .direction = direction, .state = state.curvature};
   end.yaw = state.pose.yaw - end.rotation() * turned;
-  const Vec2 ahead = direction * Direction(end.yaw);
-  const Vec2 inside = side * direction * LeftNormal(ahead);
+  end.ahead = direction * Direction(end.yaw);
+  const Vec2 inside = side * direction * LeftNormal(end.ahead);
   const Vec2 done = ClothoidTo(curvature, circle.sharpness);
-  end.center = state.pose.position() + (circle.along - done.x()) * ahead +
+  end.center = state.pose.position() + (circle.along - done.x()) * end.ahead +
                (circle.across - done.y()) * inside;
   end.begin = curvature <= 0.0 ? 0.0 : state.curvature;
   end.before = end.from_zero() ? -curvature / circle.sharpness : 0.0;

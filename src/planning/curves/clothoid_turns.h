@@ -37,6 +37,7 @@ struct TurnEnd {
   int direction = 1;  // of motion on the turn, away from the state
   Vec2 center{0, 0};  // of the turn's circle
   double yaw = 0.0;   // heading where the turn's clothoid has curvature 0, even if before the state
+  Vec2 ahead{1, 0};   // direction of motion at this point, away from the state
   double state = 0.0;        // curvature at the state
   double begin = 0.0;        // curvature where the turn begins, 0 or on the side of the turn
   double before = 0.0;       // length of the clothoid from the state to `begin`

@@ -59,7 +59,7 @@ double ChainLength(const TurnCircle& circle, const TurnChain& chain, bool both_w
   const auto last = static_cast<std::size_t>(chain.turns - 1);
   const TurnJunction& begin = chain.junctions[0];
   const TurnJunction& end = chain.junctions[last - 1];
-  double straights = 0.0;
+  double straights = chain.lead_in + chain.lead_out;
   for (std::size_t i = 0; i < last; ++i) {
     straights += chain.junctions[i].straight;
   }
@@ -110,6 +110,9 @@ ShortestCurve ChainCurve(const TurnCircle& circle, const TurnChain& chain, bool 
   if (chain.first->before > 0.0) {
     add(ClothoidBefore(circle, *chain.first));
   }
+  if (chain.lead_in > 0.0) {
+    add({.bend = Bend::kNone, .sweep = chain.first->direction * chain.lead_in});
+  }
   add(EndPiece(circle, *chain.first, chain.junctions[0], chain.junctions[0].zero_before,
                both_ways));
   for (std::size_t i = 0; i < last; ++i) {
@@ -127,6 +130,9 @@ ShortestCurve ChainCurve(const TurnCircle& circle, const TurnChain& chain, bool 
   }
   add(Reversed(EndPiece(circle, *chain.last, chain.junctions[last - 1],
                         chain.junctions[last - 1].zero_after, both_ways)));
+  if (chain.lead_out > 0.0) {
+    add({.bend = Bend::kNone, .sweep = -chain.last->direction * chain.lead_out});
+  }
   if (chain.last->before > 0.0) {
     add(Reversed(ClothoidBefore(circle, *chain.last)));
   }

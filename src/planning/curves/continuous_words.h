@@ -34,6 +34,8 @@ struct TurnChain {
   std::array<int, 4> side{};
   std::array<int, 4> direction{};
   std::array<TurnJunction, 3> junctions{};
+  double lead_in = 0.0;   // length of a straight before the first turn, if that begins straight
+  double lead_out = 0.0;  // length of a straight behind the last turn
   double length = kNoCurve;
 };
 
@@ -70,6 +72,7 @@ class ChainFinder {
       for (const TurnEnd& last : lasts) {
         if (first.Least() + last.Least() < limit()) {
           OfTurns(Centers(first, last), consider);
+          BesideStraight(Centers(first, last), limit, consider);
         }
       }
     }
@@ -94,6 +97,8 @@ class ChainFinder {
   void WithStraight(const Centers& centers, const Limit& limit, const Consider& consider) const;
   template <typename Consider>
   void OfTurns(const Centers& centers, const Consider& consider) const;
+  template <typename Limit, typename Consider>
+  void BesideStraight(const Centers& centers, const Limit& limit, const Consider& consider) const;
   template <typename Consider>
   void OfThreeTurns(const Centers& centers, bool first_cusp, bool last_cusp,
                     const Consider& consider) const;

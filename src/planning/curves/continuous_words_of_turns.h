@@ -2,7 +2,7 @@
 
 #include "src/planning/curves/continuous_words.h"
 
-/// The words of three and four turns without a straight, for continuous_words.h.
+/// The words without a straight between their turns, for continuous_words.h.
 namespace trackbed {
 
 template <typename Consider>
@@ -26,6 +26,46 @@ void ChainFinder::OfTurns(const Centers& centers, const Consider& consider) cons
     }
   } else if (both_ways()) {
     OfFourTurns(centers, false, true, consider);
+  }
+}
+
+/// Finds the words of two turns that touch, with a straight before the first turn or behind the
+/// last turn. The straight moves the center of its turn, and the distance of both centers is a
+/// quadratic function of the length of the straight.
+template <typename Limit, typename Consider>
+void ChainFinder::BesideStraight(const Centers& centers, const Limit& limit,
+                                 const Consider& consider) const {
+  const TurnEnd& a = centers.first;
+  const TurnEnd& b = centers.last;
+  const bool has_cusp = a.direction == b.direction;
+  if (a.side == b.side || (has_cusp && !both_ways())) {
+    return;
+  }
+  const double link = Link(has_cusp);
+  for (const bool is_first : {true, false}) {
+    const TurnEnd& end = is_first ? a : b;
+    if (!end.from_zero()) {
+      continue;
+    }
+    const Vec2 ahead = is_first ? end.ahead : Vec2(-end.ahead);
+    const double along = centers.line.dot(ahead);
+    const double across = Cross(ahead, centers.line);
+    const double square = link * link - across * across;
+    if (square < 0.0) {
+      continue;
+    }
+    for (const double sign : {-1.0, 1.0}) {
+      const double straight = along + sign * std::sqrt(square);
+      if (straight < 0.0 || straight + a.Least() + b.Least() >= limit()) {
+        continue;
+      }
+      const Vec2 line = centers.line - straight * ahead;
+      TurnChain chain = Chain(centers, 2);
+      (is_first ? chain.lead_in : chain.lead_out) = straight;
+      chain.junctions[0] =
+          Touch(std::atan2(line.y(), line.x()), has_cusp, chain.side[0], chain.direction[0]);
+      consider(chain);
+    }
   }
 }
 

@@ -229,6 +229,8 @@ TEST(ContinuousCurvature, IsNotLongerThanThePeer) {
       {0.05, {0, -16, -2.1}, 0.06, {62.430163756783, HUGE_VAL, 35.109677922004}},
       {-0.12, {11, -19, -2.4}, 0.15, {57.880264983727, HUGE_VAL, 32.666126290889}},
       {-0.09, {-9, -18, 1.1}, 0, {55.551559622604, HUGE_VAL, 32.641525306856}},
+      // The shortest curve begins with a straight, then two turns with a cusp between them.
+      {-0.1, {-32.3, 3, 2.9}, -0.16, {61.454279561050, HUGE_VAL, 45.912843527936}},
   };
   const ContinuousCurves curves(kCar);
   for (const PeerLengths& row : rows) {
