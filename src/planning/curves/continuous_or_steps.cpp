@@ -11,13 +11,6 @@
 #include "trackbed/planning/common/feasibility.h"
 
 namespace trackbed {
-namespace {
-
-/// Largest ratio of the driving time of a path of continuous curvature to that of a path with
-/// steps. Above this ratio, the path with steps is chosen.
-constexpr double kMostTime = 1.2;
-
-}  // namespace
 
 Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request,
                        const std::function<Plan(Plan)>& faster) {

@@ -7,6 +7,10 @@
 /// Chooses between a path of continuous curvature and a path with steps of the curvature.
 namespace trackbed {
 
+/// Largest ratio of the driving time of a preferred path to that of another one. Above this ratio,
+/// the other path is chosen.
+inline constexpr double kMostTime = 1.2;
+
 /// Returns the plan `continuous` unless the car cannot drive it, or drives the plan `steps` in much
 /// less time. Plans with steps are much faster on short legs where the car can only turn its wheels
 /// at rest. A returned plan with steps gets a note that says why its curvature steps. If the car

@@ -22,6 +22,7 @@
 
 #include "src/planning/curves/continuous_or_steps.h"
 #include "src/planning/curves/leg_speeds.h"
+#include "src/planning/curves/route_time.h"
 #include "src/planning/curves/sharp_turns.h"
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/driving_time.h"
@@ -142,15 +143,14 @@ class RoutePlanner {
 
   /// The choices of curvatures at a stop [1/m].
   [[nodiscard]] std::vector<double> CurvaturesAt(std::size_t stop) const {
-    if (stop == 0) {
-      return {request_.start_speed > 0.0
-                  ? CurvatureForSteering(request_.vehicle, request_.start_steering)
-                  : 0.0};
-    }
-    if (stop + 1 == stops_.size()) {
-      return {0.0};
+    const bool is_end = stop == 0 || stop + 1 == stops_.size();
+    if (stop == 0 && request_.start_speed > 0.0) {
+      return {CurvatureForSteering(request_.vehicle, request_.start_steering)};
     }
     const double most = MaxCurvature(route_.min_speed);
+    if (is_end) {
+      return route_.turns_at_rest ? std::vector<double>{0.0, most, -most} : std::vector{0.0};
+    }
     std::vector<double> choices{0.0, 0.5 * most, -0.5 * most, most, -most};
     // Half of the car's largest curvature may be too much at the mission's speed.
     if (const double fast = MaxCurvature(speed_); fast < 0.5 * most) {
@@ -165,7 +165,7 @@ class RoutePlanner {
     const CurveState goal{stops_[leg + 1], to};
     // The words with cusps from and to curved states are many; a route of four legs would take
     // seconds.
-    const bool is_curved = to != 0.0 || (leg > 0 && start.curvature != 0.0);
+    const bool is_curved = to != 0.0 || (!IsRolling(leg) && start.curvature != 0.0);
     switch (is_curved ? CurveMotion::kForwards : route_.motion) {
       case CurveMotion::kForwards:
         return curves.DubinsWords(start, goal);
@@ -309,7 +309,11 @@ class RoutePlanner {
 
   /// Returns the cheapest legs at the given choices of speeds; none if a leg is blocked.
   [[nodiscard]] Legs BestLegs(const std::vector<double>& speeds) {
-    std::vector<Legs> best(1, {.legs = {}, .cost = 0.0});
+    std::vector<Legs> best;
+    for (const double curvature : CurvaturesAt(0)) {
+      const double cost = route_.turns_at_rest ? TimeBeforeStart(request_, curvature) : 0.0;
+      best.push_back({.legs = {}, .cost = cost});
+    }
     for (std::size_t leg = 0; leg + 1 < stops_.size(); ++leg) {
       const std::vector<double> from = CurvaturesAt(leg);
       const std::vector<double> to = CurvaturesAt(leg + 1);
@@ -336,7 +340,9 @@ class RoutePlanner {
       }
       best = std::move(next);
     }
-    return best.front().cost < kNoCurve ? best.front() : Legs{};
+    const auto cheapest = std::min_element(
+        best.begin(), best.end(), [](const Legs& a, const Legs& b) { return a.cost < b.cost; });
+    return cheapest->cost < kNoCurve ? std::move(*cheapest) : Legs{};
   }
 
   [[nodiscard]] Plan PlanOf(const Legs& found) const {
@@ -424,7 +430,17 @@ void VisitClothoids(KeyVisitor& keys, double& max_lateral_acceleration,
 }
 
 Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request) {
-  return RoutePlanner(route, request).Make();
+  Plan straight = RoutePlanner(route, request).Make();
+  const double time = TotalTime(request, straight);
+  // Other motions turn the car in little room by cusps.
+  if (route.objective != CurveObjective::kTime || route.motion != CurveMotion::kForwards ||
+      time <= kMostTime * LeastForwardTime(request, route.radius)) {
+    return straight;
+  }
+  ContinuousRoute turned = route;
+  turned.turns_at_rest = true;
+  Plan other = RoutePlanner(turned, request).Make();
+  return time > kMostTime * TotalTime(request, other) ? other : straight;
 }
 
 }  // namespace trackbed

@@ -15,12 +15,18 @@ struct ContinuousRoute {
   double radius = 1.0;         // smallest radius [m]
   double safe_distance = 0.0;  // of the footprint from obstacles [m]
   double min_speed = 0.1;      // lowest speed of a leg [m/s]
+  bool turns_at_rest =
+      false;  // whether the wheels may be turned at a start at rest and at the goal
 };
 
 /// Plans a path through the stops of the request whose curvature is continuous, except at cusps of
 /// CurveMotion::kHybrid. Each leg is the cheapest word that is free of obstacles, for the sharpness
 /// that the steering can follow at the speed of the leg. The curvature at each waypoint is the one
 /// of a few choices for which the whole route is cheapest.
+///
+/// The wheels are straight at a start at rest and at the goal. With the objective `time`, the car
+/// turns its wheels before it starts, and reaches the goal with turned wheels, if the route with
+/// straight wheels takes more than kMostTime times as long.
 Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request);
 
 /// Returns the limits on the motion along a route.

@@ -181,6 +181,29 @@ TEST(ContinuousRoute, IsNoSlowerForTheObjectiveTime) {
   }
 }
 
+TEST(ContinuousRoute, TurnsTheWheelsAtRestInsteadOfALoop) {
+  // With straight wheels at the start and at the goal, the car would drive a loop of 45 m or more.
+  // The plan with steps turns the wheels at rest and drives at most 21 m. Turning the wheels before
+  // the start takes time, too.
+  const Planned planner = Planners(CurveObjective::kTime).front();
+  const Planned steps{"steps", DubinsPlanner(), Continuous<DubinsOptions>(CurveCurvature::kSteps),
+                      false, false};
+  for (const Pose2& goal : {Pose2{6.17, -8.07, -2.03}, Pose2{8.99, 6.86, 0.32},
+                            Pose2{10.36, -12.4, -0.29}, Pose2{15.55, -2.97, -1.77}}) {
+    const PlanRequest request = ContinuousRequest({{0, 0}, goal.position()}, {0.0, goal.yaw});
+    const auto time = [&](const Plan& plan) {
+      const Segment& first = plan.reference.path.segments().front();
+      return plan.reference.speed.TimeAt(plan.reference.path.length()) +
+             std::abs(SteeringForCurvature(request.vehicle, first.curvature)) /
+                 request.vehicle.steering_rate;
+    };
+    const Plan plan = planner.entry.plan(request, planner.options);
+    ExpectFollowable(planner, request, plan);
+    EXPECT_LT(plan.reference.path.length(), 30.0);
+    EXPECT_LE(time(plan), 1.2 * time(steps.entry.plan(request, steps.options)));
+  }
+}
+
 TEST(ContinuousRoute, BeginsWithTheSteeringOfARollingCar) {
   Random random(3);
   for (int i = 0; i < 12; ++i) {
