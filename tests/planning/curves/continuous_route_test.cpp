@@ -188,8 +188,8 @@ TEST(ContinuousRoute, TurnsTheWheelsAtRestInsteadOfALoop) {
   const Planned planner = Planners(CurveObjective::kTime).front();
   const Planned steps{"steps", DubinsPlanner(), Continuous<DubinsOptions>(CurveCurvature::kSteps),
                       false, false};
-  for (const Pose2& goal : {Pose2{6.17, -8.07, -2.03}, Pose2{8.99, 6.86, 0.32},
-                            Pose2{10.36, -12.4, -0.29}, Pose2{15.55, -2.97, -1.77}}) {
+  for (const Pose2& goal :
+       {Pose2{8.99, 6.86, 0.32}, Pose2{10.36, -12.4, -0.29}, Pose2{15.55, -2.97, -1.77}}) {
     const PlanRequest request = ContinuousRequest({{0, 0}, goal.position()}, {0.0, goal.yaw});
     const auto time = [&](const Plan& plan) {
       const Segment& first = plan.reference.path.segments().front();
