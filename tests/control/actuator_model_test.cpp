@@ -213,9 +213,8 @@ class OnASmallCar : public ::testing::TestWithParam<ControllerEntry> {};
 
 TEST_P(OnASmallCar, IsCalmOnAStraight) {
   // The steering may reverse at most once per second, and the car may be at most 10 mm beside its
-  // path at 2 m/s, in both car models. stanley ignores that tyres respond late, so its steering may
-  // reverse twice as often. optimal_steering accepts the initial offset, because this offset is
-  // within its deviation_limit.
+  // path at 2 m/s, in both car models. optimal_steering accepts the initial offset, because this
+  // offset is within its deviation_limit.
   const std::string name = GetParam().name;
   for (const VehicleParams& car : {SmallCar(), SmallCarWithTyres()}) {
     const std::vector<Row> rows =
@@ -226,7 +225,7 @@ TEST_P(OnASmallCar, IsCalmOnAStraight) {
       reversals += rows[i].command * rows[i - 1].command < 0.0 ? 1 : 0;
       largest = std::max(largest, std::abs(rows[i].cross_track));
     }
-    EXPECT_LE(reversals, name == "stanley" ? 25 : 10) << car.mass;
+    EXPECT_LE(reversals, 10) << car.mass;
     EXPECT_LE(largest, name == "optimal_steering" ? 0.0501 : 0.01) << car.mass;
   }
 }

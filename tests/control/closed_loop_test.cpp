@@ -175,9 +175,6 @@ TEST_P(EveryFollower, ComesBackToItsPath) {
 }
 
 TEST_P(EveryFollower, ComesBackFromMetersAway) {
-  if (std::string(GetParam().name) == "stanley") {
-    GTEST_SKIP() << "is the textbook's law: see its header";
-  }
   // With the steering rate omega, the car needs a distance of about cbrt(e L v/omega) to correct an
   // offset e. This is 7 m here, much less than the 200 m of the run.
   std::vector<ControllerOptions> all{GetParam().defaults};

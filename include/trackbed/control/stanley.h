@@ -27,9 +27,12 @@ namespace trackbed {
 /// For the Prius, the default gain k is 1 per second, and the default softening speed k_s is 1 m/s.
 ///
 /// The Stanley law has no preview, but tracks a path whose curvature steps are ramps that the
-/// wheels can follow (docs/algorithms/control.md, "Ramped path"). The Stanley law has no damping:
-/// above 10 m/s with the default gain k, the yaw response lags and the car oscillates. A larger
-/// gain k makes the oscillation worse.
+/// wheels can follow (docs/algorithms/control.md, "Ramped path"). The Stanley law ignores that
+/// wheels and tyres respond late, with the time T: a car that drives farther than L in the time 3 T
+/// oscillates. Without a given `gain`, the law is therefore that of a longer car with the wheelbase
+/// D = max(L, 3 |v| T): D replaces L above, the feedback is multiplied by L/D, and k/(k_s + |v|) is
+/// at most 1/(6 |v| T). T is the response time of docs/algorithms/control.md, "The default
+/// distance".
 ///
 /// By default, the wheels turn no further than they can turn back in time
 /// (src/control/timely_steering.h). With a given `gain`, the law ignores the limit on the steering
