@@ -33,7 +33,7 @@ constexpr double kDeadZone = 0.5;
 constexpr double kDeadOffset = 0.04;
 
 /// Reversal of the wanted angle below which the actuator stays at rest, as a fraction of the
-/// half-width of the dead zone.
+/// half-width of the dead zone. The end of a correction is no such reversal.
 constexpr double kReversal = 0.25;
 
 /// The play counts as crossed if the actuator's remaining angle to its target is at most this
@@ -130,10 +130,13 @@ class ActuatorModel {
     wanted_ = std::clamp(wanted, -limits_.angle, limits_.angle);
     const double rest = wanted_ - std::clamp(wanted_ - steady, -zone, zone);
     const double turn = rest - resting_;
-    if (turn != 0.0 && (turn * play_ >= 0.0 || std::abs(turn) >= kReversal * zone)) {
+    // A correction that outlasts its error feeds a limit cycle from edge to edge of the dead zone.
+    const bool ends = corrects_ && rest == steady;
+    if (turn != 0.0 && (turn * play_ >= 0.0 || ends || std::abs(turn) >= kReversal * zone)) {
       crosses_ = crosses_ || turn * play_ < 0.0;
       play_ = std::copysign(half_, turn);
       resting_ = rest;
+      corrects_ = rest != steady;
     }
     const double left = resting_ + play_ - lagged_;
     crosses_ = crosses_ && std::abs(left) > kPassed * half_;
@@ -161,6 +164,7 @@ class ActuatorModel {
   double wanted_;               // Last wanted angle.
   double target_;               // Output of the calibration curve, before backlash.
   double resting_;              // Angle at which the actuator comes to rest after the last command.
+  bool corrects_ = false;       // Whether `resting_` differs from the steady turn by a correction.
   double play_ = 0.0;           // Half of the backlash on the side to which the actuator turns.
   double lagged_;  // Angle after the lag and before backlash, at the end of the dead time.
   double angle_;

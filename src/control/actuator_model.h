@@ -37,7 +37,9 @@ namespace trackbed {
 ///      0.08 (L/R)^2 if that is less, where R is ShortestPreview. A law that steers to a point at
 ///      the distance R then stays within 0.04 L of its path. Reversals of the wanted angle below a
 ///      quarter of the half-width are ignored, because noise would otherwise make the command
-///      cross the play.
+///      cross the play. When the wanted angle returns from a correction into the dead zone, the
+///      wheels always return to the steady turn. Wheels that kept a small correction would turn the
+///      car until it leaves the other edge of the dead zone faster, without an end.
 ///   2. Half of the backlash is added on the side to which the actuator turns.
 ///   3. A lead divides the lag by 3 and amplifies noise by 3. While the wheels cross the play, the
 ///      amplification is up to 6.

@@ -230,6 +230,29 @@ TEST_P(OnASmallCar, IsCalmOnAStraight) {
   }
 }
 
+TEST_P(OnASmallCar, CrossesItsPlayEverMoreRarely) {
+  // Within the dead zone, the car drifts from one edge to the other, and a correction at the edge
+  // turns it back. If the law corrects with the damping ratio 0.7, a correction reverses the
+  // heading error and multiplies it by exp(-pi) = 0.04. Each drift then takes 23 times as long as
+  // the drift before it, so at most two corrections fall into the last 20 s of 30 s. Each
+  // correction crosses the play at most twice. The loop of stanley has less damping at low speed,
+  // where its lever is the wheelbase; it may cross the play once per second.
+  for (const VehicleParams& car : {SmallCar(), SmallCarWithTyres()}) {
+    for (const double speed : {1.0, 2.57, 3.02, 4.0}) {
+      for (const double offset : {0.011, -0.02}) {
+        SCOPED_TRACE(fmt::format("{} kg, {} m/s, {} m", car.mass, speed, offset));
+        const std::vector<Row> rows =
+            Simulate(GetParam().defaults, {car, Straight(200.0), {0.0, offset, 0.0}, speed, 1500});
+        int crossings = 0;
+        for (std::size_t i = 501; i < rows.size(); ++i) {
+          crossings += rows[i].command * rows[i - 1].command < 0.0 ? 1 : 0;
+        }
+        EXPECT_LE(crossings, std::string(GetParam().name) == "stanley" ? 20 : 4);
+      }
+    }
+  }
+}
+
 TEST_P(OnASmallCar, IsCopiedWithItsQueue) {
   const auto controller = MakeSteeringController(GetParam().defaults);
   const Drive drive{SmallCar(), Straight(40.0), {0.0, 0.05, 0.0}, 2.0, 50};
