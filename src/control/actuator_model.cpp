@@ -54,6 +54,11 @@ constexpr double kCrossingLead = 6.0;
 /// difference would move the command through the play and back.
 constexpr int kSubsteps = 10;
 
+/// Distance ahead in which the control law may plan the steering of the path, in multiples of the
+/// distance that the car drives while its wheels turn from straight ahead to their limit. The ramp
+/// and the tail of RampedPath begin up to 2.5 such distances ahead of a step of curvature.
+constexpr double kSwingsAhead = 2.5;
+
 constexpr double kSameTime = 1e-9;  // [s]
 
 /// Speed below which the motion is predicted with the kinematic car [m/s].
@@ -278,7 +283,11 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
       range.lowest = std::max(range.lowest, -SteeringReach(input.vehicle, -1.0));
       range.highest = std::min(range.highest, SteeringReach(input.vehicle, 1.0));
     }
-    vehicle_.steering_limit = std::max(-range.lowest, range.highest);
+    const double reach = vehicle_.steering_limit;
+    const double swing = std::abs(state.speed) * reach / vehicle_.steering_rate;
+    vehicle_.steering_limit =
+        std::max({-range.lowest, range.highest,
+                  std::min(reach, SteeringAhead(ahead, kSwingsAhead * swing))});
     return std::clamp(inner_->Steer(ahead), range.lowest, range.highest);
   }
 

@@ -10,7 +10,7 @@ namespace trackbed {
 /// then accounts for the dead time, the lag, the backlash and the calibration curve of
 /// SteeringResponse, and for the limits of angle and rate. Both with kModel and with kIgnore:
 ///   * The angle that `inner` wants is clamped to AllowedSteering (steering_limit.h). `inner` plans
-///     with this limit as VehicleParams::steering_limit.
+///     with this limit as VehicleParams::steering_limit, or with SteeringAhead if that is more.
 ///   * The friction coefficients that `inner` receives are those on the road under the car, if the
 ///     wrapper sees the surroundings.
 ///   * As long as no measured state had a lateral speed of the rear axle, `inner` receives a car

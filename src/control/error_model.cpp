@@ -14,6 +14,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "src/control/ramped_path.h"
+#include "src/control/steering_limit.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
@@ -162,7 +163,9 @@ double CommandedAngle::Turn(const ControlInput& input, double rate) {
   const VehicleParams& vehicle = input.vehicle;
   const double turn =
       std::clamp(rate, -vehicle.steering_rate, vehicle.steering_rate) * input.period;
-  last_ = std::clamp(Now(input) + turn, -vehicle.steering_limit, vehicle.steering_limit);
+  const double curvature = input.reference.path.BendAt(input.station).curvature;
+  const SteeringRange range = AllowedSteering(vehicle, input.state, curvature);
+  last_ = std::clamp(Now(input) + turn, range.lowest, range.highest);
   return *last_;
 }
 

@@ -73,7 +73,7 @@ class CommandedAngle {
   /// Returns the last commanded angle delta [rad]; before the first command, the actuator's angle.
   [[nodiscard]] double Now(const ControlInput& input) const;
   /// Returns the new commanded angle delta at the end of the control period [rad], clamped to the
-  /// car's limits of steering rate and steering angle.
+  /// car's limit of the steering rate and to AllowedSteering (steering_limit.h).
   double Turn(const ControlInput& input, double rate);
   /// Turns toward `angle` [rad] as far as the steering rate allows in a control period, and returns
   /// the new commanded angle delta [rad].

@@ -129,4 +129,41 @@ SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& 
           .highest = AllowedToOneSide(vehicle, state.speed, left, rolling)};
 }
 
+double SteeringAhead(const ControlInput& input, double distance) {
+  const SpeedProfile& planned = input.reference.speed;
+  const double present = std::abs(input.state.speed);
+  const auto speed_at = [&](double station) {
+    const double excess = planned.knots().empty() ? 0.0 : present - planned.SpeedAt(input.station);
+    const double speed = planned.knots().empty() ? present : planned.SpeedAt(station);
+    return std::max(speed + excess, 0.0);
+  };
+  const double last = input.station + distance;
+  double most = 0.0;
+  double held = 0.0;   // Lateral acceleration of the turn with the angle `most`.
+  double speed = 0.0;  // Speed of the turn with the angle `most`.
+  double begin = 0.0;
+  for (const Segment& segment : input.reference.path.segments()) {
+    const double end = begin + segment.length;
+    if (begin > last) {
+      break;
+    }
+    // The curvature is linear in the station, so its largest value is at an end.
+    for (const double s : {std::max(begin, input.station), std::min(end, last)}) {
+      const double curvature = end < input.station ? 0.0 : std::abs(segment.CurvatureAt(s - begin));
+      if (curvature > 0.0) {
+        const double v = speed_at(s);
+        const double steering = std::max(SteeringForCurvature(input.vehicle, curvature),
+                                         SteadyTurnOn(input.vehicle, curvature, v).steering);
+        if (steering > most) {
+          most = steering;
+          held = v * v * curvature;
+          speed = v;
+        }
+      }
+    }
+    begin = end;
+  }
+  return most > 0.0 ? std::min(most, SteeringInAStep(input.vehicle, speed, held)) : 0.0;
+}
+
 }  // namespace trackbed

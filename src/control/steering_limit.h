@@ -62,4 +62,11 @@ struct SteeringRange {
 SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& state,
                               double curvature = 0.0);
 
+/// Returns the largest steering angle [rad] >= 0 of the steady turns on the path, from the car's
+/// station to `distance` [m] ahead, but at most SteeringInAStep of a car that holds this turn. The
+/// speed of a turn is the planned speed plus the present excess of the car's speed. A control law
+/// that plans ahead needs this angle: AllowedSteering is smaller as long as the car has not begun
+/// to turn. Cost: O(n) for a path of n segments.
+double SteeringAhead(const ControlInput& input, double distance);
+
 }  // namespace trackbed

@@ -273,5 +273,55 @@ std::vector<ControllerEntry> Followers() {
 INSTANTIATE_TEST_SUITE_P(SteeringLimit, GrippingController, ::testing::ValuesIn(Followers()),
                          [](const auto& test) { return std::string(test.param.name); });
 
+TEST(SteeringAhead, IsTheAngleOfTheSharpestTurnAhead) {
+  // The path has a straight, a turn and a sharper turn. The car slows down for the sharper turn.
+  VehicleParams car = TallCar();
+  const Reference reference{Path({}, {{40.0, 0.0, 1}, {30.0, -0.03, 1}, {50.0, 0.08, 1}}),
+                            SpeedProfile({{0.0, 15.0}, {40.0, 15.0}, {70.0, 10.0}, {120.0, 10.0}})};
+  VehicleState state;
+  state.speed = 15.0;
+  const auto ahead = [&](double station, double distance) {
+    const ControlInput input{.vehicle = car,
+                             .reference = reference,
+                             .schedule = {},
+                             .state = state,
+                             .station = station,
+                             .period = 0.02};
+    return SteeringAhead(input, distance);
+  };
+  EXPECT_EQ(ahead(5.0, 34.0), 0.0);
+  EXPECT_NEAR(ahead(5.0, 36.0), std::atan(car.wheelbase * 0.03), Tolerance(1e-12));
+  EXPECT_NEAR(ahead(5.0, 66.0), std::atan(car.wheelbase * 0.08), Tolerance(1e-12));
+  // A car that is faster than planned by 3 m/s would need 13.5 m/s^2 in the sharper turn, but its
+  // inner wheels lift at g b/(2 h) = 11.2 m/s^2.
+  state.speed = 18.0;
+  const double roll = kGravity * 1.6 / (2.0 * 0.7);
+  EXPECT_NEAR(ahead(5.0, 66.0), std::atan(car.wheelbase * roll / (13.0 * 13.0)), Tolerance(1e-12));
+}
+
+TEST_P(GrippingController, PlansATurnWithinTheGripAsIfTheGripWereUnlimited) {
+  // The path steps to a turn with 9 m/s^2, of which a step of the wheels may use 7.3 m/s^2 as long
+  // as the car drives straight ahead. The wheels turn along a ramp, so the limit never acts on a
+  // car that follows its path. A law that plans the turn within the present limit would begin too
+  // late, or too early. lqr, stanley and rear_axle_feedback correct errors by angles beyond that of
+  // the path, which the grip limits; mppi plans with the grip itself.
+  const std::string name = GetParam().name;
+  if (name == "lqr" || name == "stanley" || name == "rear_axle_feedback" || name == "mppi") {
+    GTEST_SKIP() << "is limited by the grip";
+  }
+  LoopSetup setup;
+  setup.speed = 9.0;
+  setup.vehicle = TallCar();
+  setup.vehicle.steering_rate = 0.4;
+  const double curvature = 9.0 / (setup.speed * setup.speed);
+  setup.path = Path({}, {{40.0, 0.0, 1}, {15.0, curvature, 1}, {60.0, 0.0, 1}});
+  setup.duration = 11.0;
+  const double limited = LargestOffset(Loop(GetParam().defaults, setup));
+  setup.vehicle.friction_lateral = 0.0;
+  setup.vehicle.braking.axles.clear();
+  const double unlimited = LargestOffset(Loop(GetParam().defaults, setup));
+  EXPECT_LT(limited, unlimited + 0.05);
+}
+
 }  // namespace steering_limit_test
 }  // namespace trackbed
