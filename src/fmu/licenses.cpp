@@ -10,7 +10,8 @@
 
 #include "trackbed/core/file.h"
 
-// Finds the owners of libraries in the lists of files that dpkg keeps, one list for each package.
+// Takes the texts of libraries of a wheel from the folder beside the library of FMUs. Finds the
+// owners of all other libraries in the lists of files that dpkg keeps, one list for each package.
 namespace trackbed::fmu {
 
 namespace fs = std::filesystem;
@@ -79,6 +80,8 @@ std::vector<ZipEntry> LicenseEntries(const fs::path& library,
                                      const std::map<std::string, fs::path>& carried,
                                      const fs::path& root) {
   std::map<std::string, std::string> texts = FilesIn(library.parent_path() / "fmu_licenses");
+  const std::map<std::string, std::string> of_wheel =
+      FilesIn(library.parent_path() / "library_licenses");
   std::string index =
       "This FMU contains Trackbed (LICENSE, NOTICE), code that is compiled into it\n"
       "(the other texts beside this file), and these libraries:\n\n";
@@ -87,7 +90,10 @@ std::vector<ZipEntry> LicenseEntries(const fs::path& library,
   const bool has_mujoco = texts.lower_bound("mujoco/") != texts.lower_bound("mujoco0");
   for (const auto& [soname, file] : carried) {
     std::string where = "no text found; add its license before you distribute this FMU";
-    if (const auto owner = owners.find(soname); owner != owners.end()) {
+    if (const auto carried_text = of_wheel.find(soname + ".txt"); carried_text != of_wheel.end()) {
+      where = carried_text->first;
+      texts.insert(*carried_text);
+    } else if (const auto owner = owners.find(soname); owner != owners.end()) {
       const fs::path text = root / "usr/share/doc" / owner->second / "copyright";
       std::error_code ignored;
       if (fs::is_regular_file(text, ignored)) {

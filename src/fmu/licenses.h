@@ -14,8 +14,10 @@ namespace trackbed::fmu {
 /// from soname to file. The texts for the compiled code come from the folder fmu_licenses beside
 /// `library`. `license.txt` lists all carried libraries with their license texts.
 ///
-/// The license text of a carried library is the copyright file of the Debian package that owns it,
-/// found in the database of dpkg below `root`. For a library without a text, license.txt says so.
+/// A wheel has the license text of each carried library in library_licenses/SONAME.txt beside
+/// `library`. Elsewhere, the license text of a carried library is the copyright file of the Debian
+/// package that owns it, found in the database of dpkg below `root`. For a library without a text,
+/// license.txt says so.
 std::vector<ZipEntry> LicenseEntries(const std::filesystem::path& library,
                                      const std::map<std::string, std::filesystem::path>& carried,
                                      const std::filesystem::path& root = "/");

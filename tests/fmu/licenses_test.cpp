@@ -53,6 +53,21 @@ TEST(FmuLicenses, AreThoseOfThePackagesThatOwnTheLibraries) {
   EXPECT_THAT(index, HasSubstr("\nlibfour.so: no text found; add its license"));
 }
 
+// scripts/wheel renames the libraries of Debian, so that no package owns the files.
+TEST(FmuLicenses, OfAWheelAreBesideItsLibrary) {
+  const TempFolder folder;
+  folder.Write("trackbed/library_licenses/libone-1a2b3c4d.so.1.txt", "one");
+  folder.Write("trackbed/library_licenses/libtwo-1a2b3c4d.so.2.txt", "two");
+  const auto texts =
+      LicensesOf(folder.path() / "trackbed/trackbed_fmu.so",
+                 {{"libone-1a2b3c4d.so.1", folder.path() / "trackbed.libs/libone-1a2b3c4d.so.1"}},
+                 folder.path());
+  EXPECT_EQ(texts.at("documentation/licenses/libone-1a2b3c4d.so.1.txt"), "one");
+  EXPECT_EQ(texts.size(), 2U);
+  EXPECT_THAT(texts.at("documentation/licenses/license.txt"),
+              HasSubstr("\nlibone-1a2b3c4d.so.1: libone-1a2b3c4d.so.1.txt\n"));
+}
+
 TEST(FmuLicenses, OfThisBuildAreComplete) {
   const fs::path library = fmu::FindLibrary();
   const auto texts = LicensesOf(library, fmu::CarriedLibraries(library));

@@ -1,4 +1,5 @@
-"""Uses an installed wheel: runs scenarios, steps a car, and lists the libraries that were loaded.
+"""Uses an installed wheel: runs scenarios, steps a car, exports an FMU, and lists the libraries that
+were loaded.
 
 scripts/wheel --check calls this program in a new virtual environment and an empty folder.
 """
@@ -8,7 +9,9 @@ import json
 import lzma  # noqa: F401
 import pathlib
 import re
+import subprocess
 import sys
+import zipfile
 
 import numpy
 
@@ -45,6 +48,28 @@ pathlib.Path("line.yaml").write_text(
     "plan: {method: path_file, file: line.geojson}\ncontrol: {method: preview}\n"
 )
 assert trackbed.run("line.yaml").passed
+
+# The FMU contains all libraries that it needs, and their licenses.
+program = pathlib.Path(sys.prefix) / "bin/trackbed"
+subprocess.run([program, "fmu", "-q", "three_turns", "--plant", "mujoco", "-o", "car.fmu"], check=True)
+with zipfile.ZipFile("car.fmu") as fmu:
+    fmu.extractall("car")
+texts = pathlib.Path("car/documentation/licenses")
+index = (texts / "license.txt").read_text()
+assert "no text found" not in index, index
+assert list(texts.glob("libproj-*.txt")), index
+loaded = subprocess.run(
+    [sys.executable, "-c", "import ctypes, glob; ctypes.CDLL(*glob.glob('car/binaries/*/trackbed.so')); "
+     "print(open('/proc/self/maps').read())"],
+    check=True, capture_output=True, text=True,
+).stdout
+strangers = {
+    file
+    for file in re.findall(r"/\S*\.so\S*", loaded)
+    if not file.startswith((str(pathlib.Path("car").resolve()), sys.prefix, sys.base_prefix))
+    and not RUNTIME.match(pathlib.Path(file).name)
+}
+assert not strangers, f"libraries that the FMU does not carry: {strangers}"
 
 standard = str(pathlib.Path(json.__file__).parents[1])  # The folder of the standard library.
 strangers = [
