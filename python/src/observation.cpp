@@ -142,7 +142,9 @@ py::dict AsDict(const Observation& seen) {
 }  // namespace
 
 void BindObservation(py::module_& module) {
-  py::class_<Observation, std::shared_ptr<Observation>> observation(module, "Observation");
+  py::class_<Observation, std::shared_ptr<Observation>> observation(
+      module, "Observation",
+      "What a controller receives in a control period: SI units and radians, NaN if unknown.");
   py::list names;
   for (const Field& field : kFields) {
     observation.def_property_readonly(field.name, field.value, field.doc);
@@ -154,8 +156,9 @@ void BindObservation(py::module_& module) {
   observation.def("__repr__", [](const Observation& o) {
     return "<Observation " + py::repr(AsDict(o)).cast<std::string>() + ">";
   });
-  observation.def_property_readonly("ended",
-                                    [](const Observation& o) { return o.status.has_value(); });
+  observation.def_property_readonly(
+      "ended", [](const Observation& o) { return o.status.has_value(); },
+      "Whether the run has ended.");
   CopyAsItself(observation);
   observation.def("__reduce__", [](const Observation&) -> py::tuple {
     throw py::type_error("an Observation cannot be pickled; use seen.asdict()");

@@ -116,11 +116,16 @@ void RegisterPythonController(const py::dict& given) {
 }
 
 void BindControllerInput(py::module_& module) {
-  py::class_<ControllerInput, Observation, std::shared_ptr<ControllerInput>>(module,
-                                                                             "ControllerInput")
-      .def_readonly("period", &ControllerInput::period)
-      .def_readonly("vehicle", &ControllerInput::vehicle)
-      .def("reference", &ReferenceOf, py::arg("stations"));
+  py::class_<ControllerInput, Observation, std::shared_ptr<ControllerInput>>(
+      module, "ControllerInput",
+      "Input of a controller in a control period: an Observation without clearance and status.")
+      .def_readonly("period", &ControllerInput::period, "Length of a control period [s].")
+      .def_readonly("vehicle", &ControllerInput::vehicle, "The car, a Vehicle.")
+      .def("reference", &ReferenceOf, py::arg("stations"),
+           "Returns points of the present plan, as Loop.reference does.\n\n"
+           "stations: stations on the plan [m], an array with the shape (n,). Returns arrays with\n"
+           "the shape (n,): x_m, y_m, yaw_rad, curvature_radpm, speed_mps, direction. Can only be\n"
+           "called until `step` returns.");
   module.attr("log_columns") = LogColumns(
       LogContents{.path = true, .obstacles = true, .noise = true, .wheels = true, .gaps = true});
 }

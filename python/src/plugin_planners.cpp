@@ -198,24 +198,36 @@ void RegisterPythonPlanner(const py::dict& given) {
 }
 
 void BindPlannerRequest(py::module_& module) {
-  py::class_<VehicleParams> vehicle(module, "Vehicle");
+  py::class_<VehicleParams> vehicle(module, "Vehicle",
+                                    "Parameters of a car, in SI units and radians.");
   CopyAsItself(vehicle);
-  vehicle.def_readonly("name", &VehicleParams::name)
-      .def_readonly("wheelbase", &VehicleParams::wheelbase)
-      .def_readonly("cg_to_rear", &VehicleParams::cg_to_rear)
-      .def_readonly("mass", &VehicleParams::mass)
-      .def_readonly("yaw_inertia", &VehicleParams::yaw_inertia)
-      .def_readonly("cornering_stiffness_front", &VehicleParams::cornering_stiffness_front)
-      .def_readonly("cornering_stiffness_rear", &VehicleParams::cornering_stiffness_rear)
-      .def_readonly("steering_limit", &VehicleParams::steering_limit)
-      .def_readonly("steering_rate", &VehicleParams::steering_rate)
-      .def_readonly("length", &VehicleParams::length)
-      .def_readonly("width", &VehicleParams::width)
-      .def_readonly("rear_overhang", &VehicleParams::rear_overhang)
-      .def_readonly("max_acceleration", &VehicleParams::max_acceleration)
-      .def_readonly("max_deceleration", &VehicleParams::max_deceleration)
-      .def_readonly("top_speed", &VehicleParams::top_speed)
-      .def_property_readonly("min_turning_radius", &VehicleParams::min_turning_radius);
+  vehicle.def_readonly("name", &VehicleParams::name, "Name of the model.")
+      .def_readonly("wheelbase", &VehicleParams::wheelbase,
+                    "Wheelbase [m]; with differential drive, the track of the driven wheels.")
+      .def_readonly("cg_to_rear", &VehicleParams::cg_to_rear,
+                    "Distance from the center of gravity to the rear axle [m].")
+      .def_readonly("mass", &VehicleParams::mass, "Mass [kg].")
+      .def_readonly("yaw_inertia", &VehicleParams::yaw_inertia,
+                    "Yaw inertia about the center of gravity [kg m^2].")
+      .def_readonly("cornering_stiffness_front", &VehicleParams::cornering_stiffness_front,
+                    "Cornering stiffness of the front axle [N/rad]; 0 without coefficients.")
+      .def_readonly("cornering_stiffness_rear", &VehicleParams::cornering_stiffness_rear,
+                    "Cornering stiffness of the rear axle [N/rad]; 0 without coefficients.")
+      .def_readonly("steering_limit", &VehicleParams::steering_limit,
+                    "Largest steering angle of the bicycle model [rad].")
+      .def_readonly("steering_rate", &VehicleParams::steering_rate,
+                    "Largest rate of the steering angle [rad/s].")
+      .def_readonly("length", &VehicleParams::length, "Length of the footprint [m].")
+      .def_readonly("width", &VehicleParams::width, "Width of the footprint [m].")
+      .def_readonly("rear_overhang", &VehicleParams::rear_overhang,
+                    "Distance from the rear axle to the rear end of the footprint [m].")
+      .def_readonly("max_acceleration", &VehicleParams::max_acceleration,
+                    "Largest acceleration on a flat road [m/s^2]; 0 if unknown.")
+      .def_readonly("max_deceleration", &VehicleParams::max_deceleration,
+                    "Largest deceleration on a flat road [m/s^2]; 0 if unknown.")
+      .def_readonly("top_speed", &VehicleParams::top_speed, "Top speed [m/s]; 0 if unlimited.")
+      .def_property_readonly("min_turning_radius", &VehicleParams::min_turning_radius,
+                             "Smallest turning radius of the rear-axle center [m].");
 
   py::class_<PlanRequest, std::shared_ptr<PlanRequest>>(module, "PlanRequest")
       .def_readonly("vehicle", &PlanRequest::vehicle)

@@ -159,16 +159,27 @@ void RegisterPythonPlant(const py::dict& given) {
 }
 
 void BindPlantSetup(py::module_& module) {
-  py::class_<PlantStart, std::shared_ptr<PlantStart>> setup(module, "PlantSetup");
+  py::class_<PlantStart, std::shared_ptr<PlantStart>> setup(
+      module, "PlantSetup", "Input of a plant at its start, in SI units and radians.");
   CopyAsItself(setup);
-  setup.def_readonly("timestep", &PlantStart::timestep)
-      .def_readonly("friction", &PlantStart::friction)
-      .def_readonly("vehicle", &PlantStart::vehicle)
-      .def_property_readonly("x_m", [](const PlantStart& s) { return s.start.pose.x; })
-      .def_property_readonly("y_m", [](const PlantStart& s) { return s.start.pose.y; })
-      .def_property_readonly("yaw_rad", [](const PlantStart& s) { return s.start.pose.yaw; })
-      .def_property_readonly("speed_mps", [](const PlantStart& s) { return s.start.speed; })
-      .def_property_readonly("steering_rad", [](const PlantStart& s) { return s.start.steering; });
+  setup.def_readonly("timestep", &PlantStart::timestep, "Time that a step simulates [s].")
+      .def_readonly("friction", &PlantStart::friction, "Factor on the friction of the tyres [1].")
+      .def_readonly("vehicle", &PlantStart::vehicle, "The car, a Vehicle.")
+      .def_property_readonly(
+          "x_m", [](const PlantStart& s) { return s.start.pose.x; },
+          "x of the rear-axle center at the start [m].")
+      .def_property_readonly(
+          "y_m", [](const PlantStart& s) { return s.start.pose.y; },
+          "y of the rear-axle center at the start [m].")
+      .def_property_readonly(
+          "yaw_rad", [](const PlantStart& s) { return s.start.pose.yaw; },
+          "Yaw at the start [rad], positive to the left.")
+      .def_property_readonly(
+          "speed_mps", [](const PlantStart& s) { return s.start.speed; },
+          "Speed at the start [m/s], negative backwards.")
+      .def_property_readonly(
+          "steering_rad", [](const PlantStart& s) { return s.start.steering; },
+          "Steering angle at the start [rad], positive to the left.");
   py::list names;
   for (const auto& [name, member] : kStateColumns) {
     names.append(name);

@@ -7,7 +7,7 @@ import json
 import math
 import numbers
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set, Sized
 from typing import Any, Optional, Union
 
 import numpy
@@ -134,6 +134,10 @@ def path(name: str, value: object) -> str:
         raise TypeError(f"{name} must be a str or a path, not {type_name(value)}")
     if not result or "\0" in result:
         raise ValueError(f"{name} is {result!r}; must not be empty, or have the character 0")
+    try:
+        os.fsencode(result)
+    except UnicodeEncodeError:
+        raise ValueError(f"{name} is {result!r}, which no file name can contain") from None
     return result
 
 
@@ -195,20 +199,29 @@ def changes(options: object) -> Optional[Mapping[str, Any]]:
     return None if own is None else mapping("options['set']", own, "keys and values")
 
 
+def _repeats(value: object) -> bool:
+    """Returns whether a value is a row of values that can be read again, such as a range, a deque
+    or a column of pandas or polars."""
+    others = (str, bytes, bytearray, memoryview, Mapping, Set, Iterator, os.PathLike)
+    return isinstance(value, Iterable) and isinstance(value, Sized) and not isinstance(value, others)
+
+
 def _plain(key: str, value: Any) -> Any:
     """Returns an override's value as JSON has it; arrays and scalars of NumPy become plain."""
     if isinstance(value, (numpy.ndarray, numpy.generic)):
         value = value.tolist()
+    if isinstance(value, numbers.Real) and not isinstance(value, (bool, int)):
+        return number(f"set[{key!r}]", value)
     if isinstance(value, Mapping):
         return {text("a key in set", k): _plain(f"{key}.{k}", v) for k, v in value.items()}
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, (list, tuple)) or _repeats(value):
         return [_plain(key, v) for v in value]
     if isinstance(value, os.PathLike):
         return path(f"set[{key!r}]", value)
-    if isinstance(value, float) and not math.isfinite(value):
-        raise ValueError(f"set[{key!r}] is {value}; must be finite")
-    if value is None or isinstance(value, (bool, int, float, str)):
+    if value is None or isinstance(value, (bool, int, str)):
         return value
+    if isinstance(value, Iterator):  # Some callers read the values several times.
+        raise TypeError(f"set[{key!r}] is a {type_name(value)}, which can be read once; give a list")
     raise TypeError(
         f"set[{key!r}] must be a number, bool, str, None, list or dict, not {type_name(value)}"
     )

@@ -263,14 +263,13 @@ class VectorLoop:
         threads: Optional[int] = None,
         log: bool = False,
     ) -> None:
-        self.count = whole("count", count, 1)
+        self.count = whole("count", count, 1, INT_MAX)
         own = self._seeds(seeds)
         if threads is None:
             threads = len(os.sched_getaffinity(0))
         self._threads = whole("threads", threads, 1, INT_MAX)
         first = Loop(scenario, plant, set, seed=None if own is None else own[0], log=log)
-        self.loops: list[Loop] = [first]
-        """The loops, which may also be stepped alone."""
+        loops = [first]
         for i in range(1, self.count):
             if own is None:
                 loop = Loop.__new__(Loop)
@@ -279,13 +278,15 @@ class VectorLoop:
                 loop._start(first._prepared, first.plant)
             else:
                 loop = Loop(scenario, plant, set, seed=own[i], log=log)
-            self.loops.append(loop)
+            loops.append(loop)
+        self.loops: tuple[Loop, ...] = tuple(loops)
+        """The loops, which may also be stepped alone."""
         self._join()
 
     def __copy__(self) -> VectorLoop:
         result = type(self).__new__(type(self))
         result.__dict__.update({k: v for k, v in self.__dict__.items() if k != "_core"})
-        result.loops = [copy.copy(loop) for loop in self.loops]
+        result.loops = tuple(copy.copy(loop) for loop in self.loops)
         result._join()
         return result
 

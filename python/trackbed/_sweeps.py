@@ -36,6 +36,7 @@ class Sweep(Mapping[str, "numpy.typing.NDArray[Any]"]):
 
     @property
     def columns(self) -> list[str]:
+        """Names of the columns."""
         return self._job.columns
 
     @property
@@ -50,6 +51,7 @@ class Sweep(Mapping[str, "numpy.typing.NDArray[Any]"]):
 
     @property
     def complete(self) -> bool:
+        """Whether all rows have finished."""
         return self.rows == self.rows_expected
 
     @property

@@ -192,6 +192,7 @@ class PathTracking(_Tracking, gymnasium.Env[Observed, Actions]):
     def reset(
         self, *, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None
     ) -> tuple[Observed, dict[str, Any]]:
+        """Returns the car to its start, and returns the first observation and info."""
         super().reset(seed=None if seed is None else whole("seed", seed, 0))
         seen = self._reset(self._loop, seed, changes(options))
         return self._observe(seen), self._info(seen)
@@ -199,6 +200,10 @@ class PathTracking(_Tracking, gymnasium.Env[Observed, Actions]):
     def step(
         self, action: Actions
     ) -> tuple[Observed, float, bool, bool, dict[str, Any]]:
+        """Simulates one control period with an action of shape (1,) or (2,), in [-1, 1].
+
+        Returns the observation, reward, terminated, truncated and info.
+        """
         command = numpy.clip(array("action", action, self.action_space.shape or ()), -1.0, 1.0)
         acceleration = None
         if self._max_acceleration is not None:
@@ -214,6 +219,7 @@ class PathTracking(_Tracking, gymnasium.Env[Observed, Actions]):
         return self._observe(seen), reward, terminated, truncated, self._info(seen)
 
     def render(self) -> Any:
+        """Returns a picture of the car, an array of uint8 with the shape (height, width, 3)."""
         if self.render_mode is None:
             gymnasium.logger.warn('render() needs gymnasium.make(..., render_mode="rgb_array")')
             return None
@@ -263,7 +269,7 @@ class VectorPathTracking(
         self._done = numpy.zeros(self.num_envs, dtype=bool)
 
     @property
-    def loops(self) -> list[Loop]:
+    def loops(self) -> tuple[Loop, ...]:
         """The loops that the environment steps."""
         return self._cars.loops
 
@@ -287,6 +293,7 @@ class VectorPathTracking(
         seed: Union[int, Sequence[Optional[int]], None] = None,
         options: Optional[dict[str, Any]] = None,
     ) -> tuple[Observed, dict[str, Any]]:
+        """Returns all cars to their starts, and returns the first observations and infos."""
         changed = changes(options)
         if seed is None:
             seeds: list[Optional[int]] = [None] * self.num_envs
@@ -308,6 +315,10 @@ class VectorPathTracking(
     def step(
         self, actions: Actions
     ) -> tuple[Observed, PerCar, PerCar, PerCar, dict[str, Any]]:
+        """Simulates one control period with actions of shape (num_envs, 1) or (num_envs, 2).
+
+        Returns observations, rewards, terminated, truncated and infos, with one row for each car.
+        """
         cars = self._cars
         commands = numpy.clip(array("actions", actions, self.action_space.shape or ()), -1.0, 1.0)
         limits = numpy.array([loop.steering_limit for loop in cars.loops])
@@ -334,6 +345,7 @@ class VectorPathTracking(
         return self._observe(seen), rewards, terminated, truncated, self._info(seen, statuses)
 
     def render(self) -> Any:
+        """Returns a tuple with a picture of each car, as PathTracking.render does."""
         if self.render_mode is None:
             gymnasium.logger.warn('render() needs gymnasium.make_vec(..., render_mode="rgb_array")')
             return None

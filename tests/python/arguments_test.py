@@ -1,6 +1,8 @@
 """Wrong arguments of every public function: an error names the argument."""
 
+import collections
 import decimal
+import fractions
 import functools
 import math
 import warnings
@@ -34,7 +36,7 @@ WRONG = {
     "whole": [*OTHER, "1", True, 1.5, [1], math.nan, -1, 10**30, 10**400],
     "flag": [*OTHER, None, 1, 0.0, "true", [], numpy.zeros((2, 2))],
     "text": [*OTHER, 1, ["a"], ("a",), numpy.array(["a"]), "\udc80"],
-    "path": [*OTHER, 1, ["a"], "", "a\0b", BadPath(), numpy.array(["a"])],
+    "path": [*OTHER, 1, ["a"], "", "a\0b", BadPath(), numpy.array(["a"]), "\ud800"],
     "array": [*OTHER, "1", ["1", "2"], [1j], [10**400, 1], [[1.0]] * 7, numpy.array(["1"]), 1.0],
     "texts": [*OTHER[:-3], 1, "speed_mps", [1], [None], numpy.array(1.0), ["\udc80"]],
     "dict": [*OTHER, 1, "a", [1], [("a", 1)], numpy.zeros(2)],
@@ -71,7 +73,7 @@ DRAWN = {"run": "text", "size": "array", "camera": "text", "quality": "text"}
 FUNCTIONS = [
     (trackbed.run, ["three_turns"], {"scenario": "path", "set": "dict", "seed": "whole"}),
     (trackbed.Loop, ["three_turns"], {**STEPS, "seed": "whole"}),
-    (trackbed.VectorLoop, ["three_turns"], {**STEPS, "threads": "whole", "seeds": "array"}),
+    (trackbed.VectorLoop, ["three_turns"], {**STEPS, "threads": "whole", "seeds": "array", "count": "whole"}),
     (trackbed.VectorLoop.step, [CARS], {"steering": "array", "acceleration": "array"}),
     (trackbed.Loop.reset, [LOOP], {"set": "dict", "seed": "whole"}),
     (trackbed.Loop.reference, [LOOP], {"stations": "array"}),
@@ -182,6 +184,20 @@ def test_wrong_keys_are_missing_keys(value, things):
 def test_wrong_overrides_are_named(value):
     with pytest.raises((TypeError, ValueError), match=r"mission\.speed"):
         trackbed.run("three_turns", set={"mission.speed": value})
+
+
+def test_overrides_may_be_rows_and_numbers_of_any_library():
+    rows = {"a": range(3), "b": collections.deque([(1, 2), numpy.ones(2)]), "c": fractions.Fraction(1, 4)}
+    expected = ["a=[0, 1, 2]", "b=[[1, 2], [1.0, 1.0]]", "c=0.25"]
+    assert trackbed._arguments.overrides(rows) == expected
+    series = pytest.importorskip("pandas").Series([1.5, 2])
+    assert trackbed._arguments.overrides({"a": series}) == ["a=[1.5, 2.0]"]
+
+
+@pytest.mark.parametrize("values", [iter([1]), zip([0], [1]), (x for x in [1])])
+def test_an_override_that_can_be_read_once_is_refused(values):
+    with pytest.raises(TypeError, match=r"set\['a'\] is a \w+, which can be read once; give a list"):
+        trackbed._arguments.overrides({"a": values})
 
 
 def test_a_check_without_a_bound_is_refused(things):

@@ -1,10 +1,13 @@
 """Runs the Python blocks of the docs, each page in a folder of its own."""
 
 import importlib.util
+import inspect
 import pathlib
 import re
 
 import pytest
+
+import trackbed
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ["docs/how-to/python.md", "docs/tutorial-python.md"]
@@ -39,3 +42,33 @@ def test_every_page_with_python_blocks_is_run():
     pages = [p for p in sorted((ROOT / "docs").rglob("*.md")) if "```python" in p.read_text("utf-8")]
     found = [str(p.relative_to(ROOT)) for p in pages if "import trackbed" in p.read_text("utf-8")]
     assert sorted(found) == sorted(PAGES)
+
+
+def _members(kind):
+    """Returns the public functions and properties that a class defines itself, by name."""
+    items = vars(kind).items()
+    return {n: m for n, m in items if n[0] != "_" and (callable(m) or isinstance(m, property))}
+
+
+def test_every_public_name_has_a_docstring():
+    names = {name: getattr(trackbed, name) for name in trackbed.__all__ if name != "__version__"}
+    if importlib.util.find_spec("gymnasium"):
+        from trackbed import gym
+
+        names.update({"PathTracking": gym.PathTracking, "VectorPathTracking": gym.VectorPathTracking})
+    for name, kind in list(names.items()):
+        if inspect.isclass(kind):
+            names.update({f"{name}.{n}": member for n, member in _members(kind).items()})
+    assert [name for name, member in names.items() if not inspect.getdoc(member)] == []
+
+
+def test_numbers_of_compiled_classes_have_units():
+    kinds = (trackbed.Observation, trackbed.ControllerInput, trackbed.PlantSetup, trackbed.Vehicle)
+    others = {"name", "status", "ended", "vehicle"}
+    without = [
+        f"{kind.__name__}.{name}"
+        for kind in kinds
+        for name, member in _members(kind).items()
+        if isinstance(member, property) and name not in others and not re.search(r"\[.+\]", member.__doc__)
+    ]
+    assert without == []

@@ -16,7 +16,7 @@ import zipfile
 import numpy
 
 # Libraries of the C and C++ runtime, which every wheel for Linux expects from the system (PEP 600).
-RUNTIME = re.compile(r"(ld-linux|libc|libm|libdl|libpthread|librt|libresolv|libstdc\+\+|libgcc_s|libz)\b")
+RUNTIME = re.compile(r"(ld-linux|libc|libm|libdl|libpthread|librt|libresolv|libstdc\+\+|libgcc_s|libz)(?=[.-])")
 
 
 def libraries():
@@ -58,17 +58,21 @@ texts = pathlib.Path("car/documentation/licenses")
 index = (texts / "license.txt").read_text()
 assert "no text found" not in index, index
 assert list(texts.glob("libproj-*.txt")), index
-loaded = subprocess.run(
-    [sys.executable, "-c", "import ctypes, glob; ctypes.CDLL(*glob.glob('car/binaries/*/trackbed.so')); "
-     "print(open('/proc/self/maps').read())"],
-    check=True, capture_output=True, text=True,
-).stdout
-strangers = {
+LOADED = """
+import ctypes, glob
+maps = lambda: {line.split()[-1] for line in open("/proc/self/maps")}
+before = maps()
+ctypes.CDLL(*glob.glob("car/binaries/*/trackbed.so"))
+print(*(maps() - before), sep="\\n")
+"""
+loaded = subprocess.run([sys.executable, "-c", LOADED], check=True, capture_output=True, text=True)
+strangers = [
     file
-    for file in re.findall(r"/\S*\.so\S*", loaded)
-    if not file.startswith((str(pathlib.Path("car").resolve()), sys.prefix, sys.base_prefix))
+    for file in loaded.stdout.splitlines()
+    if ".so" in file
+    and not file.startswith(str(pathlib.Path("car").resolve()))
     and not RUNTIME.match(pathlib.Path(file).name)
-}
+]
 assert not strangers, f"libraries that the FMU does not carry: {strangers}"
 
 standard = str(pathlib.Path(json.__file__).parents[1])  # The folder of the standard library.
