@@ -2,6 +2,7 @@
 """Compares the speed of Trackbed in Python with other simulators of cars, in one process.
 
     PYTHONPATH=build/release/python python3 bench/python_peers.py [--seconds 2] [--processor-time]
+        [--f1tenth PYTHON MAP]
 
 Prints the simulated seconds per second of wall-clock time, of one car and of 64 cars together. Each
 car turns at constant speed. Peers that are not installed are named and left out:
@@ -11,8 +12,9 @@ car turns at constant speed. Peers that are not installed are named and left out
   processors.
 * commonroad-vehicle-models: the single-track and the multi-body model of the BMW 320i, integrated
   by scipy's odeint over each control period, as its examples do; 64 cars one after another.
-* f1tenth_gym is only named: it is in no package index, and needs NumPy 1.22 or older, of which
-  there is no wheel for the Python of Debian 12 or 13.
+* f1tenth_gym: F110Env.step with its laser scan, without pictures, of one car on the map MAP, such as
+  examples/example_map; 64 cars one after another. The Python PYTHON runs f1tenth_gym, because
+  f1tenth_gym needs NumPy 1.22 or older, which has no wheel for the Python of Debian 12 or 13.
 
 Trackbed's 64 cars are a VectorLoop on all processors. Each time is the least of three.
 """
@@ -21,6 +23,7 @@ import argparse
 import importlib.util
 import os
 import pathlib
+import subprocess
 import tempfile
 import time
 
@@ -119,11 +122,43 @@ def of_commonroad(kind, seconds):
     return one, COUNT * one
 
 
+OF_F1TENTH = """
+import sys
+import time
+import numpy
+from f110_gym.envs import F110Env
+
+clock, steps = getattr(time, sys.argv[1]), int(sys.argv[2])
+car = F110Env(map=sys.argv[3], map_ext=".png", num_agents=1)
+start, command = numpy.array([[0.7, 0.0, 1.37]]), numpy.array([[0.05, 2.0]])
+car.reset(start)
+car.step(command)  # Compiles the functions.
+times = []
+for _ in range(3):
+    car.reset(start)
+    before = clock()
+    for _ in range(steps):
+        car.step(command)
+    times.append(clock() - before)
+print(min(times))
+"""
+
+
+def of_f1tenth(python, track, seconds):
+    steps = round(seconds / 0.01)  # The timestep of F110Env [s].
+    command = [python, "-W", "ignore", "-c", OF_F1TENTH, clock.__name__, str(steps), track]
+    found = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True)
+    one = float(found.stdout)
+    return one, COUNT * one
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seconds", type=float, default=2.0, help="simulated time [s]")
     parser.add_argument("--processor-time", action="store_true",
                         help="measure the processor time of all threads, on a busy machine")
+    parser.add_argument("--f1tenth", nargs=2, metavar=("PYTHON", "MAP"),
+                        help="a Python that has f1tenth_gym, and a map without its extension")
     options = parser.parse_args()
     seconds = options.seconds
     if options.processor_time:
@@ -134,6 +169,8 @@ def main():
     rows += [("mujoco, same model, own contacts", "mujoco", lambda: of_mujoco(seconds)),
              ("commonroad single-track", "vehiclemodels", lambda: of_commonroad("st", seconds)),
              ("commonroad multi-body", "vehiclemodels", lambda: of_commonroad("mb", seconds))]
+    if options.f1tenth:
+        rows.append(("f1tenth_gym", None, lambda: of_f1tenth(*options.f1tenth, seconds)))
     print(f"{'simulated seconds per second':34}{'one car':>12}{COUNT:>9} cars")
     for name, module, measure in rows:
         if module and importlib.util.find_spec(module) is None:
@@ -141,7 +178,8 @@ def main():
             continue
         one, together = measure()
         print(f"{name:34}{seconds / one:12.0f}{COUNT * seconds / together:14.0f}")
-    print(f"{'f1tenth_gym':34}  left out: needs NumPy 1.22 or older")
+    if not options.f1tenth:
+        print(f"{'f1tenth_gym':34}  left out: --f1tenth is not given")
 
 
 if __name__ == "__main__":

@@ -146,6 +146,13 @@ def instance(name: str, value: object, kind: type) -> None:
         raise TypeError(f"{name} must be a trackbed.{kind.__name__}, not {type_name(value)}")
 
 
+def require_core(owner: object, core: object, kind: Union[type, tuple[type, ...]], source: str) -> None:
+    """Refuses a constructor's argument that a user gives; `source` returns such objects."""
+    if not isinstance(core, kind):
+        name = type_name(owner)
+        raise TypeError(f"trackbed.{name} takes no {type_name(core)}; {source} returns a {name}")
+
+
 def doubles(name: str, value: object) -> Array:
     """Returns the argument `name` as an array of float64, which has the memory of `value` if it can.
 

@@ -26,6 +26,7 @@ from ._arguments import (
     load,
     number,
     path,
+    require_core,
     similar,
     text,
     whole,
@@ -77,7 +78,10 @@ class Columns(Mapping[str, Array]):
     """
 
     def __init__(self, core: Union[_trackbed.Columns, _Arrays]) -> None:
+        require_core(self, core, (_trackbed.Columns, _Arrays), self._source)
         self._core = core
+
+    _source = "run[plant]"
 
     def __getitem__(self, name: str) -> Array:
         if not isinstance(name, str) or name not in self._core.names:
@@ -140,11 +144,14 @@ class Log(Columns):
 class Path(Columns):
     """The planned path, points at most 0.1 m apart: s_m, x_m, y_m, yaw_rad, curvature_radpm, ..."""
 
+    _source = "run.path"
+
 
 class Run(Mapping[str, Log]):
     """A finished run of a scenario. `run["mujoco"]` is the log of the plant mujoco."""
 
     def __init__(self, core: _trackbed.RunResult) -> None:
+        require_core(self, core, _trackbed.RunResult, "trackbed.run(scenario)")
         self._core = core
         self._metrics: Optional[dict[str, Any]] = None
         self._logs: dict[str, Log] = {}
@@ -298,6 +305,7 @@ class Comparison(Mapping[str, Any]):
     """The differences of two plants or runs at equal stations, as in metrics.json."""
 
     def __init__(self, core: _trackbed.PlantComparison) -> None:
+        require_core(self, core, _trackbed.PlantComparison, "trackbed.compare(run, first, second)")
         self._core = core
         self._values = core.values
 

@@ -14,7 +14,18 @@ import numpy
 import numpy.typing
 
 from . import _trackbed
-from ._arguments import INT_MAX, Overrides, Scenario, flag, number, overrides, path, similar, whole
+from ._arguments import (
+    INT_MAX,
+    Overrides,
+    Scenario,
+    flag,
+    number,
+    overrides,
+    path,
+    require_core,
+    similar,
+    whole,
+)
 from ._runs import _pandas, no_array
 
 
@@ -27,6 +38,7 @@ class Sweep(Mapping[str, "numpy.typing.NDArray[Any]"]):
     """
 
     def __init__(self, job: _trackbed.SweepJob) -> None:
+        require_core(self, job, _trackbed.SweepJob, "trackbed.sweep(study)")
         self._job = job
 
     @property

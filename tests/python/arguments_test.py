@@ -200,6 +200,22 @@ def test_an_override_that_can_be_read_once_is_refused(values):
         trackbed._arguments.overrides({"a": values})
 
 
+@pytest.mark.parametrize(
+    "kind, source",
+    [
+        (trackbed.Run, "trackbed.run"),
+        (trackbed.Path, "run.path"),
+        (trackbed.Comparison, "trackbed.compare"),
+        (trackbed.Sweep, "trackbed.sweep"),
+    ],
+)
+def test_results_that_are_constructed_name_their_function(kind, source):
+    with pytest.raises(TypeError, match=rf"trackbed\.{kind.__name__} takes no str; {source}"):
+        kind("three_turns")
+    with pytest.raises(TypeError, match=r"trackbed\.Log takes no dict; run\[plant\] returns a Log"):
+        trackbed.Log({"x_m": [1.0]}, "mujoco")
+
+
 def test_a_check_without_a_bound_is_refused(things):
     with pytest.raises(ValueError, match="give at least one of position, heading"):
         trackbed.differs_by_at_most(things[COMPARISON])
