@@ -1,5 +1,6 @@
 """Runs the Python blocks of the docs, each page in a folder of its own."""
 
+import ast
 import importlib.util
 import inspect
 import pathlib
@@ -72,3 +73,21 @@ def test_numbers_of_compiled_classes_have_units():
         if isinstance(member, property) and name not in others and not re.search(r"\[.+\]", member.__doc__)
     ]
     assert without == []
+
+
+def _public(names):
+    return {name for name in names if name[0] != "_"}
+
+
+def _defined(statements):
+    """Returns the public names of functions, classes, properties and variables in a stub."""
+    functions = [s.name for s in statements if isinstance(s, (ast.FunctionDef, ast.ClassDef))]
+    return _public(functions + [s.target.id for s in statements if isinstance(s, ast.AnnAssign)])
+
+
+def test_stub_has_the_names_of_the_compiled_module():
+    core = trackbed._trackbed
+    stub = ast.parse(pathlib.Path(trackbed.__file__).with_name("_trackbed.pyi").read_text("utf-8"))
+    assert _defined(stub.body) == _public(vars(core))
+    for kind in (s for s in stub.body if isinstance(s, ast.ClassDef)):
+        assert _defined(kind.body) == _public(vars(getattr(core, kind.name))), kind.name
