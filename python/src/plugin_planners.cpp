@@ -12,6 +12,9 @@
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 
+// Calls a planner in Python with the mission, the car and the obstacles. Fits the smoothest curve
+// to the returned points. Joins a curve without reversals to the heading and the steering angle of
+// the car. Plans the speeds of this path and checks its feasibility, as the planner path_file does.
 namespace trackbed::python {
 namespace {
 
