@@ -63,21 +63,37 @@ double RollOverInAStep(const VehicleParams& vehicle, double held) {
   return kRollShare * RigidRollOver(vehicle) + (1.0 - kRollShare) * held;
 }
 
-/// Returns the slip angle [rad] at which the front tyres slide. Returns none if the rear tyres
-/// slide first or the car rolls over first, if the car does not drive forward, or if its tyres are
-/// unknown.
-std::optional<double> SlidingSlipOfFront(const VehicleParams& vehicle, double speed, double held) {
+/// Slip angle of the front tyres up to which a car may steer in a turn that it holds.
+struct FrontSlip {
+  double slip = 0.0;          // [rad]
+  double acceleration = 0.0;  // Lateral acceleration at which the whole slip is allowed [m/s^2].
+};
+
+/// Returns the slip angle at which the front tyres slide, if they slide before the rear tyres and
+/// before a step lifts the inner wheels. Otherwise, returns the slip angle of the front tyres in
+/// the steady turn with the largest lateral acceleration. Returns none if the car does not drive
+/// forward, or if its tyres are unknown.
+std::optional<FrontSlip> LargestSlipOfFront(const VehicleParams& vehicle, double speed,
+                                            double held) {
   const double sliding = SlidingAcceleration(vehicle);
+  const double lifting = RollOverInAStep(vehicle, held);
   const std::vector<AxleGrip>& axles = vehicle.braking.axles;
-  if (!(speed > 0.0) || !HasTyres(vehicle) || axles.size() != 2 ||
-      sliding > RollOverInAStep(vehicle, held)) {
+  if (!(speed > 0.0) || !HasTyres(vehicle) || axles.size() != 2 || !std::isfinite(sliding)) {
     return std::nullopt;
   }
   // The brush model slides at q = 1 (brush_axle.h).
   const double force = 3.0 * vehicle.mass * sliding;
   const double front = force * axles[0].weight / vehicle.cornering_stiffness_front;
   const double rear = force * axles[1].weight / vehicle.cornering_stiffness_rear;
-  return front > rear ? std::optional(front) : std::nullopt;
+  if (sliding <= lifting && front > rear) {
+    return FrontSlip{front, sliding};
+  }
+  const double most = std::min(sliding, lifting);
+  const double curvature = most / (speed * speed);
+  const SteadyTurn turn = BrushTurnOn(vehicle, {.curvature = curvature, .speed = speed}).turn;
+  // In the turn, tan(delta) = L kappa + s_f - s_r, and the heading error is s_r.
+  const double slip = std::tan(turn.steering) - vehicle.wheelbase * curvature + turn.heading_error;
+  return FrontSlip{slip, most};
 }
 
 /// Returns the largest steering angle [rad] to the side of the turn. `rolling` is the direction in
@@ -85,9 +101,9 @@ std::optional<double> SlidingSlipOfFront(const VehicleParams& vehicle, double sp
 double AllowedToOneSide(const VehicleParams& vehicle, double speed, double held, double rolling) {
   const double step = SteeringInAStep(vehicle, speed, held);
   double most = step;
-  if (const auto slip = SlidingSlipOfFront(vehicle, speed, held)) {
-    const double share = std::min(1.0, held / SlidingAcceleration(vehicle));
-    most = std::lerp(step, std::max(step, rolling + *slip), share);
+  if (const auto front = LargestSlipOfFront(vehicle, speed, held)) {
+    const double share = std::min(1.0, held / front->acceleration);
+    most = std::lerp(step, std::max(step, rolling + front->slip), share);
   }
   return std::min(std::max(most, rolling), vehicle.steering_limit);
 }

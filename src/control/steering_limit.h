@@ -52,8 +52,14 @@ struct SteeringRange {
 /// the front tyres may need more steering than in the steady turn of the brush model. The load
 /// transfer and the drive force on the inner wheel make the true grip smaller than the model's
 /// grip. The range therefore extends toward the direction of the front axle plus 3 mu F_z/C_f, the
-/// slip angle at which the front tyres slide. The extension is proportional to a_0/(mu_y g). The
-/// range is not extended if a step from a_0 may roll the car over.
+/// slip angle at which the front tyres slide. The extension is proportional to a_0/(mu_y g).
+///
+/// If the rear tyres slide first, or a step from a_0 lifts the inner wheels first, the range
+/// extends toward a smaller slip angle: that of the front tyres in the steady turn with a. The
+/// extension is then proportional to a_0/a. At this slip angle, the front tyres exert no more force
+/// than in this steady turn, so the extension does not add a risk of rolling over. Drag and drive
+/// force unload the front tyres, so a fast car needs more steering than the steady turn of the
+/// brush model.
 ///
 /// `curvature` is the curvature of the path at the car [1/m]. The lateral acceleration a_0 of
 /// SteeringInAStep is the smaller of two: the car's present one, and that of a car on the path. If

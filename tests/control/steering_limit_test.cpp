@@ -176,7 +176,30 @@ TEST(AllowedSteering, ReachesTheSlidingFrontTyresInATurnThatTheCarHolds) {
               Tolerance(1e-12));
 }
 
-TEST(AllowedSteering, DoesNotReachTheSlidingFrontTyresOfATallOrOversteeringCar) {
+TEST(AllowedSteering, OfATallCarReachesTheFrontSlipOfTheTurnInWhichItTips) {
+  // A step from 7 m/s^2 may roll the car over before the tyres slide at 0.9 g: the inner wheels of
+  // the rigid car lift at g b/(2 h) = g 1.6/(2 0.98) = 8.0 m/s^2, so 0.65 8.0 + 0.35 7 = 7.7 m/s^2.
+  SlidingCar held;
+  held.state.lateral_speed = -0.4;
+  VehicleParams tall = held.car;
+  tall.braking.axles[0].transfer = -0.98 / tall.wheelbase;
+  tall.braking.axles[1].transfer = 0.98 / tall.wheelbase;
+  tall.friction_lateral = 0.9;
+  const double lifting = 0.65 * kGravity * 1.6 / (2.0 * 0.98) + 0.35 * 7.0;
+  const double step = SteeringInAStep(tall, 20.0, 7.0);
+  // In closed form, the brush model has the front slip 3 mu F_z/C (1 - cbrt(1 - a/(mu g))).
+  const double front_load = tall.mass * kGravity * tall.cg_to_rear / tall.wheelbase;
+  const double slip = 3.0 * 0.9 * front_load / tall.cornering_stiffness_front *
+                      (1.0 - std::cbrt(1.0 - lifting / (0.9 * kGravity)));
+  const double direction = std::atan((-0.4 + tall.cg_to_front() * held.state.yaw_rate) / 20.0);
+  ASSERT_GT(direction + slip, 1.05 * step);
+  const double expected = step + 7.0 / lifting * (direction + slip - step);
+  EXPECT_NEAR(AllowedSteering(tall, held.state, held.curvature).highest, expected,
+              Tolerance(1e-12));
+  EXPECT_EQ(AllowedSteering(tall, held.state, 0.0).highest, SteeringInAStep(tall, 20.0));
+}
+
+TEST(AllowedSteering, DoesNotReachTheSlidingFrontTyresOfAnOversteeringCarOrInReverse) {
   const auto expect_step = [](const VehicleParams& car, const SlidingCar& held) {
     const double step = SteeringInAStep(car, held.state.speed, 7.0);
     ASSERT_LT(step, car.steering_limit);
@@ -187,12 +210,6 @@ TEST(AllowedSteering, DoesNotReachTheSlidingFrontTyresOfATallOrOversteeringCar) 
   VehicleParams oversteering = held.car;
   oversteering.cornering_stiffness_front = 2.0 * held.car.cornering_stiffness_rear;
   expect_step(oversteering, held);
-  // A step from 7 m/s^2 may roll the car over before the tyres slide at 0.8 g: the inner wheels of
-  // the rigid car lift at g b/(2 h) = g 1.6/(2 0.98) = 8.0 m/s^2, so 0.65 8.0 + 0.35 7 = 7.7 m/s^2.
-  VehicleParams tall = held.car;
-  tall.braking.axles[0].transfer = -0.98 / tall.wheelbase;
-  tall.braking.axles[1].transfer = 0.98 / tall.wheelbase;
-  expect_step(tall, held);
   // In reverse, the steered axle follows.
   SlidingCar reverse;
   reverse.state.speed = -20.0;
