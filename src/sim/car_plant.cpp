@@ -241,14 +241,14 @@ void CarPlant::Propel(const Command& command) {
   if (const std::optional<TrailerParts>& trailer = car().trailer()) {
     rolling_mass += RollingMass(*trailer);
   }
-  const double along_gear = command.coast ? 0.0 : command.acceleration * command.gear;
+  const double along_gear = command.acceleration * command.gear;
   const double resistance = Resistance(command.gear);
   // The brakes hold a stationary car until motion is commanded and the motor is strong enough for
-  // the slope.
+  // the slope. The brakes of a coasting car are released.
   const bool overcomes_resistance = along_gear > 0.0 && DriveLimit() > resistance;
   const bool stands = Speed() * command.gear < kAtRestSpeed;
-  hold_ = !overcomes_resistance && (hold_ || stands);
-  if (command.coast && !hold_) {
+  hold_ = !command.coast && !overcomes_resistance && (hold_ || stands);
+  if (command.coast) {
     data().ctrl[parts.drive_actuator] = 0.0;
     Brake(0.0, false);
     return;

@@ -39,13 +39,13 @@ class WheelPairPlant final : public MujocoPlant {
     const double timestep = model().opt.timestep;
     ratio_ = MoveSteering({params.steering_limit, params.steering_rate}, ratio_, command.steering)
                  .At(timestep);
-    const double along_gear = command.coast ? 0.0 : command.acceleration * command.gear;
-    const double speed = command.gear * Speed();
-    const bool hold = along_gear <= 0.0 && speed < kAtRestSpeed;
-    if (command.coast && !hold) {
+    if (command.coast) {
       Coast();
       return;
     }
+    const double along_gear = command.acceleration * command.gear;
+    const double speed = command.gear * Speed();
+    const bool hold = along_gear <= 0.0 && speed < kAtRestSpeed;
     wanted_speed_ = hold ? 0.0 : command.gear * NextSpeed(command.gear, along_gear, speed);
     const WheelSpeeds speeds = RollingSpeeds(params, wanted_speed_, ratio_);
     for (std::size_t w = 0; w < parts.spin_dof.size(); ++w) {
