@@ -182,6 +182,27 @@ std::optional<MetricReading> SmallestTrackMargin(const MetricInput& input) {
                         .t = smallest->row->state.time}};
 }
 
+std::optional<MetricReading> PlannedTrackMargin(const MetricInput& input) {
+  if (!input.plan.laps.track || input.plan.laps.lines.empty()) {
+    return std::nullopt;
+  }
+  const Track& track = *input.plan.laps.track;
+  const Path& path = input.plan.reference.path;
+  const double end = std::min(input.plan.laps.lines.back(), path.length());
+  LapCounter counter(track, path.At(0.0).pose);
+  const double spacing = std::min(Track::kEdgeSpacing, 0.2 * input.vehicle.wheelbase);
+  const double parts = std::max(1.0, std::ceil(end / spacing));
+  double smallest = std::numeric_limits<double>::infinity();
+  for (double k = 0.0; k <= parts; k += 1.0) {
+    const Pose2 pose = path.At(end * k / parts).pose;
+    const OrientedBox footprint = FootprintAt(input.vehicle, pose);
+    const double ahead = (footprint.center.position() - pose.position()).norm();
+    smallest =
+        std::min(smallest, TrackMargin(track, footprint, counter.Advance(pose.position()) + ahead));
+  }
+  return MetricReading{smallest, {}};
+}
+
 std::optional<MetricReading> TimeOffTrack(const MetricInput& input) {
   return SumOffTrack(input,
                      [](const VehicleState& a, const VehicleState& b) { return b.time - a.time; });

@@ -27,6 +27,11 @@ double TrackMargin(const Track& track, const OrientedBox& footprint, double near
 /// Returns the smallest TrackMargin of the run [m], with its station and time; none if the run has
 /// no track.
 std::optional<MetricReading> SmallestTrackMargin(const MetricInput& input);
+/// Returns the smallest TrackMargin of a car that follows the path of the plan exactly, up to the
+/// finish line [m]; none if the run has no track. Poses on the path are at most a fifth of the
+/// wheelbase apart, and at most Track::kEdgeSpacing.
+/// The margin ignores a trailer.
+std::optional<MetricReading> PlannedTrackMargin(const MetricInput& input);
 /// Returns the total time during which TrackMargin is negative [s]; none if the run has no track.
 std::optional<MetricReading> TimeOffTrack(const MetricInput& input);
 /// Returns the distance driven while TrackMargin is negative [m]; none if the run has no track.

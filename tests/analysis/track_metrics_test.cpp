@@ -167,5 +167,25 @@ TEST(TrackLimits, TellHowFarHowLongAndWhere) {
   EXPECT_LT(worst->at.t, 2.5);
 }
 
+TEST(TrackLimits, TellTheMarginOfThePlannedPathUpToTheFinishLine) {
+  // The planned path is a circle 2 m outside of the center line. Beyond the finish line, the path
+  // continues straight and leaves the track.
+  const double radius = kRadius + 2.0;
+  Plan plan = RingPlan(1);
+  const double lap = 2.0 * kPi * radius;
+  plan.reference.path = Path({radius, 0.0, 0.5 * kPi},
+                             {{.length = lap, .curvature = 1.0 / radius}, {.length = 60.0}});
+  plan.laps.lines = {0.0, lap};
+  const VehicleParams car = SmallCar();
+  // The outer front corner is the part of the footprint that is nearest to an edge.
+  const double corner = std::hypot(radius + 0.5 * car.width, 3.0);
+  const RunLog log = Circle(kRadius, 0.0, kSpeed, 1.0);
+  const auto margin = PlannedTrackMargin({log, plan, car});
+  ASSERT_TRUE(margin);
+  EXPECT_NEAR(std::get<double>(margin->value), kRadius + 4.0 - corner, Tolerance(1.1e-3));
+  plan.laps.track = nullptr;
+  EXPECT_FALSE(PlannedTrackMargin({log, plan, car}));
+}
+
 }  // namespace
 }  // namespace trackbed
