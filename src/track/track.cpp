@@ -1,16 +1,15 @@
 #include "trackbed/track/track.h"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <utility>
 
+#include "src/track/smooth_line.h"
 #include "src/track/track_fold.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
-#include "trackbed/path/bezier.h"
 
 // A closed track: a smooth center line with edges.
 // 1. A closed B-spline of degree 5 over the chord length smooths the points (closed_spline.h).
@@ -21,34 +20,6 @@
 // 5. FindFold finds places where an edge lies beyond the center of curvature, and thus folds over.
 namespace trackbed {
 namespace {
-
-/// The center line as a function of the spline parameter t.
-class Curve {
- public:
-  Curve(ClosedSplineBasis basis, Eigen::MatrixXd coefficients)
-      : basis_(basis), coefficients_(std::move(coefficients)) {}
-
-  [[nodiscard]] Vec2 At(double t, std::size_t order) const {
-    return Evaluate(basis_.At(t, order), coefficients_, order).transpose();
-  }
-  [[nodiscard]] double Length(double from, double to) const {
-    return boost::math::quadrature::gauss<double, 7>::integrate(
-        [&](double t) { return At(t, 1).norm(); }, from, to);
-  }
-  /// Returns the point of the curve at parameter t, with the given station `s`. The yaw of the
-  /// point continues the yaw of the previous point without jumps of whole turns.
-  [[nodiscard]] CurvePoint PointAt(double t, double s, double yaw_before) const {
-    const Vec2 tangent = At(t, 1);
-    const double yaw = std::atan2(tangent.y(), tangent.x());
-    return {.s = s,
-            .yaw = yaw_before + AngleDifference(yaw, yaw_before),
-            .curvature = CurvatureFromDerivatives(tangent, At(t, 2))};
-  }
-
- private:
-  ClosedSplineBasis basis_;
-  Eigen::MatrixXd coefficients_;
-};
 
 void CheckArguments(const std::vector<TrackPoint>& points, std::optional<double> smoothing) {
   TRACKBED_REQUIRE(!smoothing || (std::isfinite(*smoothing) && *smoothing > 0.0),
@@ -74,32 +45,6 @@ double Wrapped(double s, double length) {
   return wrapped < length ? wrapped : 0.0;
 }
 
-/// The points of a track as spline samples, with the chord length as the parameter. The weight of a
-/// point is half the length of the two chords that meet at the point.
-struct ChordSamples {
-  SplineSamples samples;
-  std::vector<double> chords;  // Distance from each point to the next point [m].
-  double period = 0.0;         // Length of the closed polyline [m].
-};
-
-ChordSamples SampleChords(const std::vector<TrackPoint>& points) {
-  const std::size_t count = points.size();
-  ChordSamples sampled;
-  SplineSamples& samples = sampled.samples;
-  samples.values.resize(static_cast<Eigen::Index>(count), 2);
-  sampled.chords.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    sampled.chords[i] = (points[(i + 1) % count].position - points[i].position).norm();
-    samples.t.push_back(sampled.period);
-    samples.values.row(static_cast<Eigen::Index>(i)) = points[i].position.transpose();
-    sampled.period += sampled.chords[i];
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    samples.weights.push_back(0.5 * (sampled.chords[(i + count - 1) % count] + sampled.chords[i]));
-  }
-  return sampled;
-}
-
 }  // namespace
 
 /// The smoothed center line, as points along a lap from which the path is built.
@@ -122,34 +67,32 @@ struct Track::CenterLine {
 Track::CenterLine Track::Smooth(const std::vector<TrackPoint>& points,
                                 std::optional<double> smoothing) {
   const std::size_t count = points.size();
-  const auto [samples, chords, period] = SampleChords(points);
+  const SmoothLine smooth(points, smoothing);
   CenterLine line;
-  line.smoothing = smoothing.value_or(kDefaultSmoothing * period / static_cast<double>(count));
-  const ClosedSplineBasis basis(period, 2 * count);
-  const Curve curve(basis, FitClosedSpline(basis, samples, line.smoothing));
-  line.start = curve.At(0.0, 0);
+  line.smoothing = smooth.smoothing();
+  line.start = smooth.At(0.0, 0);
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec2 apart = points[i].position - curve.At(samples.t[i], 0);
-    line.deviations.push_back(std::copysign(apart.norm(), Cross(curve.At(samples.t[i], 1), apart)));
+    const Vec2 apart = points[i].position - smooth.At(smooth.parameters()[i], 0);
+    line.deviations.push_back(
+        std::copysign(apart.norm(), Cross(smooth.At(smooth.parameters()[i], 1), apart)));
   }
-  // Sample the smoothed line at the track points and between the track points. The distance between
-  // samples is at most a quarter of the mean distance between track points.
-  const double step = 0.25 * period / static_cast<double>(count);
-  const Vec2 first_tangent = curve.At(0.0, 1);
+  // Sample the smoothed line at the track points and between the track points.
+  const double step = 0.5 * smooth.knot_distance();
+  const Vec2 first_tangent = smooth.At(0.0, 1);
   double yaw = std::atan2(first_tangent.y(), first_tangent.x());
   double s = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     line.stations.push_back(s);
     line.first.push_back(line.lap.size());
-    const double parts = std::ceil(chords[i] / step);
+    const double parts = std::ceil(smooth.chords()[i] / step);
     for (double k = 0.0; k < parts; k += 1.0) {
-      const double t = samples.t[i] + chords[i] * k / parts;
-      line.lap.push_back(curve.PointAt(t, s, yaw));
+      const double t = smooth.parameters()[i] + smooth.chords()[i] * k / parts;
+      line.lap.push_back(smooth.PointAt(t, s, yaw));
       yaw = line.lap.back().yaw;
-      s += curve.Length(t, samples.t[i] + chords[i] * (k + 1.0) / parts);
+      s += smooth.Length(t, smooth.parameters()[i] + smooth.chords()[i] * (k + 1.0) / parts);
     }
   }
-  line.end = curve.PointAt(period, s, yaw);
+  line.end = smooth.PointAt(smooth.period(), s, yaw);
   return line;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -21,7 +20,9 @@
 // Reads the center line and widths of a track from a CSV file.
 // 1. TrackRows reads the columns and checks the numbers.
 // 2. CheckShape refuses center lines with large gaps, and center lines that turn back at a point.
-// 3. If an edge folds over in a tight bend, Narrow moves this edge inwards, with a note, but by at
+// 3. FitSmoothing chooses the wavelength of the smoothing. Where the smooth line swings aside of the
+//    straight line between two points, FittingTrack adds points on the straight line.
+// 4. If an edge folds over in a tight bend, Narrow moves this edge inwards, with a note, but by at
 //    most half of its width.
 namespace trackbed {
 namespace {
@@ -126,40 +127,32 @@ double LargestShift(const TrackRows& rows) {
   return kMaxShift * narrowest;
 }
 
-/// Whether the center line deviates from the straight line of a long step by more than
-/// LargestShift.
-bool SwingsAside(const Track& track, const TrackRows& rows) {
-  const TrackSteps steps = StepsOf(rows.points);
+/// Returns the track if no edge would have to be narrowed to less than half of its width, and if
+/// the smoothing does not move a point by more than LargestShift. Adds the middles of the steps on
+/// which the center line swings aside (FindDeviations), until none is left. Each round halves these
+/// steps, so the line approaches the straight lines between the points there. Otherwise returns
+/// nullopt; the rows then contain the points of the last round. Steps shorter than the default
+/// distance for this wavelength are not halved, because a shorter wavelength helps there.
+std::optional<Track> FittingTrack(TrackRows& rows, double smoothing) {
+  constexpr std::size_t kMostAdded = 4;  // Largest number of added points per point of the file.
   const double largest = LargestShift(rows);
-  for (std::size_t i = 0; i < rows.points.size(); ++i) {
-    if (!steps.IsLong(i)) {
-      continue;
+  const std::size_t most = std::min((kMostAdded + 1) * rows.points.size(), Track::kMaxPoints);
+  while (true) {
+    const LineDeviations found = FindDeviations(rows.points, smoothing, largest);
+    if (found.largest > largest) {
+      return std::nullopt;
     }
-    const Vec2& from = rows.points[i].position;
-    const Vec2& to = rows.points[(i + 1) % rows.points.size()].position;
-    constexpr int kParts = 32;
-    for (int k = 1; k < kParts; ++k) {
-      const double w = static_cast<double>(k) / kParts;
-      const TrackPlace place =
-          track.Locate(from + w * (to - from), track.StationOf(i) + w * steps.lengths[i]);
-      if (std::abs(place.offset) > largest) {
-        return true;
-      }
+    if (found.swinging.empty()) {
+      return FindFold(Halved(rows.points), smoothing)
+                 ? std::nullopt
+                 : std::optional(Track(rows.points, smoothing));
     }
+    if (rows.points.size() + found.swinging.size() > most ||
+        ShortestStep(rows.points, found.swinging) < smoothing / kDefaultSmoothing) {
+      return std::nullopt;
+    }
+    AddMiddles(rows, found.swinging);
   }
-  return false;
-}
-
-/// Returns the track if no edge would have to be narrowed to less than half of its width. The
-/// smoothing must not move a point by more than LargestShift, or swing aside on long steps
-/// (SwingsAside). Otherwise returns nullopt.
-std::optional<Track> FittingTrack(const TrackRows& rows, std::optional<double> smoothing) {
-  if (FindFold(Halved(rows.points), smoothing)) {
-    return std::nullopt;
-  }
-  Track track(rows.points, smoothing);
-  const bool fits = track.deviation_max() <= LargestShift(rows) && !SwingsAside(track, rows);
-  return fits ? std::optional(std::move(track)) : std::nullopt;
 }
 
 /// Whether the polyline turns both left and right within eight points before and eight points after
@@ -179,37 +172,51 @@ bool Zigzags(const std::vector<TrackPoint>& points, std::size_t at) {
   return turns_left && turns_right;
 }
 
-/// Finds a smoothing wavelength for points for which the default wavelength of Track is unsuitable.
-/// Fills long steps between the points. Then multiplies the default wavelength by powers of 2,
-/// beginning near 1, until the track fits (FittingTrack). Points on the grid of a picture turn to
-/// the left and to the right alternately, so they need a longer wavelength. Points with long
-/// straights between them need a shorter wavelength. Returns nullopt if no wavelength fits.
-std::optional<Track> FitOtherwise(TrackRows& rows) {
-  FillLongSteps(rows);
-  if (std::optional<Track> track = FittingTrack(rows, std::nullopt)) {
-    return track;
-  }
+/// A track, and whether it results from the default wavelength and the points of the file.
+struct SmoothedTrack {
+  Track track;
+  bool is_default = false;
+};
+
+/// Finds a smoothing wavelength for which the track fits (FittingTrack): the default of Track,
+/// multiplied by the power of 2 nearest to 1. Points on the grid of a picture turn to the left and
+/// to the right alternately, so they need a longer wavelength. Points with long straights between
+/// them need a shorter wavelength. Returns nullopt, with unchanged rows, if no wavelength fits.
+std::optional<SmoothedTrack> FitSmoothing(TrackRows& rows) {
+  const std::pair given(rows.points, rows.lines);
   double length = 0.0;
   for (std::size_t i = 0; i < rows.points.size(); ++i) {
     length += (rows.points[(i + 1) % rows.points.size()].position - rows.points[i].position).norm();
   }
   const double usual = kDefaultSmoothing * length / static_cast<double>(rows.points.size());
-  const std::optional<TrackFold> fold = FindFold(Halved(rows.points), std::nullopt);
-  if (fold && !Zigzags(rows.points, fold->point)) {
-    return std::nullopt;  // the track bends too tightly even without zigzags
-  }
+  const std::optional<TrackFold> fold = FindFold(Halved(rows.points), usual);
+  const bool zigzags = fold && Zigzags(rows.points, fold->point);
   constexpr int kMostDoublings = 6;
-  for (int i = 1; i <= kMostDoublings; ++i) {
-    const double smoothing = std::ldexp(usual, fold ? i : -i);
-    if (std::optional<Track> track = FittingTrack(rows, smoothing)) {
+  for (int i = 0; i <= kMostDoublings; ++i) {
+    const double smoothing = std::ldexp(usual, zigzags ? i : -i);
+    std::optional<Track> track = FittingTrack(rows, smoothing);
+    if (!track) {
+      std::tie(rows.points, rows.lines) = given;
+      continue;
+    }
+    if (rows.points.size() > given.first.size()) {
+      rows.notes.push_back(
+          fmt::format("{} points are added on the straight lines between the points, where a "
+                      "smooth line would swing aside by more than {:.3g} m",
+                      rows.points.size() - given.first.size(), LargestShift(rows)));
+    }
+    if (i > 0) {
       rows.notes.push_back(fmt::format(
           "the center line is smoothed over {:.4g} m instead of {:.4g} m, four times the mean "
           "distance of the points, because {}; mission.track.smoothing sets the length",
           smoothing, usual,
-          fold ? "an edge would fold over in the bends of the points"
-               : fmt::format("this would move a point by more than {:.3g} m", LargestShift(rows))));
-      return track;
+          zigzags ? "an edge would fold over in the bends of the points"
+          : FindDeviations(given.first, usual, 0.0).largest > LargestShift(rows)
+              ? fmt::format("this would move a point by more than {:.3g} m", LargestShift(rows))
+              : "an edge would fold over, or the line would swing aside"));
     }
+    const bool is_default = i == 0 && rows.points.size() == given.first.size();
+    return SmoothedTrack{std::move(*track), is_default};
   }
   return std::nullopt;
 }
@@ -346,25 +353,16 @@ TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& r
   }
   CheckShape(file.string(), rows.lines, rows.points, rows.problems);
   rows.problems.ThrowIfAny();
-  std::optional<Track> fitting;
-  std::optional<double> chosen;
-  if (!reading.smoothing) {
-    fitting = FittingTrack(rows, std::nullopt);
-    if (!fitting) {
-      const std::tuple given(rows.points, rows.lines, rows.notes);
-      fitting = FitOtherwise(rows);
-      if (fitting) {
-        chosen = fitting->smoothing();
-      } else {
-        std::tie(rows.points, rows.lines, rows.notes) = given;
-      }
-    }
-  }
+  std::optional<SmoothedTrack> fitting = reading.smoothing ? std::nullopt : FitSmoothing(rows);
   if (!fitting) {
     CheckFolds(rows, reading.smoothing);
-    fitting.emplace(rows.points, reading.smoothing);
+    fitting = SmoothedTrack{Track(rows.points, reading.smoothing), true};
   }
-  Track track = std::move(*fitting);
+  std::optional<double> chosen;
+  if (!fitting->is_default) {
+    chosen = fitting->track.smoothing();
+  }
+  Track track = std::move(fitting->track);
   if (FindFold(track)) {
     // Keep the smoothing, because the default for the narrower track may be different.
     const double smoothing = track.smoothing();

@@ -8,19 +8,23 @@
 
 namespace trackbed {
 
-/// Distances of the points of a closed track from the next points [m].
-struct TrackSteps {
-  std::vector<double> lengths;
-  double median = 0.0;
-
-  /// Whether the step is so long that a smooth curve may swing aside between its ends.
-  [[nodiscard]] bool IsLong(std::size_t i) const { return lengths[i] > 4.0 * median; }
+/// Deviations of the smoothed line from the points and from the straight lines between them.
+struct LineDeviations {
+  double largest = 0.0;               // Largest distance of a point from the line [m].
+  std::vector<std::size_t> swinging;  // Points after which the line swings aside.
 };
 
-/// Returns the steps between the points; there must be at least one point.
-TrackSteps StepsOf(const std::vector<TrackPoint>& points);
+/// Finds the deviations before a Track is made. The line swings aside on the step after a point if
+/// the distance from the straight line exceeds both of two values: `tolerance` [m], and the
+/// plausible height of an arc. At steps of the lengths a and b that turn by phi, arcs of equal
+/// heights over both steps are phi a b / (4 (a + b)) high; the larger height at both ends counts.
+LineDeviations FindDeviations(const std::vector<TrackPoint>& points, double smoothing,
+                              double tolerance);
 
-/// Adds points on the straight lines of long steps, with a note.
-void FillLongSteps(TrackRows& rows);
+/// Returns the length of the shortest of the given steps [m].
+double ShortestStep(const std::vector<TrackPoint>& points, const std::vector<std::size_t>& steps);
+
+/// Adds the middle of each given step to the points, with the mean of the widths.
+void AddMiddles(TrackRows& rows, const std::vector<std::size_t>& steps);
 
 }  // namespace trackbed

@@ -38,12 +38,13 @@ struct TrackFile {
 /// first point, this row is dropped. If there are no columns of widths, `reading.width` is the
 /// width of the track.
 ///
-/// Without `reading.smoothing`, the wavelength of the smoothing is the default of Track. The
-/// default is rejected if an edge would have to be narrowed to less than half. The default is also
-/// rejected if the smoothing moves the center line by more than a tenth of the narrowest width.
-/// After a rejection, points are added on straight lines between points that are more than four
-/// times the median distance apart. If the default is rejected again, it is multiplied by the power
-/// of 2 nearest to 1 (1/64 to 64) that gives an acceptable wavelength, if one exists.
+/// Without `reading.smoothing`, the wavelength of the smoothing is the default of Track, multiplied
+/// by the power of 2 nearest to 1 (1/64 to 64) that gives an acceptable wavelength, if one exists.
+/// A wavelength is rejected if an edge would have to be narrowed to less than half, or if the
+/// smoothing moves a point by more than a tenth of the narrowest width. Between two points, the
+/// center line may also leave the straight line by a tenth of the narrowest width, or by the
+/// height of an arc that is plausible there. On longer swings, points are added on the straight
+/// line, with a note: halves of the step, until the center line stays within this bound.
 ///
 /// The inner edge may fold over in a bend (TrackFold). An inner edge that folds over is narrowed to
 /// 95 % of the bend's radius, but must keep at least half of its width in the file.
