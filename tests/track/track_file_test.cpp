@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
@@ -322,6 +323,66 @@ TEST(ReadTrack, KeepsToLongStraightsWithoutPoints) {
                                           {.smoothing = read.chosen_smoothing});
     EXPECT_EQ(again.track.points(), read.track.points());
     EXPECT_EQ(again.track.length(), read.track.length());
+  }
+}
+
+/// Keeps the points from `from` to `to` that a polyline within `tolerance` [m] needs (Ramer 1972,
+/// Douglas and Peucker 1973).
+void Thin(const std::vector<TrackPoint>& points, std::size_t from, std::size_t to, double tolerance,
+          std::set<std::size_t>& kept) {
+  const Vec2& begin = points[from].position;
+  const Vec2 along = points[to].position - begin;
+  double farthest = tolerance;
+  std::size_t at = from;
+  for (std::size_t i = from + 1; i < to; ++i) {
+    const Vec2 own = points[i].position - begin;
+    const double share = std::clamp(own.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double distance = (own - share * along).norm();
+    if (distance > farthest) {
+      farthest = distance;
+      at = i;
+    }
+  }
+  if (at != from) {
+    kept.insert(at);
+    Thin(points, from, at, tolerance, kept);
+    Thin(points, at, to, tolerance, kept);
+  }
+}
+
+// Thinned points have long steps beside short ones, on which a smooth curve alone swings up to 19 m
+// aside. The line of the thinned points must stay in the middle half of the surveyed track. The
+// surveyed points are within the tolerance of the lines between the thinned points.
+TEST(ReadTrack, KeepsToTheTrackOfThinnedPoints) {
+  const std::filesystem::path tracks =
+      std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/tracks";
+  for (const char* name : {"Hockenheim", "Norisring", "Silverstone", "Spielberg"}) {
+    const Track surveyed = ReadTrack(tracks / (std::string(name) + ".csv"));
+    for (const double tolerance : {0.3, 1.0}) {
+      SCOPED_TRACE(name + (" within " + std::to_string(tolerance)));
+      const std::size_t last = surveyed.points().size() - 1;
+      std::set<std::size_t> kept{0, last / 2, last};
+      Thin(surveyed.points(), 0, last / 2, tolerance, kept);
+      Thin(surveyed.points(), last / 2, last, tolerance, kept);
+      std::vector<TrackPoint> points;
+      for (const std::size_t i : kept) {
+        points.push_back(surveyed.points()[i]);
+      }
+      const TempFolder folder;
+      const TrackFile read = ReadTrackFile(folder.Write("t.csv", TrackCsv(points)));
+      for (double s = 0.0; s < read.track.length(); s += 5.0) {
+        const Vec2 at = read.track.At(s).pose.position();
+        const auto nearest = std::min_element(
+            surveyed.points().begin(), surveyed.points().end(), [&](const auto& a, const auto& b) {
+              return (a.position - at).norm() < (b.position - at).norm();
+            });
+        const auto i = static_cast<std::size_t>(nearest - surveyed.points().begin());
+        const TrackPlace place = surveyed.Locate(at, surveyed.StationOf(i));
+        const TrackEdges edges = surveyed.EdgesAt(place.s);
+        EXPECT_LT(place.offset, 0.5 * edges.left) << s;
+        EXPECT_GT(place.offset, 0.5 * edges.right) << s;
+      }
+    }
   }
 }
 
