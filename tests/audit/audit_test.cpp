@@ -22,6 +22,8 @@
 #include "tests/audit/random_scenarios.h"
 #include "tests/audit/record_run.h"
 #include "tests/support/case_names.h"
+#include "tests/support/environment_number.h"
+#include "tests/support/waypoint_planners.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
@@ -35,11 +37,6 @@ namespace {
 constexpr std::size_t kDefaultScenarios = 768;
 constexpr std::size_t kShards = 16;
 constexpr int kMaxAttempts = 50;
-
-std::optional<std::size_t> NumberFrom(const char* variable) {
-  const char* text = std::getenv(variable);
-  return text == nullptr ? std::nullopt : std::optional<std::size_t>(std::stoul(text));
-}
 
 /// Findings over a range of scenarios.
 struct Tally {
@@ -128,8 +125,9 @@ INSTANTIATE_TEST_SUITE_P(Shards, EveryVerdict, testing::Range<std::size_t>(0, kS
                          trackbed::kNamedByParameter);
 
 TEST_P(EveryVerdict, IsTrue) {
-  const auto only = NumberFrom("TRACKBED_AUDIT_INDEX");
-  const std::size_t count = NumberFrom("TRACKBED_AUDIT_SCENARIOS").value_or(kDefaultScenarios);
+  const auto only = trackbed::EnvironmentNumber("TRACKBED_AUDIT_INDEX");
+  const std::size_t count =
+      trackbed::EnvironmentNumber("TRACKBED_AUDIT_SCENARIOS").value_or(kDefaultScenarios);
   const char* folder = std::getenv("TRACKBED_AUDIT_FOLDER");
   Tally tally;
   // Each shard takes a contiguous range of indices. Planners alternate by index, so a shard with a
@@ -179,7 +177,7 @@ TEST(RandomScenarios, HaveEveryPlannerWithEveryControllerOnEveryPlant) {
     followers += entry.needs_plan ? 1U : 0U;
   }
   constexpr std::size_t kPlants = 4;  // two of them twice as often
-  EXPECT_EQ(seen.size(), AuditedPlanners().size() * followers * kPlants);
+  EXPECT_EQ(seen.size(), trackbed::WaypointPlanners().size() * followers * kPlants);
 }
 
 }  // namespace

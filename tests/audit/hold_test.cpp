@@ -18,6 +18,7 @@
 #include "tests/audit/checker.h"
 #include "tests/audit/random_scenarios.h"
 #include "tests/audit/record_run.h"
+#include "tests/support/waypoint_planners.h"
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/avoidance/avoidance.h"
@@ -111,10 +112,10 @@ class WhatARoadHolds : public testing::TestWithParam<std::tuple<std::size_t, std
 
 INSTANTIATE_TEST_SUITE_P(
     EveryPlannerAndLayer, WhatARoadHolds,
-    testing::Combine(testing::Range<std::size_t>(0, AuditedPlanners().size()),
+    testing::Combine(testing::Range<std::size_t>(0, WaypointPlanners().size()),
                      testing::Range<std::size_t>(0, Layers().size())),
     [](const testing::TestParamInfo<std::tuple<std::size_t, std::size_t>>& param) {
-      return fmt::format("{}_{}", AuditedPlanners()[std::get<0>(param.param)].name,
+      return fmt::format("{}_{}", WaypointPlanners()[std::get<0>(param.param)].name,
                          Layers()[std::get<1>(param.param)].name);
     });
 

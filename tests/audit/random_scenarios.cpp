@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "tests/audit/dice.h"
+#include "tests/support/waypoint_planners.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/path_files/path_file.h"
@@ -391,21 +392,13 @@ struct Generator {
 
 }  // namespace
 
-std::vector<PlannerEntry> AuditedPlanners() {
-  std::vector<PlannerEntry> entries = Planners();
-  std::erase_if(entries, [](const PlannerEntry& entry) {
-    return entry.follows_lanes || entry.follows_track;
-  });
-  return entries;
-}
-
 std::size_t Combinations() {
-  return AuditedPlanners().size() * PathFollowers().size() * kPlantsInTurn.size();
+  return WaypointPlanners().size() * PathFollowers().size() * kPlantsInTurn.size();
 }
 
 Scenario RandomScenario(std::size_t index, int attempt) {
   const std::vector<ControllerOptions> controllers = PathFollowers();
-  const std::vector<PlannerEntry> planners = AuditedPlanners();
+  const std::vector<PlannerEntry> planners = WaypointPlanners();
   const std::size_t turn = index / planners.size();
   const std::size_t place = index % planners.size();
   const PlannerEntry& planner = planners[place];

@@ -1,15 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
-#include "trackbed/planning/common/planner.h"
 #include "trackbed/scenario/scenario.h"
 
 namespace audit {
-
-/// All planners except those that need a road network or a track.
-std::vector<trackbed::PlannerEntry> AuditedPlanners();
 
 /// Number of scenarios after which the combinations of planner, controller and plant repeat.
 std::size_t Combinations();

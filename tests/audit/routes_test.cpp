@@ -23,6 +23,7 @@
 #include "tests/audit/ordinary_routes.h"
 #include "tests/audit/record_run.h"
 #include "tests/support/case_names.h"
+#include "tests/support/environment_number.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/planning/registry/planners.h"
@@ -32,13 +33,9 @@ namespace routes_test {
 
 constexpr std::size_t kShards = 16;
 
-std::optional<std::size_t> Number(const char* variable) {
-  const char* text = std::getenv(variable);
-  return text == nullptr ? std::nullopt : std::optional<std::size_t>(std::stoul(text));
-}
-
 RouteSettings Settings(bool driven) {
-  return {.far_away = Number("TRACKBED_AUDIT_UTM").value_or(0) != 0, .driven = driven};
+  return {.far_away = trackbed::EnvironmentNumber("TRACKBED_AUDIT_UTM").value_or(0) != 0,
+          .driven = driven};
 }
 
 /// Returns the planner of a route. Planners with headings meet their waypoints.
@@ -124,7 +121,7 @@ class Campaign {
   ~Campaign() { std::cout << tally_.Text() << std::endl; }
 
   void Try(std::size_t index, const std::string& plant) {
-    if (Number("TRACKBED_AUDIT_ROUTE").value_or(index) != index) {
+    if (trackbed::EnvironmentNumber("TRACKBED_AUDIT_ROUTE").value_or(index) != index) {
       return;
     }
     OrdinaryRoute route = RouteOf(index, Settings(driven_));
@@ -190,16 +187,17 @@ INSTANTIATE_TEST_SUITE_P(Shards, OrdinaryRoutes, testing::Range<std::size_t>(0, 
 
 TEST_P(OrdinaryRoutes, ArePlannedOrRefusedForATrueReason) {
   Campaign campaign(false);
-  ForEachIndex(Number("TRACKBED_AUDIT_ROUTES").value_or(66 * Round()),
+  ForEachIndex(trackbed::EnvironmentNumber("TRACKBED_AUDIT_ROUTES").value_or(66 * Round()),
                [&](std::size_t index) { campaign.Try(index, "kinematic"); });
 }
 
 /// One of eight routes is driven in MuJoCo.
 TEST_P(OrdinaryRoutes, AreDriven) {
   Campaign campaign(true);
-  ForEachIndex(Number("TRACKBED_AUDIT_ROUTES").value_or(8 * Round()), [&](std::size_t index) {
-    campaign.Try(index, index % 8 == 0 ? "mujoco:contact" : "kinematic");
-  });
+  ForEachIndex(trackbed::EnvironmentNumber("TRACKBED_AUDIT_ROUTES").value_or(8 * Round()),
+               [&](std::size_t index) {
+                 campaign.Try(index, index % 8 == 0 ? "mujoco:contact" : "kinematic");
+               });
 }
 
 TEST(OrdinaryRoute, IsTheSameEveryTimeAndDiffersFromOthers) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/cli/program.h"
+#include "tests/support/folder_content.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/file.h"
 
@@ -41,17 +42,9 @@ class FullDisk : public testing::Test {
   TempFolder folder;
 };
 
-std::vector<std::string> NamesIn(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    names.push_back(entry.path().filename().string());
-  }
-  return names;
-}
-
 /// Expects every file in `folder` to equal that in `complete`, byte for byte.
 void ExpectWhole(const fs::path& folder, const fs::path& complete) {
-  for (const std::string& name : NamesIn(folder)) {
+  for (const std::string& name : NamesOfEntries(folder)) {
     ASSERT_TRUE(fs::exists(complete / name)) << name << " is no file of the whole";
     EXPECT_EQ(ReadFile(folder / name), ReadFile(complete / name)) << name;
   }
@@ -77,7 +70,7 @@ TEST_F(FullDisk, EndsARunInOneLineWithNothing) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.output,
               MatchesRegex("cannot write disk/r/[a-z.]+: No space left on device\n"));
-  EXPECT_THAT(NamesIn(folder.path() / "left/r"), IsEmpty());
+  EXPECT_THAT(NamesOfEntries(folder.path() / "left/r"), IsEmpty());
 }
 
 TEST_F(FullDisk, LeavesAnEarlierRunAsItWas) {
@@ -91,8 +84,8 @@ TEST_F(FullDisk, LeavesAnEarlierRunAsItWas) {
   EXPECT_THAT(outcome.output,
               MatchesRegex("(winding: [^\n]+\n)*cannot write disk/r/[a-z.]+: No space left on "
                            "device\n"));
-  EXPECT_THAT(NamesIn(folder.path() / "left/r"),
-              UnorderedElementsAreArray(NamesIn(folder.path() / "whole")));
+  EXPECT_THAT(NamesOfEntries(folder.path() / "left/r"),
+              UnorderedElementsAreArray(NamesOfEntries(folder.path() / "whole")));
   ExpectWhole(folder.path() / "left/r", folder.path() / "whole");
 }
 
@@ -102,7 +95,7 @@ TEST_F(FullDisk, LeavesNothingOfARunWhoseMcapFoundNoRoom) {
                                    TRACKBED_PROGRAM " run --mcap -o disk/r " + Winding());
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.output, "cannot write disk/r/run.mcap: No space left on device\n");
-  EXPECT_THAT(NamesIn(folder.path() / "left/r"), IsEmpty());
+  EXPECT_THAT(NamesOfEntries(folder.path() / "left/r"), IsEmpty());
 }
 
 TEST_F(FullDisk, LeavesAnEarlierPlanAsItWas) {
@@ -112,7 +105,7 @@ TEST_F(FullDisk, LeavesAnEarlierPlanAsItWas) {
   const Outcome outcome = WithDisk("64k", plan + route + " && " + plan);
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.output, "cannot write disk/plan.csv: No space left on device\n");
-  EXPECT_THAT(NamesIn(folder.path() / "left"),
+  EXPECT_THAT(NamesOfEntries(folder.path() / "left"),
               UnorderedElementsAre("plan.csv", "plan.json", "schedule.csv", "manifest.json"));
   Trackbed(folder, "plan -q -o whole " + ScenarioFile("winding") + route);
   ExpectWhole(folder.path() / "left", folder.path() / "whole");
@@ -130,7 +123,7 @@ TEST_F(FullDisk, LeavesNoPieceOfASweep) {
   const Outcome part = WithDisk("4k", sweep);
   EXPECT_EQ(part.code, 2);
   EXPECT_EQ(part.output, "cannot write disk/s/.written: No space left on device\n");
-  EXPECT_THAT(NamesIn(folder.path() / "left/s"), UnorderedElementsAre("sweep.records"));
+  EXPECT_THAT(NamesOfEntries(folder.path() / "left/s"), UnorderedElementsAre("sweep.records"));
   fs::remove_all(folder.path() / "left");
   // The disk has room for one sweep and its list of files to remove, but not for a second sweep.
   // The first result stays unchanged.
@@ -138,7 +131,7 @@ TEST_F(FullDisk, LeavesNoPieceOfASweep) {
       WithDisk("24k", sweep + " && " + sweep + " --restart --set drive.time_limit=0.2");
   EXPECT_EQ(second.code, 2);
   EXPECT_EQ(second.output, "cannot write disk/s/sweep.json: No space left on device\n");
-  EXPECT_THAT(NamesIn(folder.path() / "left/s"),
+  EXPECT_THAT(NamesOfEntries(folder.path() / "left/s"),
               UnorderedElementsAre("sweep.csv", "sweep.json", "sweep.records", "manifest.json"));
   fs::remove(folder.path() / "left/s/sweep.records");  // of the second sweep
   ExpectWhole(folder.path() / "left/s", folder.path() / "whole");
@@ -153,7 +146,7 @@ TEST_F(FullDisk, LeavesNoPieceOfAFilm) {
       WithDisk("4k", TRACKBED_PROGRAM " render r --size 320x180 --fps 10 -o disk/v.mp4");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.output, "cannot write disk/v.mp4: No space left on device\n");
-  EXPECT_THAT(NamesIn(folder.path() / "left"), IsEmpty());
+  EXPECT_THAT(NamesOfEntries(folder.path() / "left"), IsEmpty());
 }
 
 TEST_F(FullDisk, KeepsTheFramesThatFoundRoom) {
@@ -163,7 +156,7 @@ TEST_F(FullDisk, KeepsTheFramesThatFoundRoom) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.output,
               MatchesRegex("cannot write disk/f_0000[0-9].png: No space left on device\n"));
-  EXPECT_THAT(NamesIn(folder.path() / "left"), Contains("f_00000.png"));
+  EXPECT_THAT(NamesOfEntries(folder.path() / "left"), Contains("f_00000.png"));
   Trackbed(folder, film + "whole/f.png");
   ExpectWhole(folder.path() / "left", folder.path() / "whole");
 }
@@ -178,7 +171,8 @@ TEST_F(FullDisk, KeepsTheFramesOfAnEarlierFilm) {
   EXPECT_THAT(outcome.output,
               MatchesRegex("cannot write disk/f_0000[0-9].png: No space left on device\n"));
   Trackbed(folder, film + "whole/f.png --fps 1");
-  EXPECT_THAT(NamesIn(folder.path() / "left"), UnorderedElementsAre("f_00000.png", "f_00001.png"));
+  EXPECT_THAT(NamesOfEntries(folder.path() / "left"),
+              UnorderedElementsAre("f_00000.png", "f_00001.png"));
   ExpectWhole(folder.path() / "left", folder.path() / "whole");
 }
 

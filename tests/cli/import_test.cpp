@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
+#include "tests/support/folder_content.h"
 #include "trackbed/core/file.h"
 
 namespace trackbed {
@@ -22,14 +23,6 @@ std::string Arguments(const std::string& out) {
          (kSource / "tests/data/models/small_car.xml").string() + " -o " + out;
 }
 
-std::vector<std::string> NamesIn(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    names.push_back(entry.path().filename().string());
-  }
-  return names;
-}
-
 TEST(Import, MakesARunFolderThatOtherVerbsTake) {
   const TempFolder folder;
   const Outcome imported = Trackbed(folder, Arguments("in") + " --mcap --report");
@@ -37,7 +30,7 @@ TEST(Import, MakesARunFolderThatOtherVerbsTake) {
   EXPECT_THAT(imported.output, HasSubstr("autoware: 20 s, 40.13 m, 100 % valid, in in\n"));
   EXPECT_THAT(imported.output, HasSubstr("601 of 601 rows used"));
   EXPECT_THAT(
-      NamesIn(folder.path() / "in"),
+      NamesOfEntries(folder.path() / "in"),
       IsSupersetOf({"record.csv", "recorded.csv", "recorded.state.csv", "model.xml", "metrics.json",
                     "scenario.resolved.yaml", "manifest.json", "run.mcap", "report.html"}));
   const Outcome replayed =

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/cli/program.h"
+#include "tests/support/folder_content.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/file.h"
 
@@ -20,17 +21,6 @@ namespace fs = std::filesystem;
 /// an RRT route in wind, noise and kicks, Frenet motions around a moving car, and a recording.
 constexpr std::array kScenarios{"obstacle_appears", "windy_field", "disturbed", "overtake",
                                 "playback_lane_change"};
-
-/// Contents of all files in a folder and its subfolders, except wall-clock times.
-std::map<std::string, std::string> BytesOf(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file() && entry.path().filename() != "timing.json") {
-      files[entry.path().lexically_relative(folder).string()] = ReadFile(entry.path());
-    }
-  }
-  return files;
-}
 
 /// Names of files that differ or exist in only one of the maps; the contents are too long to print.
 std::string Differing(const std::map<std::string, std::string>& one,

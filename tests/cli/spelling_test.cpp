@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/cli/program.h"
+#include "tests/support/folder_content.h"
 #include "trackbed/core/file.h"
 
 // The bytes of a result do not depend on how the path of a scenario is written, and no result holds
@@ -45,16 +46,6 @@ constexpr std::array kFileReaders{"real/dart_ramp_02",
 
 // Runs do not have to reach their goals.
 constexpr const char* kQuick = "--plant kinematic --set drive.time_limit=0.2 expect={} ";
-
-std::map<std::string, std::string> FilesIn(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file() && entry.path().filename() != "timing.json") {
-      files[entry.path().lexically_relative(folder).string()] = ReadFile(entry.path());
-    }
-  }
-  return files;
-}
 
 /// Returns the names of the files that differ or exist in only one of the folders.
 std::vector<std::string> DifferingFiles(const std::map<std::string, std::string>& one,
@@ -111,7 +102,7 @@ TEST_P(Spellings, OfAPathGiveTheSameBytes) {
         Shell(folder, "cd '" + from + "' && " TRACKBED_PROGRAM " run -q '" + spelling + "' -o '" +
                           (folder.path() / "out" / std::to_string(i)).string() + "' " + kQuick);
     ASSERT_TRUE(outcome.code == 0 || outcome.code == 3) << spelling << "\n" << outcome.output;
-    const auto files = FilesIn(folder.path() / "out" / std::to_string(i));
+    const auto files = BytesOf(folder.path() / "out" / std::to_string(i));
     if (i == 0) {
       first = files;
       ASSERT_TRUE(first.contains("metrics.json"));
@@ -163,7 +154,7 @@ TEST(SpellingsTest, OfRunsGiveTheSameComparison) {
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const std::string out = "out" + std::to_string(i);
     ASSERT_EQ(Trackbed(folder, "compare -q " + ways[i] + " -o " + out).code, 0);
-    const auto files = FilesIn(folder.path() / out);
+    const auto files = BytesOf(folder.path() / out);
     first = i == 0 ? files : first;
     ExpectNoLocalPaths(files, folder.path());
     EXPECT_THAT(DifferingFiles(first, files), testing::IsEmpty()) << ways[i];
@@ -190,7 +181,7 @@ TEST(SpellingsTest, OfAModelGiveTheSameBytesAlsoElsewhere) {
     const Outcome outcome =
         Trackbed(folder, "run s.yaml -o " + out + quick + ways[i] + " --allow-assets " + here);
     ASSERT_TRUE(outcome.code == 0 || outcome.code == 3) << outcome.output;
-    const auto files = FilesIn(folder.path() / out);
+    const auto files = BytesOf(folder.path() / out);
     first = i == 0 ? files : first;
     ASSERT_TRUE(first.contains("vehicle.xml"));
     ExpectNoLocalPaths(files, folder.path());
@@ -200,7 +191,7 @@ TEST(SpellingsTest, OfAModelGiveTheSameBytesAlsoElsewhere) {
   fs::rename(folder.path() / "out0", folder.path() / "moved");
   const Outcome again = Trackbed(folder, "run -q moved/scenario.resolved.yaml -o again");
   ASSERT_TRUE(again.code == 0 || again.code == 3) << again.output;
-  EXPECT_THAT(DifferingFiles(first, FilesIn(folder.path() / "again")), testing::IsEmpty());
+  EXPECT_THAT(DifferingFiles(first, BytesOf(folder.path() / "again")), testing::IsEmpty());
 }
 
 TEST(SpellingsTest, OfALogGiveTheSameImport) {
@@ -216,7 +207,7 @@ TEST(SpellingsTest, OfALogGiveTheSameImport) {
     const std::string out = "out" + std::to_string(i);
     const Outcome outcome = Trackbed(folder, ways[i] + " --vehicle dart -q -o " + out);
     ASSERT_EQ(outcome.code, 0) << outcome.output;
-    const auto files = FilesIn(folder.path() / out);
+    const auto files = BytesOf(folder.path() / out);
     first = i == 0 ? files : first;
     ExpectNoLocalPaths(files, folder.path());
     EXPECT_THAT(DifferingFiles(first, files), testing::IsEmpty()) << ways[i];
@@ -237,7 +228,7 @@ TEST(SpellingsTest, OfAStudyGiveTheSameBytes) {
   for (const std::string& path :
        {absolute, std::string("real/study.yaml"), std::string("link/../link/study.yaml")}) {
     ASSERT_EQ(Trackbed(folder, "sweep -q " + path + " -o out").code, 0) << path;
-    std::map<std::string, std::string> files = FilesIn(folder.path() / "out");
+    std::map<std::string, std::string> files = BytesOf(folder.path() / "out");
     if (first.empty()) {
       first = files;
     }

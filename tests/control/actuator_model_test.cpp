@@ -185,19 +185,9 @@ TEST_P(WithDeadTime, DrivesAsWithoutItButLater) {
   }
 }
 
-std::vector<ControllerEntry> Followers() {
-  std::vector<ControllerEntry> all;
-  for (const ControllerEntry& entry : Controllers()) {
-    if (entry.needs_plan && entry.station == StationSource::kProjection) {
-      all.push_back(WithFewSamples(entry));
-    }
-  }
-  return all;
-}
-
 /// The controllers that compute the steering exactly, not by a search with a tolerance.
 std::vector<ControllerEntry> ExactFollowers() {
-  std::vector<ControllerEntry> all = Followers();
+  std::vector<ControllerEntry> all = FollowersWithFewSamples();
   std::erase_if(all, [](const ControllerEntry& entry) {
     return std::string(entry.name) == "optimal_steering";
   });
@@ -266,7 +256,8 @@ TEST_P(OnASmallCar, IsCopiedWithItsQueue) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Followers, OnASmallCar, ::testing::ValuesIn(Followers()), kName);
+INSTANTIATE_TEST_SUITE_P(Followers, OnASmallCar, ::testing::ValuesIn(FollowersWithFewSamples()),
+                         kName);
 
 /// Number of control periods of the dead time in a loop with the controller lqr on a straight path.
 constexpr int kDelay = 5;
@@ -390,7 +381,7 @@ TEST(ActuatorModel, CommandsWhatRestsAtTheWantedAngle) {
 TEST(ActuatorModel, PassesAnIdealActuator) {
   const VehicleParams car = ReferenceCar();
   const Drive drive{car, Straight(100.0), {5.0, 0.7, 0.1}, 3.0, 50};
-  for (const ControllerEntry& entry : Followers()) {
+  for (const ControllerEntry& entry : FollowersWithFewSamples()) {
     const auto bare = entry.make(entry.defaults);
     const std::vector<Row> expected = Simulate(*bare, drive);
     const std::vector<Row> wrapped = Simulate(entry.defaults, drive);

@@ -38,6 +38,15 @@ inline std::vector<ControllerEntry> ControllersWithFewSamples() {
   return all;
 }
 
+/// Returns the controllers that steer by feedback along a path, with fewer roll-outs of mppi.
+inline std::vector<ControllerEntry> FollowersWithFewSamples() {
+  std::vector<ControllerEntry> followers = ControllersWithFewSamples();
+  std::erase_if(followers, [](const ControllerEntry& entry) {
+    return !entry.needs_plan || entry.station != StationSource::kProjection;
+  });
+  return followers;
+}
+
 struct LoopSetup {
   VehicleParams vehicle = ReferenceCar();
   Path path;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/geometry/random.h"
+#include "tests/support/expect_near.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/control/controllers.h"
@@ -52,12 +53,6 @@ TEST(Deviation, CostIsThatOfTheWorldsAxes) {
 }
 
 // --- Prediction ----------------------------------------------------------------------------------
-
-void ExpectNear(const Pose2& actual, const Pose2& expected, double tolerance) {
-  EXPECT_NEAR(actual.x, expected.x, Tolerance(tolerance));
-  EXPECT_NEAR(actual.y, expected.y, Tolerance(tolerance));
-  EXPECT_NEAR(actual.yaw, expected.yaw, Tolerance(tolerance));
-}
 
 TEST(PredictPose, WithTheWheelsThereIsACircle) {
   const VehicleParams car = ReferenceCar();

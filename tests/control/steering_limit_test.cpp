@@ -277,17 +277,8 @@ TEST_P(GrippingController, SteersNoFartherThanItsTyresGrip) {
   EXPECT_GT(largest, 0.199);
 }
 
-std::vector<ControllerEntry> Followers() {
-  std::vector<ControllerEntry> all;
-  for (const ControllerEntry& entry : Controllers()) {
-    if (entry.needs_plan && entry.station == StationSource::kProjection) {
-      all.push_back(WithFewSamples(entry));
-    }
-  }
-  return all;
-}
-
-INSTANTIATE_TEST_SUITE_P(SteeringLimit, GrippingController, ::testing::ValuesIn(Followers()),
+INSTANTIATE_TEST_SUITE_P(SteeringLimit, GrippingController,
+                         ::testing::ValuesIn(FollowersWithFewSamples()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(SteeringAhead, IsTheAngleOfTheSharpestTurnAhead) {

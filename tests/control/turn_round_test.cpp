@@ -15,17 +15,6 @@
 namespace trackbed {
 namespace turn_round_test {
 
-/// The controllers that steer by feedback along a path.
-std::vector<ControllerEntry> Feedback() {
-  std::vector<ControllerEntry> all;
-  for (const ControllerEntry& entry : Controllers()) {
-    if (entry.needs_plan && entry.station == StationSource::kProjection) {
-      all.push_back(WithFewSamples(entry));
-    }
-  }
-  return all;
-}
-
 Path Straight(int direction = 1) {
   return {{}, {{300.0, 0.0, direction}}};
 }
@@ -115,7 +104,7 @@ TEST_P(TurnsRound, ToTheShorterSideInBothGears) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Feedback, TurnsRound, ::testing::ValuesIn(Feedback()),
+INSTANTIATE_TEST_SUITE_P(Feedback, TurnsRound, ::testing::ValuesIn(FollowersWithFewSamples()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(TurnRound, StepsToFullLockAndEndsWhenTheTargetIsNotBehind) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/simulate_planned.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/world/map_obstacles.h"
 
@@ -49,11 +50,6 @@ Scenario Toward(const std::string& plan, const std::string& waypoints) {
       "test.yaml", ".");
 }
 
-RunLog Drive(const Scenario& scenario, const std::string& plant) {
-  const CarModel car = LoadCar(scenario);
-  return SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), plant);
-}
-
 TEST(MapWalls, AreHitAsBoxesAre) {
   // The wall is beside the route after a turn, and the car grazes it.
   constexpr CellRectangle kWall{22, 12, 3, 2};
@@ -63,8 +59,8 @@ TEST(MapWalls, AreHitAsBoxesAre) {
   boxed.world.obstacles = {BoxOf(kWall)};
   for (const char* plant : {"kinematic", "mujoco:magic_formula", "mujoco:contact"}) {
     SCOPED_TRACE(plant);
-    const RunLog one = Drive(mapped, plant);
-    const RunLog other = Drive(boxed, plant);
+    const RunLog one = SimulatePlanned(mapped, plant);
+    const RunLog other = SimulatePlanned(boxed, plant);
     EXPECT_EQ(one.status, DriveStatus::kCollided);
     EXPECT_EQ(one.status, other.status);
     EXPECT_EQ(one.contact_time, other.contact_time);
@@ -88,7 +84,7 @@ TEST(MapWalls, ArePassedByPlannersThatSearch) {
     Scenario scenario = Toward(fmt::format("{{method: {}}}", planner), "[[-30, 0], [60, 0]]");
     scenario.mission.start.speed = 0.0;
     scenario.world.map = MapWith(kWall);
-    const RunLog log = Drive(scenario, "kinematic");
+    const RunLog log = SimulatePlanned(scenario, "kinematic");
     EXPECT_EQ(log.status, DriveStatus::kArrived);
     for (const LogRow& row : log.rows) {
       ASSERT_GT(row.clearance.value_or(0.0), 0.0);

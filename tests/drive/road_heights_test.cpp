@@ -51,12 +51,6 @@ RoadDrive DriveOn(const std::string& heights, const std::string& tyre, double sp
   return {std::move(car), plan, std::move(log)};
 }
 
-std::string Elevation(double a, double b, double c) {
-  return fmt::format(
-      "<elevationProfile><elevation s='0' a='{}' b='{}' c='{}' d='0'/></elevationProfile>", a, b,
-      c);
-}
-
 std::string Bank(double slope) {
   return fmt::format(
       "<lateralProfile><superelevation s='0' a='{}' b='0' c='0' d='0'/></lateralProfile>",

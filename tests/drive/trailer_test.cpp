@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/support/case_names.h"
+#include "tests/support/simulate_planned.h"
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/drive/start_overlap.h"
@@ -27,11 +28,6 @@ Scenario Towing(const std::string& plan, const std::string& trailer, const std::
       "towing.yaml", ".");
 }
 
-RunLog RunOf(const Scenario& scenario, const std::string& plant) {
-  const CarModel car = LoadCar(scenario);
-  return SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), plant);
-}
-
 class TrailerRun : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Plants, TrailerRun,
@@ -39,12 +35,12 @@ INSTANTIATE_TEST_SUITE_P(Plants, TrailerRun,
                          kNamedByParameter);
 
 TEST_P(TrailerRun, LogsTheHitch) {
-  const Table table = ToTable(RunOf(Towing("fillet", "{}"), GetParam()));
+  const Table table = ToTable(SimulatePlanned(Towing("fillet", "{}"), GetParam()));
   const std::vector<double> angle = table.Column("hitch_angle_rad");
   // Straight ahead, only rounding errors and the residuals of MuJoCo's solver turn the trailer.
   EXPECT_LT(*std::max_element(angle.begin(), angle.end()), 1e-3);
   EXPECT_THAT(table.columns(), testing::Contains("hitch_rate_radps"));
-  const Table without = ToTable(RunOf(Towing("fillet", ""), GetParam()));
+  const Table without = ToTable(SimulatePlanned(Towing("fillet", ""), GetParam()));
   EXPECT_THAT(without.columns(), testing::Not(testing::Contains("hitch_angle_rad")));
 }
 
@@ -72,7 +68,7 @@ TEST_P(TrailerRun, JackknifesInReverse) {
 TEST(TrailerClearance, IsThatOfTheWiderTrailer) {
   const std::string obstacle =
       "world: {obstacles: [{box: {x: 12, y: 2.0, yaw: 0, length: 2, width: 1}}]}\n";
-  const RunLog log = RunOf(Towing("fillet", "{width: 2.4}", obstacle), "kinematic");
+  const RunLog log = SimulatePlanned(Towing("fillet", "{width: 2.4}", obstacle), "kinematic");
   double smallest = 10.0;
   for (const LogRow& row : log.rows) {
     smallest = std::min(smallest, *row.clearance);
@@ -85,7 +81,7 @@ TEST(TrailerClearance, EndsTheRunOnContact) {
   const std::string obstacle =
       "world: {obstacles: [{box: {x: 12, y: 2.0, yaw: 0, length: 2, width: 1}}]}\n";
   for (const char* plant : {"kinematic", "mujoco:magic_formula"}) {
-    const RunLog log = RunOf(Towing("fillet", "{width: 3.2}", obstacle), plant);
+    const RunLog log = SimulatePlanned(Towing("fillet", "{width: 3.2}", obstacle), plant);
     EXPECT_EQ(log.status, DriveStatus::kCollided) << plant;
     // The front of the body meets the obstacle, which begins at x = 11 m, when the car's rear axle
     // is at 11 m plus hitch and front of the body: 0.914 + 2.7 - 1.335 m. The car has 2 m/s.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/geometry/random.h"
+#include "tests/support/expect_near.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 
@@ -18,12 +19,6 @@ constexpr double kRounding = 1e-13;
 
 Pose2 RandomPose(Random& random) {
   return {random.Uniform(-50.0, 50.0), random.Uniform(-50.0, 50.0), random.Uniform(-4.0, 4.0)};
-}
-
-void ExpectPose(const Pose2& actual, const Pose2& expected, double tolerance) {
-  EXPECT_NEAR(actual.x, expected.x, Tolerance(tolerance));
-  EXPECT_NEAR(actual.y, expected.y, Tolerance(tolerance));
-  EXPECT_NEAR(actual.yaw, expected.yaw, Tolerance(tolerance));
 }
 
 TEST(Direction, OfNinetyDegreesIsPlusY) {
@@ -57,7 +52,7 @@ TEST(ToLocal, InvertsToWorld) {
 }
 
 TEST(Compose, IsFirstOneThenTheOther) {
-  ExpectPose(Compose({1.0, 2.0, kPi / 2.0}, {3.0, 0.0, 0.25}), {1.0, 5.0, kPi / 2.0 + 0.25},
+  ExpectNear(Compose({1.0, 2.0, kPi / 2.0}, {3.0, 0.0, 0.25}), {1.0, 5.0, kPi / 2.0 + 0.25},
              kRounding);
 }
 
@@ -67,7 +62,7 @@ TEST(Compose, IsAssociativeAndMovesPoints) {
     const Pose2 a = RandomPose(random);
     const Pose2 b = RandomPose(random);
     const Pose2 c = RandomPose(random);
-    ExpectPose(Compose(Compose(a, b), c), Compose(a, Compose(b, c)), kRounding);
+    ExpectNear(Compose(Compose(a, b), c), Compose(a, Compose(b, c)), kRounding);
     EXPECT_NEAR(
         (ToWorld(Compose(a, b), c.position()) - ToWorld(a, ToWorld(b, c.position()))).norm(), 0.0,
         Tolerance(kRounding));
@@ -79,34 +74,34 @@ TEST(Compose, DoesNotWrapTheYaw) {
 }
 
 TEST(MoveOnArc, OfNoTurnIsALine) {
-  ExpectPose(MoveOnArc({1.0, 2.0, 0.5}, 10.0, 0.0),
+  ExpectNear(MoveOnArc({1.0, 2.0, 0.5}, 10.0, 0.0),
              {1.0 + 10.0 * std::cos(0.5), 2.0 + 10.0 * std::sin(0.5), 0.5}, kRounding);
-  ExpectPose(MoveOnArc({1.0, 2.0, 0.0}, -10.0, 0.0), {-9.0, 2.0, 0.0}, kRounding);
+  ExpectNear(MoveOnArc({1.0, 2.0, 0.0}, -10.0, 0.0), {-9.0, 2.0, 0.0}, kRounding);
 }
 
 TEST(MoveOnArc, OfAQuarterTurnIsAQuarterCircle) {
   const double r = 7.0;
-  ExpectPose(MoveOnArc({}, r * kPi / 2.0, kPi / 2.0), {r, r, kPi / 2.0}, kRounding);
-  ExpectPose(MoveOnArc({}, r * kPi / 2.0, -kPi / 2.0), {r, -r, -kPi / 2.0}, kRounding);
+  ExpectNear(MoveOnArc({}, r * kPi / 2.0, kPi / 2.0), {r, r, kPi / 2.0}, kRounding);
+  ExpectNear(MoveOnArc({}, r * kPi / 2.0, -kPi / 2.0), {r, -r, -kPi / 2.0}, kRounding);
   // In reverse with the wheels turned left, the car moves backward to the left, and its heading
   // turns right.
-  ExpectPose(MoveOnArc({}, -r * kPi / 2.0, -kPi / 2.0), {-r, r, -kPi / 2.0}, kRounding);
+  ExpectNear(MoveOnArc({}, -r * kPi / 2.0, -kPi / 2.0), {-r, r, -kPi / 2.0}, kRounding);
 }
 
 TEST(MoveOnArc, FullCircleComesBack) {
   const Pose2 end = MoveOnArc({3.0, 4.0, 1.0}, 2.0 * kPi * 10.0, 2.0 * kPi);
-  ExpectPose(end, {3.0, 4.0, 1.0 + 2.0 * kPi}, kRounding);
+  ExpectNear(end, {3.0, 4.0, 1.0 + 2.0 * kPi}, kRounding);
 }
 
 TEST(MoveOnArc, SlipTurnsTheDirectionOfMotion) {
   // With a slip angle of 90 degrees, the frame keeps its heading and moves sideways.
-  ExpectPose(MoveOnArc({}, 5.0, 0.0, kPi / 2.0), {0.0, 5.0, 0.0}, kRounding);
+  ExpectNear(MoveOnArc({}, 5.0, 0.0, kPi / 2.0), {0.0, 5.0, 0.0}, kRounding);
   Random random(33);
   for (int i = 0; i < 100; ++i) {
     const double W = random.Uniform(0.01, 1.0);
     const double beta = random.Uniform(-0.5, 0.5);
     // The speed is v = 1 m/s, and the duration is t = 6 s.
-    ExpectPose(MoveOnArc({}, 6.0, W * 6.0, beta),
+    ExpectNear(MoveOnArc({}, 6.0, W * 6.0, beta),
                {(std::sin(W * 6.0 + beta) - std::sin(beta)) / W,
                 -(std::cos(W * 6.0 + beta) - std::cos(beta)) / W, W * 6.0},
                kRounding);
@@ -124,7 +119,7 @@ TEST(MoveOnArc, DoesNotDependOnTheSteps) {
     SCOPED_TRACE(fmt::format("case {}: distance {}, turn {}, slip {}, share {}", i, distance, turn,
                              slip, share));
     const Pose2 middle = MoveOnArc(start, share * distance, share * turn, slip);
-    ExpectPose(MoveOnArc(middle, (1.0 - share) * distance, (1.0 - share) * turn, slip),
+    ExpectNear(MoveOnArc(middle, (1.0 - share) * distance, (1.0 - share) * turn, slip),
                MoveOnArc(start, distance, turn, slip), kRounding);
   }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/geometry/random.h"
+#include "tests/support/expect_near.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -22,9 +23,7 @@ namespace path_test {
 constexpr double kRounding = 1e-12;
 
 void ExpectPose(const Pose2& actual, const Pose2& expected, double tolerance = kRounding) {
-  EXPECT_NEAR(actual.x, expected.x, Tolerance(tolerance));
-  EXPECT_NEAR(actual.y, expected.y, Tolerance(tolerance));
-  EXPECT_NEAR(actual.yaw, expected.yaw, Tolerance(tolerance));
+  ExpectNear(actual, expected, tolerance);
 }
 
 /// Returns a path of 10 m to the east, a quarter circle of radius 10 m to the left, and 10 m to the

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/properties/property.h"
+#include "tests/support/plant_names.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/sim/plant.h"
@@ -27,14 +28,6 @@ std::unique_ptr<Plant> PlantAt(const std::string& name, const StartState& start)
 }
 
 class EveryPlant : public testing::TestWithParam<std::string> {};
-
-std::vector<std::string> PlantNames() {
-  std::vector<std::string> names;
-  for (const PlantEntry& entry : Plants()) {
-    names.emplace_back(entry.name);
-  }
-  return names;
-}
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryPlant, testing::ValuesIn(PlantNames()),
                          [](const auto& test) {

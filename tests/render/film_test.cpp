@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "tests/render/run_folder.h"
+#include "tests/support/folder_content.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
 
@@ -62,14 +63,6 @@ Played Play(const fs::path& file) {
   av_packet_free(&packet);
   avformat_close_input(&format);
   return played;
-}
-
-std::vector<std::string> FilesIn(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    names.push_back(entry.path().filename().string());
-  }
-  return names;
 }
 
 template <typename Error, typename Function>
@@ -295,7 +288,7 @@ TEST_F(Film, LeavesNothingWhenProgressThrows) {
       RenderFilm(run_, output_, options_, [](double) { throw std::runtime_error("interrupted"); }),
       std::runtime_error);
   EXPECT_EQ(ReadFile(output_), "an older film");
-  EXPECT_THAT(FilesIn(output_.parent_path()), testing::ElementsAre("film.mp4"));
+  EXPECT_THAT(NamesOfEntries(output_.parent_path()), testing::ElementsAre("film.mp4"));
 }
 
 TEST_F(Film, RefusesOptionsOutOfRangeAllAtOnce) {
@@ -337,7 +330,7 @@ TEST_F(Film, SaysWhatIsWrongWithTheFolder) {
   EXPECT_EQ(InputMessage(), run + "/mujoco.state.csv: no rows");
   fs::remove(run_ / "model.xml");
   EXPECT_EQ(InputMessage(), run + "/model.xml: missing from the run folder");
-  EXPECT_THAT(FilesIn(output_.parent_path()), testing::IsEmpty());
+  EXPECT_THAT(NamesOfEntries(output_.parent_path()), testing::IsEmpty());
 }
 
 TEST_F(Film, NamesTheJointThatTheStatesLack) {
@@ -401,7 +394,7 @@ TEST_F(Film, LeavesTheOlderFilmWhenTheDiskIsFull) {
   }
   EXPECT_EQ(message, "cannot write " + output_.string() + ": File too large");
   EXPECT_EQ(ReadFile(output_), "an older film");
-  EXPECT_THAT(FilesIn(output_.parent_path()), testing::ElementsAre("film.mp4"));
+  EXPECT_THAT(NamesOfEntries(output_.parent_path()), testing::ElementsAre("film.mp4"));
 }
 
 }  // namespace

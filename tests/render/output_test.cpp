@@ -23,6 +23,7 @@
 #include "render/trail.h"
 #include "tests/render/decode_png.h"
 #include "tests/render/run_folder.h"
+#include "tests/support/folder_content.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/render/film.h"
@@ -32,14 +33,6 @@ namespace trackbed::render {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string> FilesIn(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    names.push_back(entry.path().filename().string());
-  }
-  return names;
-}
 
 std::string InputMessage(const std::function<void()>& function) {
   try {
@@ -206,7 +199,7 @@ class Frames : public testing::Test {
 
 TEST_F(Frames, AreOneCompletePictureEach) {
   EXPECT_EQ(RenderFilm(run_, output_, options_).frames, 3);
-  EXPECT_THAT(FilesIn(output_.parent_path()),
+  EXPECT_THAT(NamesOfEntries(output_.parent_path()),
               testing::UnorderedElementsAre("f_00000.png", "f_00001.png", "f_00002.png"));
   const Image image = DecodePng(ReadFile(FrameName(output_, 2)));
   EXPECT_EQ(image.width, 161);
@@ -253,7 +246,7 @@ TEST_F(Frames, WrittenBeforeAnInterruptionStay) {
                             }
                           }),
                std::runtime_error);
-  EXPECT_THAT(FilesIn(output_.parent_path()),
+  EXPECT_THAT(NamesOfEntries(output_.parent_path()),
               testing::UnorderedElementsAre("f_00000.png", "f_00001.png"));
 }
 
@@ -271,7 +264,7 @@ TEST_F(Frames, OfAnOlderAndLongerFilmGoAndNothingElse) {
   ASSERT_EQ(RenderFilm(run_, output_, options_).frames, 3);
   std::vector<std::string> expected{"f_00000.png", "f_00001.png", "f_00002.png"};
   expected.insert(expected.end(), others.begin(), others.end());
-  EXPECT_THAT(FilesIn(folder), testing::UnorderedElementsAreArray(expected));
+  EXPECT_THAT(NamesOfEntries(folder), testing::UnorderedElementsAreArray(expected));
   for (const std::string& other : others) {
     EXPECT_EQ(ReadFile(folder / other), "not ours") << other;
   }

@@ -18,6 +18,13 @@ inline RoadNetwork ParseNetwork(const std::string& content) {
   return ParseOpenDrive(Document(content), "test.xodr");
 }
 
+/// Returns the heights of a road: a + b s + c s^2 [m] at the station s [m].
+inline std::string Elevation(double a, double b, double c) {
+  return fmt::format(
+      "<elevationProfile><elevation s='0' a='{}' b='{}' c='{}' d='0'/></elevationProfile>", a, b,
+      c);
+}
+
 /// A lane section with one driving lane on each side, each 3.5 m wide.
 inline const std::string kTwoLanes =
     "<laneSection s=\"0\">"

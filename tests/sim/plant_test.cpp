@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "tests/support/plant_names.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -47,14 +48,6 @@ class EveryPlant : public testing::TestWithParam<std::string> {
     return MakePlant(GetParam(), PriusAt(start, friction));
   }
 };
-
-std::vector<std::string> PlantNames() {
-  std::vector<std::string> names;
-  for (const PlantEntry& entry : Plants()) {
-    names.emplace_back(entry.name);
-  }
-  return names;
-}
 
 INSTANTIATE_TEST_SUITE_P(Plants, EveryPlant, testing::ValuesIn(PlantNames()),
                          [](const auto& plant) {

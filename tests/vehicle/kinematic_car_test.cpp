@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/geometry/random.h"
+#include "tests/support/expect_near.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
 #include "tests/vehicle/wheel_pair.h"
@@ -21,12 +22,6 @@ constexpr ReferencePoint kRear = ReferencePoint::kRearAxle;
 constexpr ReferencePoint kCg = ReferencePoint::kCenterOfGravity;
 constexpr double kSpeed = 3.0;
 
-void ExpectSamePose(const Pose2& actual, const Pose2& expected, double tolerance) {
-  EXPECT_NEAR(actual.x, expected.x, Tolerance(tolerance));
-  EXPECT_NEAR(actual.y, expected.y, Tolerance(tolerance));
-  EXPECT_NEAR(actual.yaw, expected.yaw, Tolerance(tolerance));
-}
-
 KinematicCar CarAt(const KinematicState& start, ReferencePoint reference = kRear) {
   return {ReferenceCar(), reference, start};
 }
@@ -36,7 +31,7 @@ KinematicCar CarAt(const KinematicState& start, ReferencePoint reference = kRear
 TEST(KinematicCar, HeadingOfNinetyDegreesMovesAlongY) {
   KinematicCar car = CarAt({.pose = {0.0, 0.0, kPi / 2.0}, .speed = kSpeed});
   car.Step({}, 2.0);
-  ExpectSamePose(car.state().pose, {0.0, 6.0, kPi / 2.0}, 1e-14);
+  ExpectNear(car.state().pose, {0.0, 6.0, kPi / 2.0}, 1e-14);
 }
 
 TEST(KinematicCar, PositiveSteeringTurnsLeft) {
@@ -79,7 +74,7 @@ TEST(KinematicCar, WithDifferentialDriveIsTheUnicycleOfItsWheelSpeeds) {
     const Pose2 expected = turn == 0.0 ? Pose2{speed * time, 0.0, 0.0}
                                        : Pose2{speed / yaw_rate * std::sin(turn),
                                                speed / yaw_rate * (1.0 - std::cos(turn)), turn};
-    ExpectSamePose(car.state().pose, expected, 1e-14);
+    ExpectNear(car.state().pose, expected, 1e-14);
     EXPECT_NEAR(car.FullState().yaw_rate, yaw_rate, Tolerance(1e-14));
   }
 }
@@ -161,14 +156,14 @@ TEST(KinematicCar, ConstantSteeringIsExactWhateverTheStep) {
       // With radii of up to 270 m, cancellation in the closed form leaves an error of 270 m * 2^-52
       // = 6e-14 m. Angles of up to 20 rad are rounded by 2e-15 rad, which adds 270 m * 2e-15 =
       // 5e-13 m.
-      ExpectSamePose(once.state().pose, exact, 2e-12);
+      ExpectNear(once.state().pose, exact, 2e-12);
       KinematicCar often = CarAt({.speed = speed, .steering = steering}, reference);
       for (int step = 0; step < 1000; ++step) {
         often.Step({.steering = steering}, time / 1000.0);
       }
       // In the worst case, 1000 roundings of distances of 200 m have the same sign: 1000 * 2.8e-14
       // m.
-      ExpectSamePose(often.state().pose, exact, 3e-11);
+      ExpectNear(often.state().pose, exact, 3e-11);
       EXPECT_NEAR(often.state().distance, speed * time, Tolerance(3e-11));
       EXPECT_NEAR(often.FullState().time, time, Tolerance(1e-11));
     }
@@ -178,8 +173,8 @@ TEST(KinematicCar, ConstantSteeringIsExactWhateverTheStep) {
 TEST(KinematicCar, StraightOnIsExact) {
   KinematicCar car = CarAt({.pose = {1.0, 2.0, 0.3}, .speed = kSpeed}, kCg);
   car.Step({}, 10.0);
-  ExpectSamePose(car.state().pose, {1.0 + 30.0 * std::cos(0.3), 2.0 + 30.0 * std::sin(0.3), 0.3},
-                 1e-14 * 30.0);
+  ExpectNear(car.state().pose, {1.0 + 30.0 * std::cos(0.3), 2.0 + 30.0 * std::sin(0.3), 0.3},
+             1e-14 * 30.0);
 }
 
 TEST(KinematicCar, AccelerationMovesAlongTheSameCircle) {
@@ -190,7 +185,7 @@ TEST(KinematicCar, AccelerationMovesAlongTheSameCircle) {
     car.Step({.steering = steering, .acceleration = 0.5}, 4.0);  // 4 + 4 = 8 m
     EXPECT_NEAR(car.state().distance, 8.0, Tolerance(1e-14));
     EXPECT_NEAR(car.state().speed, 3.0, Tolerance(1e-14));
-    ExpectSamePose(car.state().pose, ExactCircle(reference, steering, 1.0, 8.0), 1e-13);
+    ExpectNear(car.state().pose, ExactCircle(reference, steering, 1.0, 8.0), 1e-13);
   }
 }
 
@@ -204,7 +199,7 @@ TEST(KinematicCar, BothReferencePointsAreOneCar) {
   cg.Step({.steering = steering}, 3.0);
   const VehicleState a = rear.FullState();
   const VehicleState b = cg.FullState();
-  ExpectSamePose(b.pose, a.pose, 1e-13);
+  ExpectNear(b.pose, a.pose, 1e-13);
   EXPECT_NEAR(b.speed, a.speed, Tolerance(1e-14));
   EXPECT_NEAR(b.yaw_rate, a.yaw_rate, Tolerance(1e-14));
   EXPECT_NEAR(b.lateral_speed, a.lateral_speed, Tolerance(1e-14));
@@ -244,7 +239,7 @@ TEST(KinematicCar, StepsOfTwentyMillisecondsKeepTheirPromise) {
       for (int step = 0; step < 100; ++step) {
         often.Step(command, 0.0002);
       }
-      ExpectSamePose(once.state().pose, often.state().pose, 1e-10);
+      ExpectNear(once.state().pose, often.state().pose, 1e-10);
     }
   }
 }
@@ -260,7 +255,7 @@ TEST(KinematicCar, ArrivalOfTheSteeringSplitsTheStep) {
   twice.Step({.steering = to}, ramp);
   twice.Step({.steering = to}, 5.0 - ramp);
   EXPECT_EQ(once.state().steering, to);
-  ExpectSamePose(twice.state().pose, once.state().pose, 1e-13);
+  ExpectNear(twice.state().pose, once.state().pose, 1e-13);
 }
 
 // --- Rest and gears
@@ -322,7 +317,7 @@ TEST(KinematicCar, CutOfTimeDoesNotMatter) {
     }
     // The tolerance covers the documented errors of a hundred steps. The car drives at up to twice
     // the speed for which the error is documented.
-    ExpectSamePose(fine.state().pose, coarse.state().pose, 1e-8);
+    ExpectNear(fine.state().pose, coarse.state().pose, 1e-8);
     EXPECT_NEAR(fine.state().speed, coarse.state().speed, Tolerance(1e-12));
     EXPECT_NEAR(fine.state().distance, coarse.state().distance, Tolerance(1e-12));
   }

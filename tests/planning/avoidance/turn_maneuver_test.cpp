@@ -13,6 +13,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/planning/routes.h"
+#include "tests/support/expect_near.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
@@ -72,11 +73,6 @@ ManeuverRun Drive(const TurnManeuver& maneuver, double final_y,
   const TurnLayout layout = LayOut(maneuver);
   const Points points = ControlPoints(maneuver, layout, car, final_y);
   return SimulateManeuver(maneuver, layout, car, CurveThrough(points));
-}
-
-void ExpectPoint(const Vec2& actual, const Vec2& expected, double tolerance) {
-  EXPECT_NEAR(actual.x(), expected.x(), Tolerance(tolerance));
-  EXPECT_NEAR(actual.y(), expected.y(), Tolerance(tolerance));
 }
 
 /// Returns a random problem with a valid layout. The problems cover every branch of the listing.
@@ -140,7 +136,7 @@ TEST(LayOutTurn, ArcRunsFromEndToEnd) {
     const double sign = maneuver.side == TurnSide::kLeft ? 1.0 : -1.0;
     const Vec2 center{maneuver.straight(), sign * maneuver.radius};
     ASSERT_GE(layout.arc.size(), 2U);
-    ExpectPoint(layout.arc.front().position, {maneuver.straight(), 0.0}, kRounding);
+    ExpectNear(layout.arc.front().position, {maneuver.straight(), 0.0}, kRounding);
     EXPECT_EQ(layout.arc.front().angle, 0.0);
     EXPECT_EQ(layout.arc.back().angle, maneuver.turn_angle - maneuver.reduction);
     for (std::size_t k = 1; k < layout.arc.size(); ++k) {
@@ -151,8 +147,8 @@ TEST(LayOutTurn, ArcRunsFromEndToEnd) {
     const double angle = maneuver.obstacle_sixth / 6.0 * layout.arc.back().angle;
     EXPECT_NEAR(layout.safe_angle, angle, Tolerance(kRounding));
     const Vec2 out{std::sin(angle), -sign * std::cos(angle)};
-    ExpectPoint(layout.obstacle.center.position(), center + maneuver.radius * out, kRounding);
-    ExpectPoint(layout.safe_point, center + layout.safe_radius * out, kRounding);
+    ExpectNear(layout.obstacle.center.position(), center + maneuver.radius * out, kRounding);
+    ExpectNear(layout.safe_point, center + layout.safe_radius * out, kRounding);
     EXPECT_NEAR(layout.arc[layout.obstacle_at - 1].angle, angle, 0.005 + Tolerance(kRounding));
   }
 }
@@ -160,7 +156,7 @@ TEST(LayOutTurn, ArcRunsFromEndToEnd) {
 TEST(LayOutTurn, LiteralGridHasThePrintedPoints) {
   const TurnLayout layout = LayOut(Literal(TurnSide::kLeft, PassingSide::kInner));
   EXPECT_EQ(layout.arc.size(), 131U);
-  ExpectPoint(layout.arc.front().position, {22.8799, 0.0008}, Printed(4));
+  ExpectNear(layout.arc.front().position, {22.8799, 0.0008}, Printed(4));
   // The other end of the arc is exactly at 90 - 15 = 75 degrees.
   EXPECT_NEAR(layout.arc.back().angle, 75.0 * kPi / 180.0, Tolerance(kRounding));
   EXPECT_EQ(LayOut(Literal(TurnSide::kLeft, PassingSide::kInner, 0.0)).arc.size(), 158U);
@@ -176,10 +172,10 @@ TEST(LayOutTurn, LiteralObstacleStandsOnThePrintedPoint) {
     EXPECT_EQ(LayOut(Literal(TurnSide::kLeft, PassingSide::kInner, 0.0, n)).obstacle_at, whole[i]);
   }
   const TurnLayout layout = LayOut(Literal(TurnSide::kLeft, PassingSide::kInner));
-  ExpectPoint(layout.obstacle.center.position(), {34.946483, 4.187863}, Printed(6));
+  ExpectNear(layout.obstacle.center.position(), {34.946483, 4.187863}, Printed(6));
   EXPECT_NEAR(layout.safe_angle + kPi / 12.0, 0.911799, Tolerance(Printed(6)));
-  ExpectPoint(layout.obstacle.Corners()[2], {33.9465, 3.1879}, Printed(4));
-  ExpectPoint(layout.obstacle.Corners()[0], {35.9465, 5.1879}, Printed(4));
+  ExpectNear(layout.obstacle.Corners()[2], {33.9465, 3.1879}, Printed(4));
+  ExpectNear(layout.obstacle.Corners()[0], {35.9465, 5.1879}, Printed(4));
 }
 
 TEST(LayOutTurn, LiteralAnglesMissByLessThanAStep) {
@@ -220,10 +216,10 @@ TEST(LayOutTurn, SafePointIsAsPrinted) {
                               {PassingSide::kInner, 0.0, {29.5370, 13.0888}, 4},
                               {PassingSide::kOuter, 0.0, {54.6413, -12.2880}, 4}};
   for (const Row& row : rows) {
-    ExpectPoint(LayOut(Literal(TurnSide::kLeft, row.passing_side, row.reduction)).safe_point,
-                row.point, Printed(row.decimals));
-    ExpectPoint(LayOut(Literal(TurnSide::kRight, row.passing_side, row.reduction)).safe_point,
-                {row.point.x(), -row.point.y()}, Printed(row.decimals));
+    ExpectNear(LayOut(Literal(TurnSide::kLeft, row.passing_side, row.reduction)).safe_point,
+               row.point, Printed(row.decimals));
+    ExpectNear(LayOut(Literal(TurnSide::kRight, row.passing_side, row.reduction)).safe_point,
+               {row.point.x(), -row.point.y()}, Printed(row.decimals));
   }
 }
 
@@ -281,7 +277,7 @@ TEST(LayOutTurn, OneFormulaIsAllEightBranches) {
     EXPECT_NEAR(layout.safe_radius, r_k, Tolerance(kRounding));
     const double theta_m =
         maneuver.reduction + 0.01 * (static_cast<double>(layout.obstacle_at) - 1.0);
-    ExpectPoint(layout.safe_point, SafePointByBranches(maneuver, r_k, theta_m), kRounding);
+    ExpectNear(layout.safe_point, SafePointByBranches(maneuver, r_k, theta_m), kRounding);
     ++seen[(inner ? 4U : 0U) + (maneuver.reduction == 0.0 ? 2U : 0U) +
            (maneuver.side == TurnSide::kLeft ? 1U : 0U)];
   }
@@ -417,7 +413,7 @@ TEST(ControlPoints, LiteralOnesAreThoseOfEveryBranch) {
     const Points expected = PointsByBranches(maneuver, layout, final_y);
     for (std::size_t k = 0; k < 8; ++k) {
       SCOPED_TRACE(k);
-      ExpectPoint(actual[k], expected[k], kRounding);
+      ExpectNear(actual[k], expected[k], kRounding);
     }
   }
 }
@@ -433,11 +429,11 @@ TEST(ControlPoints, LieOnTheTangentsOfTheTurn) {
     const double s = maneuver.straight();
     const Vec2 exit = Direction(sign * (maneuver.turn_angle - maneuver.reduction));
     const double p_2 = maneuver.obstacle_sixth > 3 ? s : 2.0 / 3.0 * s;
-    ExpectPoint(p[1], {0.5 * p_2, 0.0}, kRounding);
-    ExpectPoint(p[2], {p_2, 0.0}, kRounding);
-    ExpectPoint(p[5], LayOut(maneuver).arc.back().position, kRounding);
-    ExpectPoint(p[6], p[5] + 0.5 * s * exit, kRounding);
-    ExpectPoint(p[7], p[5] + s * exit, kRounding);
+    ExpectNear(p[1], {0.5 * p_2, 0.0}, kRounding);
+    ExpectNear(p[2], {p_2, 0.0}, kRounding);
+    ExpectNear(p[5], LayOut(maneuver).arc.back().position, kRounding);
+    ExpectNear(p[6], p[5] + 0.5 * s * exit, kRounding);
+    ExpectNear(p[7], p[5] + s * exit, kRounding);
   }
 }
 
@@ -453,7 +449,7 @@ TEST(ControlPoints, DefaultOnesAreAsPrinted) {
                                    {47.8937, 36.7501}};
   for (std::size_t k = 0; k < 8; ++k) {
     SCOPED_TRACE(k);
-    ExpectPoint(p[k], expected[k], Printed(4));
+    ExpectNear(p[k], expected[k], Printed(4));
   }
 }
 
@@ -517,7 +513,7 @@ TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
     const Points a = ControlPointsFor(none, 3.0);
     const Points b = ControlPointsFor(small, 3.0);
     for (std::size_t k = 0; k < 8; ++k) {
-      ExpectPoint(a[k], b[k], 43.0 * kSmall + kRounding);
+      ExpectNear(a[k], b[k], 43.0 * kSmall + kRounding);
     }
     // If the reduction of the turn's angle is zero, the control points P_5 to P_7 of the published
     // listing jump (defect L18). These points move from the end of the arc to a place beside the
@@ -526,13 +522,13 @@ TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
     const Points c = ControlPointsFor(none, 3.0);
     const Points d = ControlPointsFor(small, 3.0);
     for (std::size_t k = 0; k < 5; ++k) {
-      ExpectPoint(c[k], d[k], 43.0 * kSmall + kRounding);
+      ExpectNear(c[k], d[k], 43.0 * kSmall + kRounding);
     }
     const double inner = SafeRadius(none, 1.725, PassingSide::kInner);
     const double jump = -inner * std::cos(kPi / 4.0);
     EXPECT_LT(jump, -6.8);
     for (std::size_t k = 5; k < 8; ++k) {
-      ExpectPoint(c[k], d[k] + Vec2{0.0, jump}, 43.0 * kSmall + kRounding);
+      ExpectNear(c[k], d[k] + Vec2{0.0, jump}, 43.0 * kSmall + kRounding);
     }
   }
 }
@@ -561,9 +557,9 @@ TEST(TurnManeuver, CurveIsTheListingsOwnCheck) {
              (p[i + 2] - 2.0 * p[i + 1] + p[i]);
       }
     }
-    ExpectPoint(curve.At(u), b, kRounding);
-    ExpectPoint(curve.Derivative(u, 1), v, 7.0 * kRounding);
-    ExpectPoint(curve.Derivative(u, 2), a, 42.0 * kRounding);
+    ExpectNear(curve.At(u), b, kRounding);
+    ExpectNear(curve.Derivative(u, 1), v, 7.0 * kRounding);
+    ExpectNear(curve.Derivative(u, 2), a, 42.0 * kRounding);
   }
 }
 
@@ -578,8 +574,8 @@ TEST(TurnManeuver, DerivativesAreThoseOfTheCurve) {
     const Vec2 first = (curve.At(u + kStep) - curve.At(u - kStep)) / (2.0 * kStep);
     const Vec2 second =
         (curve.Derivative(u + kStep, 1) - curve.Derivative(u - kStep, 1)) / (2.0 * kStep);
-    ExpectPoint(first, curve.Derivative(u, 1), kStep * kStep / 6.0 * 210.0 * 8.0 * 51.0 + 1e-8);
-    ExpectPoint(second, curve.Derivative(u, 2), kStep * kStep / 6.0 * 840.0 * 16.0 * 51.0 + 7e-8);
+    ExpectNear(first, curve.Derivative(u, 1), kStep * kStep / 6.0 * 210.0 * 8.0 * 51.0 + 1e-8);
+    ExpectNear(second, curve.Derivative(u, 2), kStep * kStep / 6.0 * 840.0 * 16.0 * 51.0 + 7e-8);
   }
 }
 
@@ -588,11 +584,11 @@ TEST(SimulateManeuver, DefaultDetailsAreAsPrinted) {
   ASSERT_EQ(drive.samples.size(), 501U);
   const ManeuverSample& middle = drive.samples[250];
   EXPECT_EQ(middle.u, 0.5);
-  ExpectPoint(middle.pose.position(), {26.717941, 8.302342}, Printed(6));
+  ExpectNear(middle.pose.position(), {26.717941, 8.302342}, Printed(6));
   EXPECT_NEAR(middle.curvature, 0.01183062, Tolerance(Printed(8)));
   EXPECT_NEAR(middle.steering, 0.03193181, Tolerance(Printed(8)));
   EXPECT_NEAR(drive.samples.front().curvature, 1.193e-5, Tolerance(Printed(8)));
-  ExpectPoint(drive.samples.back().pose.position(), {47.893709, 36.750135}, Printed(6));
+  ExpectNear(drive.samples.back().pose.position(), {47.893709, 36.750135}, Printed(6));
 }
 
 // --- The run ---------------------------------------------------------------------------------
@@ -782,10 +778,10 @@ TEST(SimulateManeuver, TestCornerIsTheListings) {
     const Vec2 lowest = LayOut(maneuver).obstacle.Corners()[2];
     return Vec2(Drive(maneuver, 0.0).test_corner - lowest);
   };
-  ExpectPoint(corner(TurnSide::kLeft, PassingSide::kInner), {0.0, 2.0}, kRounding);
-  ExpectPoint(corner(TurnSide::kLeft, PassingSide::kOuter), {2.0, 0.0}, kRounding);
-  ExpectPoint(corner(TurnSide::kRight, PassingSide::kInner), {0.0, 0.0}, kRounding);
-  ExpectPoint(corner(TurnSide::kRight, PassingSide::kOuter), {2.0, 2.0}, kRounding);
+  ExpectNear(corner(TurnSide::kLeft, PassingSide::kInner), {0.0, 2.0}, kRounding);
+  ExpectNear(corner(TurnSide::kLeft, PassingSide::kOuter), {2.0, 0.0}, kRounding);
+  ExpectNear(corner(TurnSide::kRight, PassingSide::kInner), {0.0, 0.0}, kRounding);
+  ExpectNear(corner(TurnSide::kRight, PassingSide::kOuter), {2.0, 2.0}, kRounding);
 }
 
 TEST(SimulateManeuver, AcceptsFromTheSafeDistanceOn) {
@@ -1011,7 +1007,7 @@ TEST(ManeuverFrame, PutsTheArcWhereTheTurnBegins) {
     const Pose2 X_WM = ManeuverFrame(maneuver, X_WA);
     EXPECT_EQ(X_WM.yaw, X_WA.yaw);
     const TurnLayout layout = LayOut(maneuver);
-    ExpectPoint(ToWorld(X_WM, layout.arc.front().position), X_WA.position(), kRounding);
+    ExpectNear(ToWorld(X_WM, layout.arc.front().position), X_WA.position(), kRounding);
   }
 }
 

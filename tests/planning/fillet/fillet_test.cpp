@@ -13,6 +13,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/planning/routes.h"
+#include "tests/support/expect_near.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
@@ -68,11 +69,6 @@ std::string Describe(const std::vector<Vec2>& route) {
   return text;
 }
 
-void ExpectPoint(const Vec2& actual, const Vec2& expected, double tolerance) {
-  EXPECT_NEAR(actual.x(), expected.x(), Tolerance(tolerance));
-  EXPECT_NEAR(actual.y(), expected.y(), Tolerance(tolerance));
-}
-
 /// Returns the stations D_1, D_2, ... [m] at which the wheels begin to turn into and out of each
 /// turn.
 std::vector<double> Events(const FilletPlan& plan) {
@@ -122,9 +118,9 @@ TEST(PlanFillets, RouteAPassOneHasPrintedGeometry) {
     SCOPED_TRACE(k);
     const FilletTurn& turn = plan.turns[k];
     EXPECT_EQ(turn.waypoint, static_cast<int>(k) + 1);
-    ExpectPoint(turn.arc_start, starts[k], kRounding);
-    ExpectPoint(turn.arc_end, ends[k], kRounding);
-    ExpectPoint(turn.center, centers[k], kRounding);
+    ExpectNear(turn.arc_start, starts[k], kRounding);
+    ExpectNear(turn.arc_end, ends[k], kRounding);
+    ExpectNear(turn.center, centers[k], kRounding);
     EXPECT_NEAR(turn.heading_change, signs[k] * kPi / 2.0, Tolerance(kRounding));
     EXPECT_NEAR(turn.interior_angle, kPi / 2.0, Tolerance(kRounding));
     EXPECT_NEAR(turn.tangent_length, 5.1, Tolerance(kRounding));
@@ -164,9 +160,9 @@ TEST(PlanFillets, RouteBPassOneHasPrintedGeometry) {
     EXPECT_NEAR(turn.heading_change, signs[k] * (kPi - turn.interior_angle), Tolerance(kRounding));
     EXPECT_GT(signs[k] * turn.steering, 0.0);
     EXPECT_NEAR(turn.tangent_length, tangents[k], Tolerance(Printed(4)));
-    ExpectPoint(turn.arc_start, starts[k], Printed(4));
-    ExpectPoint(turn.arc_end, ends[k], Printed(4));
-    ExpectPoint(turn.center, centers[k], Printed(4));
+    ExpectNear(turn.arc_start, starts[k], Printed(4));
+    ExpectNear(turn.arc_end, ends[k], Printed(4));
+    ExpectNear(turn.center, centers[k], Printed(4));
   }
 }
 
@@ -192,9 +188,9 @@ TEST(PlanFillets, RouteAUnderHalfLegHasPrintedTurns) {
     EXPECT_NEAR(Degrees(std::abs(turn.steering)), 7.6884, Tolerance(Printed(4)));
     EXPECT_NEAR(turn.ramp_time, 0.8912, Tolerance(Printed(4)));
     EXPECT_NEAR(turn.ramp_distance, 2.6736, Tolerance(Printed(4)));
-    ExpectPoint(turn.arc_start, joints[k], kRounding);
-    ExpectPoint(turn.arc_end, joints[k + 1], kRounding);
-    ExpectPoint(turn.center, centers[k], kRounding);
+    ExpectNear(turn.arc_start, joints[k], kRounding);
+    ExpectNear(turn.arc_end, joints[k + 1], kRounding);
+    ExpectNear(turn.center, centers[k], kRounding);
     EXPECT_FALSE(turn.ramp_truncated);
   }
   ExpectEvents(plan, {18.6632, 50.0791, 50.0791, 81.4950, 81.4950, 112.9110});
@@ -221,8 +217,8 @@ TEST(PlanFillets, RouteBUnderHalfLegHasPrintedTurns) {
     EXPECT_NEAR(Degrees(turn.steering), steering[k], Tolerance(Printed(4)));
     EXPECT_NEAR(turn.ramp_time, times[k], Tolerance(Printed(4)));
     EXPECT_NEAR(turn.tangent_length, tangents[k], Tolerance(Printed(4)));
-    ExpectPoint(turn.arc_start, starts[k], Printed(4));
-    ExpectPoint(turn.arc_end, ends[k], Printed(4));
+    ExpectNear(turn.arc_start, starts[k], Printed(4));
+    ExpectNear(turn.arc_end, ends[k], Printed(4));
   }
   // The expected distances are the corrected ones. The listing itself gives D_3 = 46.6160 m,
   // because it uses the ramp of turn 1.
@@ -405,9 +401,9 @@ TEST(PlanFillets, ShiftedStartChangesNoDistance) {
         EXPECT_NEAR(b.radius, a.radius, Tolerance(kRounding));
         EXPECT_NEAR(b.steer_start, a.steer_start, Tolerance(kRounding));
         EXPECT_NEAR(b.steer_return, a.steer_return, Tolerance(kRounding));
-        ExpectPoint(b.arc_start, a.arc_start + offset, kRounding);
-        ExpectPoint(b.arc_end, a.arc_end + offset, kRounding);
-        ExpectPoint(b.center, a.center + offset, kRounding);
+        ExpectNear(b.arc_start, a.arc_start + offset, kRounding);
+        ExpectNear(b.arc_end, a.arc_end + offset, kRounding);
+        ExpectNear(b.center, a.center + offset, kRounding);
       }
     }
   }
@@ -445,13 +441,13 @@ TEST(PlanFillets, MirroredRouteGivesMirroredPlan) {
       EXPECT_NEAR(b.turns[k].radius, a.turns[k].radius, Tolerance(kRounding));
       EXPECT_NEAR(b.turns[k].steer_start, a.turns[k].steer_start, Tolerance(kRounding));
       EXPECT_NEAR(b.turns[k].steer_return, a.turns[k].steer_return, Tolerance(kRounding));
-      ExpectPoint(b.turns[k].center, {a.turns[k].center.x(), -a.turns[k].center.y()}, kRounding);
+      ExpectNear(b.turns[k].center, {a.turns[k].center.x(), -a.turns[k].center.y()}, kRounding);
     }
     for (const double share : {0.1, 0.5, 0.9}) {
       const double s = share * a.path.length();
       const Pose2 pose = a.path.At(s).pose;
       const Pose2 reflected = b.path.At(s).pose;
-      ExpectPoint(reflected.position(), {pose.x, -pose.y}, kPromised);
+      ExpectNear(reflected.position(), {pose.x, -pose.y}, kPromised);
       EXPECT_NEAR(AngleDifference(reflected.yaw, -pose.yaw), 0.0, Tolerance(kPromised));
       EXPECT_NEAR(b.schedule.At(s), -a.schedule.At(s), Tolerance(kRounding));
     }
@@ -486,11 +482,11 @@ TEST(PlanFillets, MovedRouteGivesMovedPlan) {
       // to some thousand times as much.
       EXPECT_NEAR(b.turns[k].steering, a.turns[k].steering, Tolerance(1e-9));
       EXPECT_NEAR(b.turns[k].steer_start, a.turns[k].steer_start, Tolerance(1e-9));
-      ExpectPoint(b.turns[k].center, ToWorld(X_WA, a.turns[k].center), 1e-9);
+      ExpectNear(b.turns[k].center, ToWorld(X_WA, a.turns[k].center), 1e-9);
     }
     const double s = 0.5 * a.path.length();
     const Pose2 expected = Compose(X_WA, a.path.At(s).pose);
-    ExpectPoint(b.path.At(s).pose.position(), expected.position(), 1e-8);
+    ExpectNear(b.path.At(s).pose.position(), expected.position(), 1e-8);
     EXPECT_NEAR(AngleDifference(b.path.At(s).pose.yaw, expected.yaw), 0.0, Tolerance(1e-9));
   }
   EXPECT_GT(planned, 40);
@@ -525,8 +521,8 @@ void ExpectFilletIdentities(const std::vector<Vec2>& route, const FilletPlan& pl
 
     const PathPoint begin = plan.path.At(turn.arc_start_s);
     const PathPoint end = plan.path.At(turn.arc_start_s + turn.arc_length);
-    ExpectPoint(begin.pose.position(), turn.arc_start, kPromised);
-    ExpectPoint(end.pose.position(), turn.arc_end, kPromised);
+    ExpectNear(begin.pose.position(), turn.arc_start, kPromised);
+    ExpectNear(end.pose.position(), turn.arc_end, kPromised);
     EXPECT_NEAR((Direction(begin.pose.yaw) - in).norm(), 0.0, Tolerance(kPromised));
     EXPECT_NEAR((Direction(end.pose.yaw) - out).norm(), 0.0, Tolerance(kPromised));
     EXPECT_NEAR(plan.path.At(turn.arc_start_s + 0.5 * turn.arc_length).curvature * turn.radius,
@@ -545,8 +541,8 @@ void ExpectFilletIdentities(const std::vector<Vec2>& route, const FilletPlan& pl
   EXPECT_NEAR(plan.path.length(), legs - saved, Tolerance(kPromised));
   const Pose2 start = plan.path.At(0.0).pose;
   const Pose2 end = plan.path.At(plan.path.length()).pose;
-  ExpectPoint(start.position(), route.front(), kPromised);
-  ExpectPoint(end.position(), route.back(), kPromised);
+  ExpectNear(start.position(), route.front(), kPromised);
+  ExpectNear(end.position(), route.back(), kPromised);
   const Vec2 first = (route[1] - route[0]).normalized();
   const Vec2 last = (route.back() - route[route.size() - 2]).normalized();
   EXPECT_NEAR((Direction(start.yaw) - first).norm(), 0.0, Tolerance(kPromised));
@@ -653,7 +649,7 @@ TEST(PlanFillets, EndsAtGoalAfterALongFirstLeg) {
   const std::vector<Vec2> route{{0, 0}, {1000, 0}, {1000, 10.0 + rest}};
   const FilletPlan plan = PlanGiven(route, 10.0);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
-  ExpectPoint(plan.path.At(plan.path.length()).pose.position(), route.back(), kPromised);
+  ExpectNear(plan.path.At(plan.path.length()).pose.position(), route.back(), kPromised);
 }
 
 TEST(PlanFillets, CollinearWaypointsMakeNoTurn) {
@@ -673,7 +669,7 @@ TEST(PlanFillets, CollinearWaypointsMakeNoTurn) {
   EXPECT_NEAR(b.turns[0].steer_start, a.turns[0].steer_start, Tolerance(kRounding));
   EXPECT_NEAR(b.path.length(), a.path.length(), Tolerance(kRounding));
   EXPECT_EQ(b.path.segments().size(), 3U);
-  ExpectPoint(b.path.At(b.path.length()).pose.position(), {60, 60}, kRounding);
+  ExpectNear(b.path.At(b.path.length()).pose.position(), {60, 60}, kRounding);
 }
 
 TEST(PlanFillets, CollinearWaypointsNeedNoExactNumbers) {
@@ -684,7 +680,7 @@ TEST(PlanFillets, CollinearWaypointsNeedNoExactNumbers) {
       PlanWith({{0, 0}, end / 3.0, end * (2.0 / 3.0), end}, RadiusConstraint::kSteeringRoom);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   EXPECT_TRUE(plan.turns.empty());
-  ExpectPoint(plan.path.At(plan.path.length()).pose.position(), end, kPromised);
+  ExpectNear(plan.path.At(plan.path.length()).pose.position(), end, kPromised);
 }
 
 TEST(PlanFillets, GivenRadiusOnTheConstraintIsAccepted) {

@@ -21,12 +21,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string Elevation(double a, double b, double c) {
-  return fmt::format(
-      "<elevationProfile><elevation s='0' a='{}' b='{}' c='{}' d='0'/></elevationProfile>", a, b,
-      c);
-}
-
 std::string Roll(double a) {
   return fmt::format(
       "<lateralProfile><superelevation s='0' a='{}' b='0' c='0' d='0'/></lateralProfile>", a);

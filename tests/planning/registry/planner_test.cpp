@@ -15,6 +15,7 @@
 
 #include "tests/planning/print_planner.h"
 #include "tests/planning/routes.h"
+#include "tests/support/waypoint_planners.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
@@ -280,16 +281,7 @@ TEST_P(EveryPlanner, ThrowsForNumbersThatAreNone) {
   }
 }
 
-/// All planners except those that need a road network or a track, which have their own tests.
-std::vector<PlannerEntry> PlannersOfWaypoints() {
-  std::vector<PlannerEntry> entries = Planners();
-  std::erase_if(entries, [](const PlannerEntry& entry) {
-    return entry.follows_lanes || entry.follows_track;
-  });
-  return entries;
-}
-
-INSTANTIATE_TEST_SUITE_P(Table, EveryPlanner, ::testing::ValuesIn(PlannersOfWaypoints()),
+INSTANTIATE_TEST_SUITE_P(Table, EveryPlanner, ::testing::ValuesIn(WaypointPlanners()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Planners, HaveNamesAndOptionsOfTheirOwn) {
