@@ -9,6 +9,7 @@
 
 #include "src/sim/adapt_faults.h"
 #include "src/sim/adapt_write.h"
+#include "src/sim/object_name.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file_name.h"
 #include "trackbed/sim/car_model.h"
@@ -73,7 +74,7 @@ void FindWheelSpeed(const FoundModel& found, const FoundVehicle& vehicle, FoundL
       limits.wheel_speed =
           m.actuator_ctrlrange[2 * i + 1] / std::abs(static_cast<double>(m.actuator_gear[6 * i]));
       findings.Guess("wheel speed", fmt::format("{:.4g} rad/s", limits.wheel_speed),
-                     "ctrlrange of the actuator " + NameOf(m, mjOBJ_ACTUATOR, i));
+                     "ctrlrange of the actuator " + ObjectName(m, mjOBJ_ACTUATOR, i));
       return;
     }
   }

@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "src/sim/object_name.h"
+
 namespace trackbed::adapt {
 namespace {
 
@@ -37,7 +39,7 @@ void NoteBase(const FoundModel& found, const FoundVehicle& vehicle, Findings& fi
       const char* kind = m.jnt_type[joint] == mjJNT_SLIDE   ? "slide"
                          : m.jnt_type[joint] == mjJNT_HINGE ? "hinge"
                                                             : "ball";
-      joints.push_back(fmt::format("{} {}", kind, NameOf(m, mjOBJ_JOINT, joint)));
+      joints.push_back(fmt::format("{} {}", kind, ObjectName(m, mjOBJ_JOINT, joint)));
     }
   }
   if (joints.empty()) {
@@ -78,8 +80,8 @@ void NoteRubbing(const FoundModel& found, const FoundVehicle& vehicle, const mjD
     findings.notes.push_back(fmt::format(
         "the tyre of {} touches the geom {} of the body {} {}; only tyres "
         "collide in the proposed file",
-        vehicle.wheels[static_cast<std::size_t>(wheel)].name, NameOf(m, mjOBJ_GEOM, other),
-        NameOf(m, mjOBJ_BODY, m.geom_bodyid[other]), when));
+        vehicle.wheels[static_cast<std::size_t>(wheel)].name, ObjectName(m, mjOBJ_GEOM, other),
+        ObjectName(m, mjOBJ_BODY, m.geom_bodyid[other]), when));
   }
 }
 
@@ -99,8 +101,8 @@ void NoteEqualities(const FoundModel& found, const FoundVehicle& vehicle, Findin
       findings.notes.push_back(fmt::format(
           "the equality constraint {} between the joints {} and {} is replaced by Ackermann's "
           "linkage",
-          NameOf(m, mjOBJ_EQUALITY, i), NameOf(m, mjOBJ_JOINT, m.eq_obj1id[i]),
-          m.eq_obj2id[i] < 0 ? "none" : NameOf(m, mjOBJ_JOINT, m.eq_obj2id[i])));
+          ObjectName(m, mjOBJ_EQUALITY, i), ObjectName(m, mjOBJ_JOINT, m.eq_obj1id[i]),
+          m.eq_obj2id[i] < 0 ? "none" : ObjectName(m, mjOBJ_JOINT, m.eq_obj2id[i])));
     }
   }
 }
@@ -119,7 +121,7 @@ void NoteLocked(const FoundModel& found, const FoundVehicle& vehicle, Findings& 
       is_kept = is_kept || joint == wheel.spin || joint == wheel.steer || joint == wheel.slide;
     }
     if (!is_kept) {
-      locked.push_back(NameOf(m, mjOBJ_JOINT, joint));
+      locked.push_back(ObjectName(m, mjOBJ_JOINT, joint));
     }
   }
   if (!locked.empty()) {

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "src/sim/adapt_wheels.h"
+#include "src/sim/object_name.h"
 #include "trackbed/core/error.h"
 
 // Finds a vehicle in a compiled model by geometry:
@@ -62,7 +63,7 @@ void ChooseVehicle(const FoundModel& found, const AdaptOptions& options,
   if (counts.size() > 1) {
     std::vector<std::string> names;
     for (const auto& [root, count] : counts) {
-      names.push_back(fmt::format("{} ({} wheels)", NameOf(m, mjOBJ_BODY, root), count));
+      names.push_back(fmt::format("{} ({} wheels)", ObjectName(m, mjOBJ_BODY, root), count));
     }
     Ask(found, "body",
         fmt::format("which vehicle? The model has {}: {}. Name one by --body NAME", counts.size(),
@@ -183,7 +184,8 @@ std::string OtherHinges(const FoundModel& found, const FoundVehicle& vehicle) {
         if (joint != wheel.spin && m.jnt_type[joint] == mjJNT_HINGE) {
           const mjtNum* axis = found.data->xaxis + 3 * joint;
           names.push_back(fmt::format("{} (axis {:.2f} {:.2f} {:.2f})",
-                                      NameOf(m, mjOBJ_JOINT, joint), axis[0], axis[1], axis[2]));
+                                      ObjectName(m, mjOBJ_JOINT, joint), axis[0], axis[1],
+                                      axis[2]));
         }
       }
     }
@@ -225,7 +227,7 @@ void OrientCar(const FoundModel& found, const AdaptOptions& options, FoundVehicl
     }
     wheels[2].steer = wheels[3].steer = -1;
     findings.Guess("forward",
-                   "the x axis of the body " + NameOf(*found.model, mjOBJ_BODY, vehicle.base),
+                   "the x axis of the body " + ObjectName(*found.model, mjOBJ_BODY, vehicle.base),
                    "assumed: both axles steer; --front-steering locks the rear one");
     return;
   }
@@ -255,8 +257,8 @@ void OrientCar(const FoundModel& found, const AdaptOptions& options, FoundVehicl
                  : direction < 0 ? "against x of the body"
                                  : "across x of the body",
                  fmt::format("the joints {} and {} steer the wheels on this side",
-                             NameOf(*found.model, mjOBJ_JOINT, wheels[0].steer),
-                             NameOf(*found.model, mjOBJ_JOINT, wheels[1].steer)));
+                             ObjectName(*found.model, mjOBJ_JOINT, wheels[0].steer),
+                             ObjectName(*found.model, mjOBJ_JOINT, wheels[1].steer)));
 }
 
 /// Whether the wheels stand on at most two axles, of which one has more than two wheels.
@@ -358,12 +360,6 @@ void Measure(const FoundModel& found, const AdaptOptions& options, FoundVehicle&
 }
 
 }  // namespace
-
-std::string NameOf(const mjModel& model, int type, int id) {
-  const char* name = mj_id2name(&model, type, id);
-  return name == nullptr || *name == '\0' ? fmt::format("number {}", id)
-                                          : fmt::format("'{}'", name);
-}
 
 FoundVehicle FindVehicle(const FoundModel& found, const AdaptOptions& options, Findings& findings) {
   const mjModel& m = *found.model;

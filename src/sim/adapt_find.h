@@ -52,9 +52,6 @@ struct Findings {
   }
 };
 
-/// Returns the quoted name of a body, joint, geom or actuator; for an unnamed object, its number.
-std::string NameOf(const mjModel& model, int type, int id);
-
 /// Finds the wheels, the axles and the frame of the vehicle. Throws InputError, with a question and
 /// the option that answers it, if the model has no vehicle that can be driven.
 FoundVehicle FindVehicle(const FoundModel& found, const AdaptOptions& options, Findings& findings);

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "src/sim/mujoco_compat.h"
+#include "src/sim/object_name.h"
 #include "trackbed/core/error.h"
 
 // Finds the limits of a vehicle in its compiled model.
@@ -51,7 +52,7 @@ Range RangeOfLeader(const mjModel& m, int front) {
       const bool follows = m.eq_obj1id[i] == front;
       return {follows ? own * slope : own / slope,
               fmt::format("the range of the joint {}, which {} is coupled to",
-                          NameOf(m, mjOBJ_JOINT, other), NameOf(m, mjOBJ_JOINT, front))};
+                          ObjectName(m, mjOBJ_JOINT, other), ObjectName(m, mjOBJ_JOINT, front))};
     }
   }
   return {};
@@ -67,7 +68,7 @@ Range RangeOfServo(const mjModel& m, int joint) {
       const mjtNum* range = m.actuator_ctrlrange + 2 * i;
       const double gear = std::abs(m.actuator_gear[6 * i]);
       return {std::min(-range[0], range[1]) / gear,
-              fmt::format("ctrlrange of the actuator {}", NameOf(m, mjOBJ_ACTUATOR, i))};
+              fmt::format("ctrlrange of the actuator {}", ObjectName(m, mjOBJ_ACTUATOR, i))};
     }
   }
   return {};
@@ -85,7 +86,7 @@ Range SteeringRange(const mjModel& m, const FoundVehicle& vehicle) {
   const int right = vehicle.wheels[1].steer;
   if (left == right) {
     return {SmallerSide(m, left), fmt::format("the range of the joint {}, which turns the axle",
-                                              NameOf(m, mjOBJ_JOINT, left))};
+                                              ObjectName(m, mjOBJ_JOINT, left))};
   }
   Range leader;
   for (const int front : {left, right}) {
@@ -97,10 +98,11 @@ Range SteeringRange(const mjModel& m, const FoundVehicle& vehicle) {
   // A front wheel may be coupled to the other front wheel instead of a joint between the wheels. In
   // this case, the range is an Ackermann angle of a wheel.
   Range wheel{std::min(SmallerSide(m, left), SmallerSide(m, right)),
-              fmt::format("the ranges of the joints {} and {}", NameOf(m, mjOBJ_JOINT, left),
-                          NameOf(m, mjOBJ_JOINT, right))};
-  const bool to_other = leader.evidence.find(NameOf(m, mjOBJ_JOINT, left)) != std::string::npos &&
-                        leader.evidence.find(NameOf(m, mjOBJ_JOINT, right)) != std::string::npos;
+              fmt::format("the ranges of the joints {} and {}", ObjectName(m, mjOBJ_JOINT, left),
+                          ObjectName(m, mjOBJ_JOINT, right))};
+  const bool to_other =
+      leader.evidence.find(ObjectName(m, mjOBJ_JOINT, left)) != std::string::npos &&
+      leader.evidence.find(ObjectName(m, mjOBJ_JOINT, right)) != std::string::npos;
   if (leader.limit < kLargestLimit && !to_other) {
     return leader;
   }
@@ -134,8 +136,8 @@ void FindSteering(const FoundModel& found, const FoundVehicle& vehicle, const Ad
                 ? fmt::format("{} allow {:.3g} rad, more than a car steers.", range.evidence,
                               range.limit)
                 : fmt::format("The joints {} and {} have no range, nor has a servo on them.",
-                              NameOf(*found.model, mjOBJ_JOINT, vehicle.wheels[0].steer),
-                              NameOf(*found.model, mjOBJ_JOINT, vehicle.wheels[1].steer)))});
+                              ObjectName(*found.model, mjOBJ_JOINT, vehicle.wheels[0].steer),
+                              ObjectName(*found.model, mjOBJ_JOINT, vehicle.wheels[1].steer)))});
   } else if (!(range.limit > kSmallestLimit)) {
     throw InputError(Problem{
         .file = found.file,
@@ -202,7 +204,7 @@ Motors FindMotors(const FoundModel& found, const FoundVehicle& vehicle,
       }
     }
     if (drives) {
-      motors.names.push_back(NameOf(m, mjOBJ_ACTUATOR, i));
+      motors.names.push_back(ObjectName(m, mjOBJ_ACTUATOR, i));
       motors.unlimited = motors.unlimited || !force;
     }
   }

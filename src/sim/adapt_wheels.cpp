@@ -9,6 +9,8 @@
 #include <numbers>
 #include <optional>
 
+#include "src/sim/object_name.h"
+
 namespace trackbed::adapt {
 namespace {
 
@@ -67,7 +69,7 @@ class WheelFinder {
                      .spin = joint,
                      .round = *best,
                      .axis = axis,
-                     .name = NameOf(m_, mjOBJ_JOINT, joint)};
+                     .name = ObjectName(m_, mjOBJ_JOINT, joint)};
     for (FoundWheel& other : wheels) {
       if ((other.round.center - wheel.round.center).norm() < 0.5 * wheel.round.radius) {
         other = wheel;  // the joints of a child body come later than those of its parent
@@ -110,8 +112,8 @@ class WheelFinder {
       fixed.push_back({.body = body,
                        .round = *round,
                        .axis = *axis,
-                       .name = "the geom " + NameOf(m_, mjOBJ_GEOM, geom) + " of the body " +
-                               NameOf(m_, mjOBJ_BODY, body)});
+                       .name = "the geom " + ObjectName(m_, mjOBJ_GEOM, geom) + " of the body " +
+                               ObjectName(m_, mjOBJ_BODY, body)});
     }
     wheels.insert(wheels.end(), fixed.begin(), fixed.end());
   }
@@ -149,7 +151,7 @@ std::string WhyNoWheels(const FoundModel& found) {
       continue;
     }
     const mjtNum* axis = found.data->xaxis + 3 * joint;
-    const std::string name = NameOf(m, mjOBJ_JOINT, joint);
+    const std::string name = ObjectName(m, mjOBJ_JOINT, joint);
     if (std::abs(axis[2]) > kHorizontal) {
       reasons.push_back(fmt::format("{} has the axis {:.2f} {:.2f} {:.2f}, with z up", name,
                                     axis[0], axis[1], axis[2]));

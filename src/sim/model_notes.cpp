@@ -5,16 +5,11 @@
 
 #include <algorithm>
 
+#include "src/sim/object_name.h"
 #include "trackbed/sim/mujoco_error.h"
 
 namespace trackbed {
 namespace {
-
-std::string Called(const mjModel& model, int type, int id) {
-  const char* name = mj_id2name(&model, type, id);
-  return name == nullptr || *name == '\0' ? fmt::format("number {}", id)
-                                          : fmt::format("'{}'", name);
-}
 
 /// Adds a note for each contact between a tyre and another geom of the car at qpos0.
 void AddRubbingTyres(const CarModel& car, std::vector<std::string>& notes) {
@@ -38,8 +33,8 @@ void AddRubbingTyres(const CarModel& car, std::vector<std::string>& notes) {
       notes.push_back(fmt::format(
           "{} touches the geom {} of the body {} at rest; give that geom contype=\"0\" and "
           "conaffinity=\"0\", or make it smaller",
-          mj_id2name(&model, mjOBJ_GEOM, tyre), Called(model, mjOBJ_GEOM, other),
-          Called(model, mjOBJ_BODY, model.geom_bodyid[other])));
+          mj_id2name(&model, mjOBJ_GEOM, tyre), ObjectName(model, mjOBJ_GEOM, other),
+          ObjectName(model, mjOBJ_BODY, model.geom_bodyid[other])));
     }
   }
 }
@@ -62,8 +57,8 @@ void AddLeftoverCouplings(const CarModel& car, std::vector<std::string>& notes) 
       notes.push_back(fmt::format(
           "the equality constraint {} between the joints {} and {} works against Ackermann's "
           "linkage; remove it",
-          Called(model, mjOBJ_EQUALITY, i), Called(model, mjOBJ_JOINT, a),
-          b < 0 ? "none" : Called(model, mjOBJ_JOINT, b)));
+          ObjectName(model, mjOBJ_EQUALITY, i), ObjectName(model, mjOBJ_JOINT, a),
+          b < 0 ? "none" : ObjectName(model, mjOBJ_JOINT, b)));
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "src/vehicle/lateral_offset.h"
 #include "src/vehicle/motion.h"
 #include "trackbed/core/error.h"
 
@@ -36,10 +37,7 @@ void KinematicCar::Step(const Command& command, double duration) {
 }
 
 void KinematicCar::ApplyLateralOffset(double left) {
-  TRACKBED_REQUIRE(std::isfinite(left), "ApplyLateralOffset: {} m; must be finite", left);
-  const Vec2 to = ToWorld(state_.pose, {0.0, left});
-  state_.pose.x = to.x();
-  state_.pose.y = to.y();
+  ApplyLateralOffsetTo(state_.pose, left);
 }
 
 void KinematicCar::Advance(const MotionPiece& piece) {

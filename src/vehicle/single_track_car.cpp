@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/vehicle/lateral_offset.h"
 #include "src/vehicle/motion.h"
 #include "trackbed/core/error.h"
 
@@ -74,10 +75,7 @@ void SingleTrackCar::Step(const Command& command, double duration) {
 }
 
 void SingleTrackCar::ApplyLateralOffset(double left) {
-  TRACKBED_REQUIRE(std::isfinite(left), "ApplyLateralOffset: {} m; must be finite", left);
-  const Vec2 to = ToWorld(state_.pose, {0.0, left});
-  state_.pose.x = to.x();
-  state_.pose.y = to.y();
+  ApplyLateralOffsetTo(state_.pose, left);
 }
 
 void SingleTrackCar::ApplyLateralForce(double impulse) {
