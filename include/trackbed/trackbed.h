@@ -18,10 +18,12 @@
 ///
 /// MakeSteppedLoop makes the loop of SimulateScenario, for a program that gives the commands
 /// itself. A Scenario can also be filled in code, with the options of any planner, local planner
-/// and controller. SimulateClosedLoop runs user-defined plants and controllers. Main is the
-/// command-line program. Further headers are in the folders of the modules.
+/// and controller. SimulateClosedLoop runs user-defined plants and controllers. RegisterPlanner,
+/// RegisterController, RegisterPlant and RegisterMetric add user-defined methods by name. Main is
+/// the command-line program. Further headers are in the folders of the modules.
 
 #include "trackbed/analysis/compare.h"                      // IWYU pragma: export
+#include "trackbed/analysis/metric_registry.h"              // IWYU pragma: export
 #include "trackbed/analysis/run.h"                          // IWYU pragma: export
 #include "trackbed/cli/main.h"                              // IWYU pragma: export
 #include "trackbed/control/controllers.h"                   // IWYU pragma: export
@@ -36,12 +38,16 @@
 #include "trackbed/control/rear_axle_feedback.h"            // IWYU pragma: export
 #include "trackbed/control/schedule.h"                      // IWYU pragma: export
 #include "trackbed/control/stanley.h"                       // IWYU pragma: export
+#include "trackbed/control/steering_controller.h"           // IWYU pragma: export
 #include "trackbed/control/steering_profile.h"              // IWYU pragma: export
 #include "trackbed/control/surroundings.h"                  // IWYU pragma: export
 #include "trackbed/drive/closed_loop.h"                     // IWYU pragma: export
 #include "trackbed/drive/drive.h"                           // IWYU pragma: export
 #include "trackbed/drive/stepped_loop.h"                    // IWYU pragma: export
 #include "trackbed/planning/avoidance/avoidance_options.h"  // IWYU pragma: export
+#include "trackbed/planning/common/course_schedule.h"       // IWYU pragma: export
+#include "trackbed/planning/common/curvature_steps.h"       // IWYU pragma: export
+#include "trackbed/planning/common/planner.h"               // IWYU pragma: export
 #include "trackbed/planning/course/course.h"                // IWYU pragma: export
 #include "trackbed/planning/course/lane_change.h"           // IWYU pragma: export
 #include "trackbed/planning/course/straight.h"              // IWYU pragma: export

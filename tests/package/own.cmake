@@ -31,6 +31,11 @@ if(name STREQUAL own-methods)
   expect(0 "passed" run ${EXAMPLE}/sidestep.yaml)
   expect(0 "all expectations met" test ${EXAMPLE}/sidestep.yaml)
   expect(0 "kinematic" compare ${EXAMPLE}/sidestep.yaml)
+  # On a flat road, the kinematic car does not roll.
+  expect(0 "passed" run ${EXAMPLE}/sidestep.yaml --set drive.plants=[kinematic]
+         --set "expect.metrics=[{metric: roll_max, max: 0}]")
+  expect(2 "unknown metric 'roll_mac'; did you mean 'roll_max'" run ${EXAMPLE}/sidestep.yaml
+         --set "expect.metrics=[{metric: roll_mac, max: 0}]")
   expect(0 "" sweep ${EXAMPLE}/distances.yaml --out study)
   expect(0 "" report out/sidestep -o sidestep.html)
   expect(2 "unknown 'sidestap'; did you mean 'sidestep'" run ${EXAMPLE}/sidestep.yaml --set plan.method=sidestap)

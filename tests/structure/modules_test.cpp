@@ -361,6 +361,7 @@ TEST(Pages, ShowTheirExamplesAsTheyAreBuilt) {
   const std::vector<Shown> all{
       {"add-a-planner.md", {"own-methods/main.cpp", "own-methods/sidestep.cpp"}},
       {"add-a-controller.md", {"own-methods/main.cpp", "own-methods/feedforward.cpp"}},
+      {"add-a-metric.md", {"own-methods/main.cpp", "own-methods/roll.cpp"}},
       {"add-a-plant.md", {"own-plant/own_plant.cpp"}}};
   for (const Shown& shown : all) {
     const std::string page = ReadText(kRoot / "docs/how-to" / shown.page);

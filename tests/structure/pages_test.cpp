@@ -74,39 +74,63 @@ TEST(Pages, NameFilesThatExist) {
   EXPECT_GT(seen, 100U);  // the scan found paths
 }
 
-/// Returns the functions that a struct of a header holds as pointers, such as `check`.
-std::set<std::string> FunctionsOf(const std::string& name, const fs::path& header) {
-  static const std::regex pointer("\\(\\*(\\w+)\\)\\(");
+std::string ReadText(const fs::path& file) {
   std::ostringstream read;
-  read << std::ifstream(kFolder / header).rdbuf();
-  const std::string text = read.str();
-  const std::size_t begin = text.find("struct " + name + " {");
-  EXPECT_NE(begin, std::string::npos) << name;
-  const std::string body = text.substr(begin, text.find("\n};", begin) - begin);
-  std::set<std::string> functions;
-  for (std::sregex_iterator match(body.begin(), body.end(), pointer), end; match != end; ++match) {
-    functions.insert((*match)[1]);
-  }
-  return functions;
+  read << std::ifstream(kFolder / file).rdbuf();
+  return read.str();
 }
 
-TEST(Pages, DescribeTheFunctionsOfEntries) {
+/// Returns the fields of a struct, and the virtual functions of a class, that a header declares,
+/// such as `check`. The function joins lines, so that a declaration may have several.
+std::set<std::string> MembersOf(const std::string& type, const fs::path& header) {
+  static const std::regex comment("//[^\n]*");
+  static const std::regex virtual_function("\\bvirtual [^;{~]*?\\b(\\w+)\\(");
+  static const std::regex pointer("\\(\\*(\\w+)\\)\\(");
+  static const std::regex field("\\b(\\w+)(?: = [^;()]*|\\{\\})?;");
+  const std::string text = ReadText(header);
+  const std::size_t begin = text.find("\n" + type + " {");
+  EXPECT_NE(begin, std::string::npos) << type;
+  const std::string body =
+      std::regex_replace(text.substr(begin, text.find("\n};", begin) - begin), comment, "");
+  std::set<std::string> members;
+  const auto collect = [&](const std::string& code, const std::regex& pattern) {
+    for (std::sregex_iterator match(code.begin(), code.end(), pattern), end; match != end;
+         ++match) {
+      members.insert((*match)[1]);
+    }
+  };
+  if (type.starts_with("class")) {
+    collect(body, virtual_function);
+  } else {
+    collect(body, pointer);
+    collect(body, field);
+    members.erase("nullptr");
+  }
+  return members;
+}
+
+TEST(Pages, DescribeTheMembersOfEntries) {
   struct Entry {
-    const char* name;
+    const char* type;
     const char* header;
     const char* page;
+    std::size_t count;  // of members, at least: the scan found the members
   };
   for (const Entry& entry :
-       {Entry{"PlannerEntry", "include/trackbed/planning/common/planner.h", "add-a-planner.md"},
-        Entry{"ControllerEntry", "include/trackbed/control/steering_controller.h",
-              "add-a-controller.md"}}) {
-    std::ostringstream page;
-    page << std::ifstream(kFolder / "docs/how-to" / entry.page).rdbuf();
-    const std::set<std::string> functions = FunctionsOf(entry.name, entry.header);
-    EXPECT_GT(functions.size(), 5U) << entry.name;
-    for (const std::string& function : functions) {
-      EXPECT_THAT(page.str(), testing::AnyOf(testing::HasSubstr("`" + function + "`"),
-                                             testing::HasSubstr("." + function + " = ")))
+       {Entry{"struct PlannerEntry", "include/trackbed/planning/common/planner.h",
+              "add-a-planner.md", 25},
+        Entry{"struct ControllerEntry", "include/trackbed/control/steering_controller.h",
+              "add-a-controller.md", 12},
+        Entry{"class Plant", "include/trackbed/sim/plant.h", "add-a-plant.md", 12},
+        Entry{"struct PlantEntry", "include/trackbed/sim/plant.h", "add-a-plant.md", 3},
+        Entry{"struct MetricEntry", "include/trackbed/analysis/metric_registry.h",
+              "add-a-metric.md", 7}}) {
+    const std::string page = ReadText(fs::path("docs/how-to") / entry.page);
+    const std::set<std::string> members = MembersOf(entry.type, entry.header);
+    EXPECT_GE(members.size(), entry.count) << entry.type;
+    for (const std::string& member : members) {
+      EXPECT_THAT(page, testing::AnyOf(testing::HasSubstr("`" + member + "`"),
+                                       testing::HasSubstr("." + member + " = ")))
           << entry.page;
     }
   }
