@@ -63,8 +63,8 @@ const char* ToString(MinimumTimeEnd end);
 struct MinimumTimeLine {
   std::string refused;  ///< Reason why no line was found; else empty.
   TrackLine line;
-  double time = 0.0;        ///< Lap time on the found line, computed by LapTime [s].
-  double start_time = 0.0;  ///< Lap time on the line of least curvature, computed by LapTime [s].
+  double time = 0.0;        ///< Lap time on the found line, equal to LapTime [s].
+  double start_time = 0.0;  ///< Lap time on the line of least curvature, equal to LapTime [s].
   /// Whether the found line is faster than the line of least curvature; if not, the result is the
   /// line of least curvature.
   bool improved = false;
