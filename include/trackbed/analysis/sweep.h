@@ -134,7 +134,8 @@ struct SweepResult {
   SweepSummary summary;
 };
 
-/// Runs all rows of a study in the same way as RunRows, but keeps the rows in memory.
+/// Runs all rows of a study in the same way as RunRows, but keeps the rows in memory: for programs
+/// that use the table without a folder. `trackbed sweep` writes the rows to a file by RunRows.
 SweepResult RunSweep(const StudyPoints& points, const RunScenarioOnce& run,
                      const SweepOptions& options);
 

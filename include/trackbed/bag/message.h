@@ -46,7 +46,8 @@ class BagMessage {
   std::vector<std::string> element_columns_;
 };
 
-/// Returns the types whose definitions are built in.
+/// Returns the types whose definitions are built in, for callers that ask before they read a bag
+/// without definitions.
 std::vector<std::string> BagMessageTypes();
 
 }  // namespace trackbed

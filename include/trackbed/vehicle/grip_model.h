@@ -79,7 +79,8 @@ GgvDiagram ComputeGgv(const GripModel& car, const std::vector<double>& roads);
 
 /// Returns the largest lateral force f_y, divided by the car's mass [m/s^2], on a road with the
 /// friction factor `road`. The force is computed without steering, at speed 0 and the longitudinal
-/// force f_x = `longitudinal`. Returns 0 if the axles cannot sustain f_x.
+/// force f_x = `longitudinal`. Returns 0 if the axles cannot sustain f_x. MaxLateralForce computes
+/// one point of the diagram, for comparisons of the model with a measured or simulated car.
 double MaxLateralForce(const GripModel& car, double road, double longitudinal);
 
 /// Makes a g-g-v diagram for a vehicle with unknown axles. The diagram has an ellipse for each of
