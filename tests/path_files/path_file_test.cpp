@@ -7,13 +7,16 @@
 
 #include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
+#include "src/path_files/formats.h"
 #include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
 
 // Tests the readers of path files (CSV, nav_msgs/Path, CommonRoad, GeoJSON): units, columns, error
 // messages with line numbers, limits, and files of arbitrary bytes.
@@ -734,36 +737,71 @@ TEST(GeoJson, SaysWhatIsWrong) {
   EXPECT_THAT(Error("p.geojson", Line("[[1, 2], [1, 3]]"), half), HasSubstr("origin_longitude"));
 }
 
-TEST(PathFile, ReadsAnyFormatFromAnyBytes) {
-  // The test truncates each text, and replaces each byte of the text. Reading must return a path or
-  // throw an InputError with a message.
-  const std::vector<std::pair<PathFormat, std::string>> texts{
-      {PathFormat::kCsv, "x_m,y_m,speed_mps\n1,2,3\n4,5,6\n"},
-      {PathFormat::kNavPath,
-       "poses: [{pose: {position: {x: 1, y: 2}}}, {pose: {position: {x: 2, y: 2}}}]"},
-      {PathFormat::kCommonRoad,
-       "<CommonRoadSolution><ksTrajectory><ksState><x>1</x><y>2</y></ksState><ksState><x>2</x>"
-       "<y>2</y></ksState></ksTrajectory></CommonRoadSolution>"},
-      {PathFormat::kGeoJson, R"({"type": "LineString", "coordinates": [[1, 2], [1.01, 2]]})"}};
-  const TempFolder folder;
-  const auto read = [&](const std::string& text, PathFormat format) {
-    try {
-      ReadPathFile(folder.Write("p", text), Of(format));
-    } catch (const InputError& error) {
-      EXPECT_STRNE(error.what(), "");
-    }
+/// Returns the content of a path file of the format; empty if the function has none.
+std::string Example(PathFormat format) {
+  const auto file = [](const char* name) {
+    return ReadFile(std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data" / name);
   };
-  for (const auto& [format, text] : texts) {
-    EXPECT_EQ(Error("q", text, Of(format)), "");
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      read(text.substr(0, i), format);
+  switch (format) {
+    case PathFormat::kAuto:
+      return "";
+    case PathFormat::kCsv:
+      return "x_m,y_m,speed_mps\n1,2,3\n4,5,6\n";
+    case PathFormat::kNavPath:
+      return "poses: [{pose: {position: {x: 1, y: 2}}}, {pose: {position: {x: 2, y: 2}}}]";
+    case PathFormat::kCommonRoad:
+      return "<CommonRoadSolution><ksTrajectory><ksState><x>1</x><y>2</y></ksState><ksState>"
+             "<x>2</x><y>2</y></ksState></ksTrajectory></CommonRoadSolution>";
+    case PathFormat::kGeoJson:
+      return R"({"type": "LineString", "coordinates": [[1, 2], [1.01, 2]]})";
+    case PathFormat::kGpx:
+      return "<gpx><trk><trkseg><trkpt lat='48' lon='11'/><trkpt lat='48.001' lon='11'/></trkseg>"
+             "</trk></gpx>";
+    case PathFormat::kKml:
+      return "<kml><Placemark><LineString><coordinates>11,48 11,48.001</coordinates></LineString>"
+             "</Placemark></kml>";
+    case PathFormat::kLanelet2:
+      return file("paths/lanelet2.osm");
+    case PathFormat::kBag:
+      return file("bags/odometry.mcap");
+  }
+  return "";
+}
+
+TEST(PathFile, ReadsAnyFormatFromAnyBytes) {
+  // The test truncates the example of each format, and replaces single bytes of the example.
+  // Reading must return a path or throw an InputError with a message. Long examples are changed at
+  // about kPlaces places.
+  constexpr std::size_t kPlaces = 400;
+  const TempFolder folder;
+  for (const PathFormatEntry& entry : PathFormats()) {
+    SCOPED_TRACE(entry.name);
+    PathMap map = Of(entry.format);
+    if (entry.format == PathFormat::kLanelet2) {
+      map.lanelets = {"21", "22"};
+    }
+    if (entry.format == PathFormat::kBag) {
+      map.topic = "/odom";
+    }
+    const auto read = [&](const std::string& text) {
+      try {
+        ReadPathFile(folder.Write("p", text), map);
+      } catch (const InputError& error) {
+        EXPECT_STRNE(error.what(), "");
+      }
+    };
+    const std::string text = Example(entry.format);
+    ASSERT_NE(text, "") << "add an example of the format";
+    EXPECT_EQ(Error("q", text, map), "");
+    for (std::size_t i = 0; i < text.size(); i += 1 + text.size() / kPlaces) {
+      read(text.substr(0, i));
       const std::string bytes(
           "\0\"[-\xff"
           "9:&#<",
           10);
       std::string other = text;
       other[i] = bytes[i % bytes.size()];
-      read(other, format);
+      read(other);
     }
   }
 }
