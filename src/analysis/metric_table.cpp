@@ -1,6 +1,7 @@
 #include "src/analysis/metric_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -154,13 +155,11 @@ MetricEntry Located(MetricEntry entry) {
   return entry;
 }
 
-}  // namespace
-
-std::vector<MetricEntry> BuiltInMetrics() {
+/// Metrics of how a plant drives along its plan, read from PlantMetrics.
+std::vector<MetricEntry> DriveMetrics() {
   using P = PlantMetrics;
   using T = TrackingMetrics;
   using C = ClearanceMetrics;
-  using R = RecordMetrics;
   using W = WaypointMissMetrics;
   constexpr MetricSpan kEnd = MetricSpan::kEnd;
   return {
@@ -193,6 +192,13 @@ std::vector<MetricEntry> BuiltInMetrics() {
       {"plan_changes", "Replans", "", Of(&P::plan_changes)},
       {"blocked", "Blocked", "", TextUnlessEmpty(&P::blocked)},
       {"partial", "Partial plan", "", TextUnlessEmpty(&P::partial)},
+  };
+}
+
+/// Metrics of the accelerations, the steering and the yaw of a plant, read from PlantMetrics.
+std::vector<MetricEntry> MotionMetrics() {
+  using P = PlantMetrics;
+  return {
       Headline(
           Located({"lateral_acceleration_max", "Maximum lateral acceleration (0.1 s mean)", "m/s^2",
                    At(&P::lateral_acceleration_max, &P::lateral_acceleration_max_s,
@@ -211,6 +217,14 @@ std::vector<MetricEntry> BuiltInMetrics() {
                 OscillationAmplitude}),
       {"oscillation.frequency", "Frequency of the oscillation", "Hz", OscillationFrequency},
       {"yaw_rate_ratio", "Yaw rate relative to the kinematic model", "", YawRateRatio},
+  };
+}
+
+/// Metrics of a plant against the recorded drive of the scenario, read from PlantMetrics.
+std::vector<MetricEntry> RecordEntries() {
+  using R = RecordMetrics;
+  constexpr MetricSpan kEnd = MetricSpan::kEnd;
+  return {
       Headline({"recorded.yaw_rate.relative_rms", "Yaw rate against the record, relative rms", "",
                 Of(&R::yaw_rate_relative_rms)}),
       {"recorded.lateral_acceleration.relative_rms",
@@ -224,6 +238,12 @@ std::vector<MetricEntry> BuiltInMetrics() {
       {"recorded.heading.rms", "Heading against the record, rms", "rad", Of(&R::heading_rms)},
       Located({"recorded.heading.max", "Maximum heading difference from the record", "rad",
                At(&R::heading_max, &R::heading_max_s, &R::heading_max_t)}),
+  };
+}
+
+/// Metrics that are computed from the log.
+std::vector<MetricEntry> LogEntries() {
+  return {
       Located({"sideslip_max", "Maximum sideslip angle", "rad", {}, LargestSideslip}),
       {"predicted_time", "Time predicted at the limit", "s", {}, PredictedTime},
       {"time_over_predicted", "Time over the predicted one", "", {}, TimeOverPredicted},
@@ -260,6 +280,17 @@ std::vector<MetricEntry> BuiltInMetrics() {
                {},
                LargestOffTracking}),
   };
+}
+
+}  // namespace
+
+std::vector<MetricEntry> BuiltInMetrics() {
+  std::vector<MetricEntry> all;
+  for (const std::vector<MetricEntry>& part :
+       std::array{DriveMetrics(), MotionMetrics(), RecordEntries(), LogEntries()}) {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
 }
 
 const std::vector<TurnMetricEntry>& TurnMetricTable() {

@@ -202,6 +202,58 @@ void LeaveOutOwnCar(CommonRoadScenario& scenario) {
   }
 }
 
+/// Place of the planning problem in the file, for error messages.
+struct ProblemPlace {
+  const std::filesystem::path& file;
+  int line;
+};
+
+/// Chooses the route and the speed of the scenario, and removes the regions of the goal that the
+/// route does not pass.
+void ChooseRoute(const PlanningProblem& problem, const Lanelets& lanelets,
+                 const std::vector<LaneletLane>& lanes, const ProblemPlace& place,
+                 CommonRoadScenario& scenario) {
+  // Compute path and speed twice: the length of the path depends on the speed, and the speed
+  // depends on the path.
+  scenario.speed = std::max(problem.speed, kMinSpeed);
+  for (int pass = 0; pass < 2; ++pass) {
+    const double speed = std::max(scenario.speed, problem.speed);
+    const double stop = speed * speed / (2.0 * kAcceleration) + 10.0;
+    const double ahead = problem.goal.regions.empty() ? speed * problem.goal.time.second : 0.0;
+    const bool has_aim = problem.goal_lanelets.empty() && problem.goal.regions.size() == 1;
+    const auto aim = has_aim ? std::optional(MiddleOf(problem.goal.regions.front())) : std::nullopt;
+    double length = stop + ahead;
+    for (const LaneletLane& lane : lanes) {
+      for (const Lanelet* lanelet : lane) {
+        length += lanelet->Length();
+      }
+    }
+    if (length > kMaxLength) {
+      Refuse(place.file, "goalState",
+             fmt::format("the route to the goal would be {:.4g} km long; must be at most {:.0f} km",
+                         1e-3 * length, 1e-3 * kMaxLength),
+             place.line);
+    }
+    scenario.route = LaneletPath(lanelets, lanes, problem.start, aim, speed, stop + ahead);
+    const std::optional<Passage> passage = PassageOf(scenario.route, problem.goal.regions);
+    if (!passage) {
+      Refuse(place.file, "goalState", "the route along the lanelets does not pass through the goal",
+             place.line);
+    }
+    scenario.speed = ChooseSpeed(problem, *passage);
+    if (pass == 1) {
+      const double latest = DrivenIn(problem.goal.time.second, problem.speed, scenario.speed);
+      const double at_goal = std::max(passage->from, std::min(passage->to, latest));
+      Cut(scenario.route, at_goal + stop);
+      MeasureRoute(lanelets, at_goal, scenario);
+      std::erase_if(scenario.goal.regions, [&](const CommonRoadRegion& region) {
+        return std::none_of(scenario.route.begin(), scenario.route.end(),
+                            [&](const Vec2& point) { return region.Contains(point); });
+      });
+    }
+  }
+}
+
 }  // namespace
 
 bool IsCommonRoadScenario(const std::string& text) {
@@ -247,45 +299,7 @@ CommonRoadScenario ReadCommonRoadScenario(const std::filesystem::path& file,
   LeaveOutOwnCar(scenario);
   const int line = root.FirstChildElement("planningProblem")->GetLineNum();
   const std::vector<LaneletLane> lanes = LanesOf(problem, lanelets, reading, line);
-  // Compute path and speed twice: the length of the path depends on the speed, and the speed
-  // depends on the path.
-  scenario.speed = std::max(problem.speed, kMinSpeed);
-  for (int pass = 0; pass < 2; ++pass) {
-    const double speed = std::max(scenario.speed, problem.speed);
-    const double stop = speed * speed / (2.0 * kAcceleration) + 10.0;
-    const double ahead = problem.goal.regions.empty() ? speed * problem.goal.time.second : 0.0;
-    const bool has_aim = problem.goal_lanelets.empty() && problem.goal.regions.size() == 1;
-    const auto aim = has_aim ? std::optional(MiddleOf(problem.goal.regions.front())) : std::nullopt;
-    double length = stop + ahead;
-    for (const LaneletLane& lane : lanes) {
-      for (const Lanelet* lanelet : lane) {
-        length += lanelet->Length();
-      }
-    }
-    if (length > kMaxLength) {
-      Refuse(file, "goalState",
-             fmt::format("the route to the goal would be {:.4g} km long; must be at most {:.0f} km",
-                         1e-3 * length, 1e-3 * kMaxLength),
-             line);
-    }
-    scenario.route = LaneletPath(lanelets, lanes, problem.start, aim, speed, stop + ahead);
-    const std::optional<Passage> passage = PassageOf(scenario.route, problem.goal.regions);
-    if (!passage) {
-      Refuse(file, "goalState", "the route along the lanelets does not pass through the goal",
-             line);
-    }
-    scenario.speed = ChooseSpeed(problem, *passage);
-    if (pass == 1) {
-      const double latest = DrivenIn(problem.goal.time.second, problem.speed, scenario.speed);
-      const double at_goal = std::max(passage->from, std::min(passage->to, latest));
-      Cut(scenario.route, at_goal + stop);
-      MeasureRoute(lanelets, at_goal, scenario);
-      std::erase_if(scenario.goal.regions, [&](const CommonRoadRegion& region) {
-        return std::none_of(scenario.route.begin(), scenario.route.end(),
-                            [&](const Vec2& point) { return region.Contains(point); });
-      });
-    }
-  }
+  ChooseRoute(problem, lanelets, lanes, {file, line}, scenario);
   scenario.lanes = DrawnLanesOf(lanelets, scenario.route);
   if (root.FirstChildElement("environmentObstacle") != nullptr) {
     scenario.notes.emplace_back("environment obstacles, such as buildings, are not read");
