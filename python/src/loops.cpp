@@ -11,6 +11,11 @@
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
 
+// Loops that Python steps.
+// 1. Prepare plans a scenario once; each loop starts from the plan.
+// 2. Loop wraps a SteppedLoop with a mutex, because several threads of Python may share a loop.
+//    Steps release the GIL, so that other threads of Python run meanwhile.
+// 3. VectorLoop steps several loops on its own threads, and writes one row of an array for each.
 namespace trackbed::python {
 namespace {
 
@@ -192,10 +197,7 @@ py::array_t<double> CurvatureAhead(const VectorLoop& loops, const Numbers& dista
   return rows;
 }
 
-}  // namespace
-
-void BindLoops(py::module_& module) {
-  BindObservation(module);
+void BindPrepared(py::module_& module) {
   py::class_<Prepared, std::shared_ptr<Prepared>>(module, "Prepared")
       .def_property_readonly("name", [](const Prepared& p) { return p.scenario->name; })
       .def_property_readonly("period",
@@ -205,7 +207,9 @@ void BindLoops(py::module_& module) {
       .def_property_readonly("path_length",
                              [](const Prepared& p) { return p.plan->reference.path.length(); });
   module.def("prepare", &Prepare);
+}
 
+void BindLoop(py::module_& module) {
   py::class_<SteppedLoop, std::shared_ptr<SteppedLoop>>(module, "LoopState");
   py::class_<Loop, std::shared_ptr<Loop>>(module, "Loop")
       .def(py::init([](const Prepared& prepared, const std::string& plant, bool keeps_log) {
@@ -264,7 +268,9 @@ void BindLoops(py::module_& module) {
         return std::make_shared<Columns>(
             self.With([](const SteppedLoop& loop) { return ToTable(loop.log()); }));
       });
+}
 
+void BindVectorLoop(py::module_& module) {
   py::class_<VectorLoop>(module, "VectorLoop")
       .def(py::init<std::vector<std::shared_ptr<Loop>>, int>())
       .def("observe", &ObserveAll)
@@ -289,6 +295,15 @@ void BindLoops(py::module_& module) {
             [&](std::size_t i, const SteppedLoop& loop) { cells[i] = loop.status().has_value(); });
         return ended;
       });
+}
+
+}  // namespace
+
+void BindLoops(py::module_& module) {
+  BindObservation(module);
+  BindPrepared(module);
+  BindLoop(module);
+  BindVectorLoop(module);
 }
 
 }  // namespace trackbed::python

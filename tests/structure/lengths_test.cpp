@@ -52,7 +52,7 @@ std::size_t LinesOfAlgorithm(const std::vector<std::string>& lines) {
 
 std::vector<fs::path> SourceFiles() {
   std::vector<fs::path> files;
-  for (const char* folder : {"include/trackbed", "src", "render"}) {
+  for (const char* folder : {"include/trackbed", "src", "render", "python/src"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kTree / folder)) {
       const fs::path ending = entry.path().extension();
       if (ending == ".h" || ending == ".cpp" || ending == ".js" || ending == ".css") {
