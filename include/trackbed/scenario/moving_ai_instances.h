@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-/// Reads the path-planning problems of the Moving AI benchmarks (Sturtevant 2012), for programs that
-/// compare a planner with the listed lengths, such as scripts/movingai (docs/how-to/maps.md).
+/// Reads the path-planning problems of the Moving AI benchmarks (Sturtevant 2012), for programs
+/// that compare a planner with the listed lengths, such as scripts/movingai (docs/how-to/maps.md).
 namespace trackbed {
 
 /// A path-planning problem: find a path between two cells of a map. As in a GridMap, rows are
