@@ -23,8 +23,8 @@ target_compile_options(
             # the deprecated functions that Trackbed's sources call.
             $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
             # Debian 12's Boost 1.74 casts integers outside an enumeration's range, which is an
-            # error for Clang 16 and later. Clang 20 no longer has the flag that disables this
-            # error.
+            # error for Clang 16 and later. Clang 20 no longer has the flag that turns this error
+            # off.
             $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,16>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,20>>:-Wno-enum-constexpr-conversion>
             # Allow long string literals, because the report page is a single literal
             # (ReportPage.cmake).
@@ -33,8 +33,9 @@ target_compile_options(
             # on every machine.
             -ffp-contract=off
             $<$<BOOL:${TRACKBED_WARNINGS_AS_ERRORS}>:-Werror>)
-# Options of all modules, whose code is position-independent. No program replaces a function of a
-# module at load time, so the compiler may inline the calls inside a module, as in other code.
+# Compiler options of all modules, whose code is position-independent. No program replaces a
+# function of a module at load time, so the compiler may inline the calls inside a module, as in
+# other code.
 set(TRACKBED_POSITION_INDEPENDENT -fno-semantic-interposition)
 if(TRACKBED_FUZZ)
   # Instruments the code with Clang's coverage counters, which libFuzzer needs.

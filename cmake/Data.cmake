@@ -1,6 +1,6 @@
 # Lets the module sim find the folders models/ and scenarios/, even though no installed file
 # contains an absolute path. DataFolder (trackbed/sim/scene.h) looks beside the program first, then
-# in the result of PlaceOfData, defined by:
+# in the result of PlaceOfData. The definition of PlaceOfData depends on the build:
 #   shared library of sim   the folder beside the library
 #   static libraries        a source file written by each CMake build (Place.cmake); in other builds
 #                           libtrackbed_default_place.a, which trackbed.pc links, reports an error

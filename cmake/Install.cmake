@@ -1,6 +1,6 @@
 # `cmake --install` installs the program, the package `trackbed` for CMake and pkg-config, the
 # models and scenarios, and the documentation. All installed paths are relative to the CMake package
-# or to the program, so the installation can be moved.
+# or to the program, so the installation can be moved. The installed targets are:
 #
 #   trackbed::trackbed   the library: all modules but testing
 #   trackbed::MODULE     one module, such as trackbed::drive or trackbed::planning_search
@@ -36,8 +36,8 @@ foreach(module IN LISTS modules)
   endif()
 endforeach()
 
-# Headers that programs may include (docs/how-to/embed.md). These headers and all headers that they
-# include are installed. All other headers are internal.
+# Headers that programs may include (docs/how-to/embed.md). The public headers and all headers that
+# they include are installed. All other headers are internal.
 set(public_headers
     trackbed.h
     analysis/compare_runs.h

@@ -19,8 +19,8 @@ find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 find_package(PNG REQUIRED)
 include(${CMAKE_CURRENT_LIST_DIR}/Mujoco.cmake)
 
-# Defines the imported target TARGET for a library whose own package is not used. ARGN: further
-# arguments of find_path.
+# Defines the imported target TARGET for a library whose own package is not used. ARGN contains
+# further arguments of find_path.
 function(trackbed_find_library target header library)
   if(TARGET ${target})
     return()

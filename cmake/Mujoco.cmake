@@ -1,11 +1,12 @@
 # Defines the target mujoco::mujoco, for Trackbed's build and for projects that link the package.
+# The variable TRACKBED_MUJOCO selects the MuJoCo:
 #
 #   TRACKBED_MUJOCO  wheel: the release of scripts/packages/mujoco.txt, which scripts/setup unpacks
 #                      below build/
 #                    debian: find_package(mujoco CONFIG): Debian's libmujoco-dev, or the package
 #                      that mujoco_DIR or CMAKE_PREFIX_PATH selects
 #                    a folder: an unpacked release archive, or any folder with
-#                      include/mujoco/mujoco.h and lib/libmujoco.so
+#                      include/mujoco/mujoco.h and lib/libmujoco.so.
 #
 # Sets TRACKBED_MUJOCO_FOLDER to the folder of the wheel or the archive, which `cmake --install`
 # copies; TRACKBED_MUJOCO_FOLDER is empty for the system's MuJoCo.

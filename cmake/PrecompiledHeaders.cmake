@@ -1,19 +1,19 @@
 # trackbed_precompile(TARGET KIND)
 #
 # Lets TARGET use a precompiled header with the headers that take half of the compile time of most
-# sources. KIND also selects the optimization:
-#   NUMERICS  standard containers, fmt and Eigen, with the optimization of the preset
-#   LIGHT     also JSON, with -O1: for targets that read, write and evaluate results; full optimization
-#             of these targets took a third of the compile time without benefit
-#   TESTS     as LIGHT, with GoogleTest
+# sources. KIND selects the headers and the optimization:
+#   NUMERICS  standard containers, fmt and Eigen, with the optimization of the preset.
+#   LIGHT     also JSON, with -O1, for targets that read, write and evaluate results. Full
+#             optimization of these targets took a third of the compile time without benefit.
+#   TESTS     as LIGHT, with GoogleTest.
 #
 # All targets of a kind share one precompiled header, because GCC takes the optimization level from
 # the precompiled header. The compiler rejects a precompiled header if the header reads a macro that
-# has another value in the target. Libraries define such macros: for example, tinyxml2 in Debian 13
-# defines _FILE_OFFSET_BITS. Targets whose libraries define such macros therefore share a second
-# precompiled header, compiled with these macros. If a macro does not match
-# TRACKBED_MACROS_OF_PRECOMPILED, GCC warns and parses the headers as text. The target header_checks
-# still compiles each public header alone, without a precompiled header.
+# has another value in the target. Some libraries define macros that system headers read: for
+# example, tinyxml2 in Debian 13 defines _FILE_OFFSET_BITS. Targets whose libraries define such
+# macros therefore share a second precompiled header, compiled with these macros. If a macro does
+# not match TRACKBED_MACROS_OF_PRECOMPILED, GCC warns and parses the headers as text. The target
+# header_checks still compiles each public header alone, without a precompiled header.
 option(TRACKBED_PRECOMPILED_HEADERS "Precompile the headers that most sources include" ON)
 
 set(light $<$<CONFIG:Release>:-O1>)
@@ -103,8 +103,8 @@ if(TRACKBED_PRECOMPILED_HEADERS)
   endif()
 endif()
 
-# Sets the precompiled header of a target. CMake calls this function at the end of the folder, when
-# the target already links all its libraries.
+# Sets the precompiled header of a target. CMake calls trackbed_use_precompiled_header at the end of
+# the folder, when the target already links all its libraries.
 function(trackbed_use_precompiled_header target kind)
   trackbed_library_macros(${target} macros)
   trackbed_precompiled_header(${kind} header ${macros})

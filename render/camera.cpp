@@ -9,8 +9,9 @@
 #include "trackbed/core/spelling.h"
 
 // Computes the poses of the cameras of films: chase, side, driver, orbit and top.
-// 1. Each camera is a function of the recording and the time. Headings are averaged over 0.8 s
-//    before and after the time, with triangular weights, so that cameras turn smoothly.
+// 1. Each camera is a function of the recording and the time. Headings are averaged from 0.8 s
+//    before to 0.8 s after the frame's time, with triangular weights, so that cameras turn
+//    smoothly.
 // 2. The camera's distance and height are multiples of the size of the car, and include a trailer.
 // 3. LiftOnto adds the height and the slope of the ground around the car.
 // CameraTable lists the cameras with their names; FindCamera suggests the most similar name.
@@ -62,7 +63,7 @@ CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   pose.target_z = 1.0 * size;
   pose.distance = 14.5 * size + subject.box().towed;
   pose.paint_scale = size;
-  // The camera looks slightly from the side, so that the car's flank and the trail beside the
+  // The chase camera looks slightly from the side, so that the car's flank and the trail beside the
   // caption are visible.
   pose.azimuth = heading + 14.0 * kPi / 180.0;
   pose.elevation = -18.0 * kPi / 180.0;
@@ -105,8 +106,8 @@ CameraPose Driver(const CameraSubject& subject, double time, double aspect) {
   constexpr double kFieldOfView = 66.0 * kPi / 180.0;
   CameraPose pose;
   pose.inside = true;
-  // The camera is at the driver's eye: midway along the car, left of the center line, below the
-  // roof.
+  // The driver's camera is at the driver's eye: midway along the car, left of the center line,
+  // below the roof.
   const Vec2 eye = ToWorld({car.x, car.y, heading}, {box.middle, 0.45 * box.half_width});
   pose.distance = 8.0 * subject.box().scale();
   pose.paint_scale = subject.box().scale();
@@ -140,8 +141,8 @@ CameraPose Orbit(const CameraSubject& subject, double time, double /*aspect*/) {
 }
 
 CameraPose Top(const CameraSubject& subject, double time, double aspect) {
-  // The camera is high above the ground and has a narrow angle of view, so that perspective hardly
-  // distorts vertical objects.
+  // The top camera is high above the ground and has a narrow angle of view, so that perspective
+  // hardly distorts vertical objects.
   constexpr double kViewAngle = 20.0 * kPi / 180.0;
   const double size = subject.box().scale();
   // Margin between the route and the edges of the frame [m].

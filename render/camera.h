@@ -41,7 +41,7 @@ class CameraSubject {
   /// Height of the ground under the car, averaged over about a second around `time` [m].
   [[nodiscard]] double SmoothGround(double time) const;
   /// Returns the weighted fraction, in [0, 1], of the time around `time` that the car spends in
-  /// reverse gear. For a car at rest, the gear of the car's last motion counts.
+  /// reverse gear. A car at rest is treated as being in the gear of its last motion.
   [[nodiscard]] double SmoothReverse(double time) const;
   /// Start time of the recording [s].
   [[nodiscard]] double begin() const { return car_.begin(); }
@@ -53,8 +53,8 @@ class CameraSubject {
   /// Slope of the ground plane without bumps and other features, as (dz/dx, dz/dy).
   [[nodiscard]] const Vec2& grade() const { return recording_.world.ground.grade; }
 
-  /// One corner of the rectangle that contains the plan, the replanned paths and every plant's path
-  /// [m].
+  /// Corner with the smallest x and y of the rectangle that contains the plan, the replanned paths
+  /// and every plant's path [m].
   [[nodiscard]] Point lowest() const { return lowest_; }
   [[nodiscard]] Point highest() const { return highest_; }
 

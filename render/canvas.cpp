@@ -97,8 +97,8 @@ void Canvas::Blend(int x, int y, Color color, double alpha) {
 void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double alpha) {
   const double center_x = rectangle.left + 0.5 * rectangle.width;
   const double center_y = rectangle.top + 0.5 * rectangle.height;
-  // For pixels not at the panel's edges, the new value depends only on the old value, so a lookup
-  // table is used. Most pixels of a panel are not at its edges.
+  // The new value of a pixel inside the panel depends only on the old value, so a lookup table is
+  // used. Most pixels of a panel are not at its edges.
   const int inner_left = std::max(0, static_cast<int>(std::ceil(rectangle.left + radius)) + 1);
   const int inner_right = std::min(
       image_.width, static_cast<int>(std::floor(rectangle.left + rectangle.width - radius)) - 1);
@@ -182,7 +182,7 @@ Canvas::Box Canvas::BoxAround(const std::vector<CanvasPoint>& points, double rea
 
 void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color color,
                     double alpha) {
-  const double reach = 0.5 * width + 0.5;  // the edge of the line fades over half a pixel
+  const double reach = 0.5 * width + 0.5;  // half a pixel more, because the edge of a line fades
   const Box all = BoxAround(points, reach);
   if (points.size() < 2 || all.right <= all.left || all.bottom <= all.top) {
     return;

@@ -19,8 +19,8 @@ namespace {
 struct Reading {
   std::string label;
   std::string value;
-  // longest possible text of the value; determines the column width, so that columns stay in place
-  // when numbers change
+  // longest possible text of the displayed value; determines the column's width, so that columns
+  // stay in place when numbers change
   std::string widest;
 };
 
@@ -71,7 +71,8 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
 }
 
 /// Draws the readings in a narrow bar above the row `bottom` [px]. The bar with the readings has
-/// several lines if the frame is too narrow for one line. Returns the top row of the bar [px].
+/// several lines if the frame is too narrow for one line. Returns the top row of the bar with the
+/// readings [px].
 double DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, double width,
                     double bottom, const Readings& readings) {
   const double space = 0.4 * layout.pad;  // gap between a label and its value

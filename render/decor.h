@@ -22,8 +22,8 @@ mjvGeom* AddDecor(mjvScene& scene, mjtGeom type, const std::array<mjtNum, 3>& si
                   const Eigen::Vector3d& center, const RowMajorMatrix3& rotation,
                   const std::array<float, 4>& rgba);
 
-/// Removes from the scene all geoms for which `leave_out` returns true. The remaining geoms keep
-/// their order.
+/// Removes from the scene all geoms for which `leave_out` returns true. RemoveGeoms keeps the order
+/// of the remaining geoms.
 template <typename Predicate>
 void RemoveGeoms(mjvScene& scene, Predicate leave_out) {
   scene.ngeom = static_cast<int>(std::remove_if(scene.geoms, scene.geoms + scene.ngeom, leave_out) -

@@ -74,8 +74,8 @@ bool HasErrorScale(const Recording& recording) {
 
 std::vector<double> ErrorFractions(const Recording& recording) {
   constexpr double kSteps = 16.0;
-  // deviation of the error from the present color's value at which the color changes, as a fraction
-  // of a color step; above 0.5, so that there is hysteresis
+  // the color changes when the error deviates from the present color's value by this fraction of a
+  // color step; values above 0.5 cause hysteresis
   constexpr double kHysteresis = 0.6;
   const PlantRecording& car = recording.plants.front();
   std::vector<double> fractions;

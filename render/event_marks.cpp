@@ -153,8 +153,8 @@ class EventMarks : public Overlay {
     }
   }
 
-  /// Draws the text of an event in a panel. Returns the position of the lower edge of the next
-  /// panel above [px].
+  /// Draws the text of an event in a panel. Returns the row at which the lower edge of the next
+  /// panel, above this panel, must be [px].
   static double DrawLine(Canvas& canvas, const Font& font, const Layout& layout, double first,
                          double bottom, const RunEvent& event) {
     const double tall = layout.label + 0.6 * layout.pad;

@@ -26,8 +26,8 @@ GlSurroundings ReadGlSurroundings();
 /// RunError if the process cannot draw with the requested library.
 std::vector<GlLibrary> ChooseGl(const std::string& gl, const GlSurroundings& surroundings);
 
-/// Makes an OpenGL context with the first of the libraries that can create one. Throws RunError if
-/// none of the libraries can create a context.
+/// Makes an OpenGL context with the first library that can create an OpenGL context. Throws
+/// RunError if none of the libraries can create an OpenGL context.
 std::unique_ptr<GlContext> MakeGlContext(const std::vector<GlLibrary>& libraries,
                                          const GlFiles& files = {});
 

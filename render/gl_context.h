@@ -21,8 +21,8 @@ class GlContext {
   GlContext& operator=(const GlContext&) = delete;
 
   [[nodiscard]] virtual GlLibrary library() const = 0;
-  /// Returns the address of the OpenGL function with the given name; null if there is no such
-  /// function.
+  /// Returns the address of the OpenGL function with the given name; null if the library has no
+  /// function with this name.
   [[nodiscard]] virtual void* Function(const char* name) const = 0;
 
   /// Returns OpenGL's version and renderer, such as "4.5 (Compatibility Profile) Mesa 22.3.6,

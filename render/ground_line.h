@@ -23,8 +23,8 @@ std::size_t PointCount(const std::vector<std::vector<Point>>& lines);
 /// Returns the outline of a rectangle on the ground, as a closed line.
 std::vector<Point> Outline(const Recording& recording, const std::array<Vec2, 4>& corners);
 
-/// Adds one straight piece of a line to the scene. The piece is omitted if it is so far from the
-/// camera's target that it would be thinner than a pixel.
+/// Adds one straight piece of a line to the scene. AddPiece omits a piece that is so far from the
+/// camera's target that the line would be thinner than a pixel.
 void AddPiece(SceneContext& context, const World& world, const Point& a, const Point& b,
               const RibbonStyle& style);
 

@@ -69,7 +69,7 @@ class Tiler {
       along = std::max(along, Bend(ground_, at(-1.0, side), at(1.0, side)));
       across = std::max(across, Bend(ground_, at(side, -1.0), at(side, 1.0)));
     }
-    // Twisted ground may be straight along all the lines checked above, so the twist is checked
+    // Twisted ground may be straight along all lines that Bend checks, so the twist is checked
     // separately.
     const auto height = [&](double x, double y) { return GroundHeight(ground_, at(x, y)); };
     const double twist = 0.25 * std::abs(height(1.0, 1.0) + height(-1.0, -1.0) - height(1.0, -1.0) -
@@ -77,7 +77,8 @@ class Tiler {
     double& longer = box.length >= box.width ? along : across;
     longer = std::max(longer, twist);
     // Halves the side of the tile along which the ground deviates more from a straight line. Sides
-    // longer than kMaxTileSide are always halved, since the few checked lines may miss bumps.
+    // longer than kMaxTileSide are always halved, since the few lines along which the ground is
+    // checked may miss bumps.
     along = box.length > kMaxTileSide ? 1e3 * box.length : box.length > kMinTileSide ? along : 0.0;
     across = box.width > kMaxTileSide ? 1e3 * box.width : box.width > kMinTileSide ? across : 0.0;
     if (std::max(along, across) < tolerance_) {

@@ -21,9 +21,9 @@ struct Tile {
   float alpha = 1.0F;
 };
 
-/// Returns the color of a friction patch with this friction factor. Very low friction factors yield
-/// the light blue of ice. Other slippery patches look like wet road, which is darker for lower
-/// friction. Patches with a friction factor above 1 are brownish.
+/// Returns the color of a patch of ground with the given friction factor. Very low friction factors
+/// yield the light blue of ice. Other slippery patches look like wet road, which is darker for
+/// lower friction. Patches with a friction factor above 1 are brownish.
 Color PatchColor(double friction);
 
 /// Returns the color of a friction patch on asphalt.
@@ -31,7 +31,8 @@ Color PatchColorOnRoad(double friction);
 
 /// Returns the world's friction patches, cut into flat tiles. The ground under a tile deviates from
 /// a plane by at most 1.5 mm, unless the tile's sides have reached the minimum of 0.1 m. The tiles
-/// lie 1 to 2 mm above the ground; tiles of later patches lie above those of earlier patches.
+/// lie 1 to 2 mm above the ground; tiles of patches that are later in the list lie above those of
+/// earlier patches.
 std::vector<Tile> PatchTiles(const World& world);
 
 /// Cuts a rectangle on the ground into flat tiles, such that the ground under each tile deviates

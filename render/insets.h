@@ -13,7 +13,7 @@ namespace trackbed::render {
 struct FlatView {
   std::string_view name;
   std::string_view summary;
-  /// Draws the recording at the simulated time `time` [s] in this view, into the image of the
+  /// Draws the flat view of the recording at the simulated time `time` [s] into the image of the
   /// inset.
   void (*draw)(const Recording& recording, Image& image, Font& font, double time);
 };

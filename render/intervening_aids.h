@@ -8,8 +8,8 @@
 namespace trackbed::render {
 
 /// Returns the names of the driver aids that intervene at a place of a run's log, such as "ABS
-/// ESC". Returns "-" if none intervenes, and nullopt if the car has neither anti-lock brakes nor
-/// stability control.
+/// ESC". Returns "-" if no driver aid intervenes, and nullopt if the car has neither anti-lock
+/// brakes nor stability control.
 std::optional<std::string> InterveningAids(const TimedTable& log, const TimedTable::Place& place);
 
 }  // namespace trackbed::render

@@ -97,7 +97,7 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
       }
     }
   }
-  // Collects first the open contour lines, then the closed ones.
+  // Collects first the open contour lines, then the closed contour lines.
   std::vector<int> begins;
   for (const auto& [side, others] : neighbors) {
     if (others.size() == 1) {

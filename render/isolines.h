@@ -10,12 +10,12 @@ namespace trackbed::render {
 /// Computes contour lines of a function by marching squares. If the function is bilinear on each
 /// square cell, the contour lines are exact on the cells' sides and straight in between.
 ///
-/// The function `value` is evaluated once at each corner of a cell. Square cells with sides of
-/// length `step` [m] cover the rectangle from `low` to `high`. A contour line is either closed or
-/// ends at the rectangle's sides; the last point of a closed line repeats the first. If two
-/// opposite corners of a cell are above the level and the other two below, the middle of the cell
-/// is treated as below. The run time is proportional to the number of cells times the number of
-/// levels.
+/// The constructor evaluates the function `value` once at each corner of a cell. Square cells with
+/// sides of length `step` [m] cover the rectangle from `low` to `high`. A contour line is either
+/// closed or ends at the rectangle's sides; the last point of a closed line repeats the first. If
+/// two opposite corners of a cell are above the level and the other two below, the middle of the
+/// cell is treated as below the level. The run time is proportional to the number of cells times
+/// the number of levels.
 class IsolineGrid {
  public:
   IsolineGrid(const Vec2& low, const Vec2& high, double step,
@@ -39,7 +39,7 @@ class IsolineGrid {
 
   Vec2 low_;
   double step_;
-  int columns_;  // number of cell corners along x
+  int columns_;  // number of cell corners along the grid's x axis
   int rows_;
   std::vector<double> values_;
 };

@@ -26,8 +26,9 @@ struct Layout {
 
   Layout(int width, int height) {
     const double scale = height / 720.0;
-    // At the smallest readable size, legend and title side by side need a width of about 400 px. At
-    // the smallest readable size, all panels stacked vertically need a height of 250 px.
+    // At the smallest readable size of letters, legend and title side by side need a width of about
+    // 400 px. At the smallest readable size of letters, all panels stacked vertically need a height
+    // of 250 px.
     const double shrink = std::min({1.0, width / 400.0, height / 270.0});
     // In tall, narrow frames, such as two frames side by side, the width limits the sizes of texts
     // and panels.

@@ -34,8 +34,8 @@ TexturePixels Pixels(Model& model, int texture) {
   }
 }
 
-/// Removes the texture from a shape. The material is removed because, since MuJoCo 3.2, the texture
-/// of a shape is that of its material.
+/// Removes the texture from a shape. RemoveTexture removes the shape's material, because since
+/// MuJoCo 3.2 the texture belongs to the material.
 template <std::same_as<mjvGeom> Geom>
 void RemoveTexture(Geom& geom) {
   if constexpr (requires { geom.matid; }) {

@@ -62,8 +62,8 @@ struct Block {
       }
     }
   }
-  /// Returns a point of the obstacle's box. Each coordinate of the point is a fraction of the box's
-  /// half side, from -1 to 1.
+  /// Returns a point of the obstacle's box. Each coordinate of the point in the box is given as a
+  /// fraction of the box's half side, from -1 to 1.
   [[nodiscard]] Eigen::Vector3d At(double along, double across, double up) const {
     return center + axes * Eigen::Vector3d(along * half[0], across * half[1], up * half[2]);
   }
@@ -145,8 +145,8 @@ class CarParts {
       std::swap(half.x(), half.y());
       turn << 0.0, -forward, 0.0, forward, 0.0, 0.0, 0.0, 0.0, 1.0;
     }
-    // This rotation matrix also stretches the car, so it is not a pure rotation. MuJoCo uses the
-    // stretched rotation matrix unchanged and normalizes the surface normals.
+    // The rotation matrix of the car's geoms also stretches the car. MuJoCo uses the stretched
+    // rotation matrix unchanged and normalizes the surface normals.
     const RowMajorMatrix3 stretched = block.axes * turn * half.cwiseProduct(scale_).asDiagonal();
     for (const Part& part : parts_) {
       if (scene.ngeom >= scene.maxgeom) {
@@ -243,8 +243,8 @@ class Obstacles : public Overlay {
   }
 
  private:
-  // Number of an object type, used to mark a geom that other shapes replace. MuJoCo has no object
-  // type with this number.
+  // Object type that marks a geom that other shapes replace. MuJoCo itself has no object type with
+  // the number -1.
   static constexpr int kReplaced = -1;
 
   void AddOne(SceneContext& context, std::size_t i, mjvGeom* own) const {

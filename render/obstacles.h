@@ -6,18 +6,18 @@ namespace trackbed::render {
 
 /// Kinds of appearance of an obstacle in a film.
 enum class ObstacleLook {
-  kCar,    ///< Drawn as the model of the run's own car, scaled to the size of the obstacle.
-  kWall,   ///< Drawn as a wall with a dark top; much longer than wide.
+  kCar,    ///< Obstacle as large as a car, drawn as the run's own car, scaled to size.
+  kWall,   ///< Obstacle that is much longer than wide, drawn as a wall with a dark top.
   kCone,   ///< A traffic cone.
-  kPost,   ///< Drawn as a white post with dark bands.
-  kCrate,  ///< Drawn as a crate: a box with darker edges.
+  kPost,   ///< Slender obstacle, drawn as a white post with dark bands.
+  kCrate,  ///< Any other obstacle, drawn as a crate: a box with darker edges.
 };
 
 /// Chooses the appearance of an obstacle by its size [m]. Obstacles that are 3 to 6 m long, 1.4 to
 /// 2.3 m wide and 1.2 to 2.2 m high are drawn as cars. Walls are at most 1 m wide and at least four
 /// times as long as wide. Cones and posts are at most 0.6 m long and wide; cones are at most 1 m
-/// high. Obstacles of all other sizes are drawn as crates. `length` may be the shorter horizontal
-/// side of the obstacle.
+/// high. Obstacles that are neither cars, walls, cones nor posts by their size are drawn as crates.
+/// `length` may be the shorter horizontal side of the obstacle.
 ObstacleLook ChooseLook(double length, double width, double height);
 
 /// Returns the overlay that draws each obstacle of the world with its ObstacleLook. An obstacle

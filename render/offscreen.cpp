@@ -31,7 +31,7 @@ void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) 
   const auto samples = static_cast<unsigned>(side * side);
   // The sum of samples is divided by a bit shift, since a division would dominate the run time.
   const int shift = std::countr_zero(samples);
-  // Sums of the samples over `side` rows, for each pixel of a row.
+  // Sums over `side` rows of samples, for each color of each sample column.
   std::vector<std::uint16_t> columns(row);
   for (int y = 0; y < to.height; ++y) {
     std::fill(columns.begin(), columns.end(), std::uint16_t{0});
@@ -45,7 +45,7 @@ void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) 
     const std::uint16_t* column = columns.data();
     std::uint8_t* pixel = to.Pixel(0, y);
     for (std::size_t x = 0; x < width; ++x, pixel += 3) {
-      // The sums start at half the divisor, so that the division rounds to nearest.
+      // Each sum of samples starts at half the divisor, so that the division rounds to nearest.
       std::array<unsigned, 3> sums{samples / 2, samples / 2, samples / 2};
       for (std::size_t i = 0; i < step; ++i, column += 3) {
         sums[0] += column[0];

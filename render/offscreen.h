@@ -26,8 +26,8 @@ class Offscreen {
   Offscreen(const Offscreen&) = delete;
   Offscreen& operator=(const Offscreen&) = delete;
 
-  /// Renders the scene with the camera stored in it. Rendering an image of 1280x720 takes 60 to 290
-  /// ms.
+  /// Renders the scene with the camera stored in the scene. Rendering an image of 1280x720 takes 60
+  /// to 290 ms.
   void Render(mjvScene& scene, Image& image) { Render(scene, image, width_, height_); }
   /// Renders the scene with the given size [px], which must not exceed the size of the buffers.
   void Render(mjvScene& scene, Image& image, int width, int height);
@@ -36,8 +36,8 @@ class Offscreen {
   void Draw(mjvScene& scene) { Draw(scene, width_, height_); }
 
   /// Returns the image of a printable ASCII character in MuJoCo's largest font, white on black. The
-  /// width of this image is the character's advance; the images of all characters have the same
-  /// height.
+  /// width of a character's image is the character's advance; the images of all characters have the
+  /// same height.
   Image Glyph(char character);
 
  private:

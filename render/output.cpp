@@ -13,9 +13,8 @@
 // Implements the outputs to which a film is written. The class FrameOutput writes numbered PNG
 // files with libpng; render/video/ contains the formats that FFmpeg encodes. The class
 // BackgroundOutput passes frames to another output in a separate thread, through a queue of at most
-// two frames that a mutex guards. An exception in the writing thread of BackgroundOutput is
-// rethrown by the next call. The function EncodePng adds a PNG chunk that identifies Trackbed as
-// the author.
+// two frames that a mutex guards. The next call of BackgroundOutput rethrows an exception of the
+// writing thread. The function EncodePng adds a PNG chunk that identifies Trackbed as the author.
 namespace trackbed::render {
 namespace {
 
@@ -45,14 +44,14 @@ class FrameOutput : public FilmOutput {
       try {
         FrameOutput::Finish();
       } catch (const RunError&) {
-        // An error is ignored here, because a destructor must not throw.
+        // The destructor ignores an error of Finish(), because a destructor must not throw.
       }
     }
   }
 
   void Add(const Image& image) override {
     const fs::path frame = FrameName(output_, next_);
-    RequireOwn(frame);  // the check includes PNG files after a gap in the numbers
+    RequireOwn(frame);  // Add also checks PNG files whose numbers follow a gap
     WriteNewFile(frames_.path() / frame.filename(), EncodePng(image), frame);
     ++next_;
   }

@@ -24,17 +24,17 @@ class FilmOutput {
   FilmOutput& operator=(const FilmOutput&) = delete;
 
   virtual void Add(const Image& image) = 0;
-  /// Completes the file. Finish() must be called after the last frame.
+  /// Completes the film. Call Finish() after the last frame.
   virtual void Finish() = 0;
-  /// Keep() is called instead of Finish() after an error. Keep() preserves the frames written so
-  /// far if each frame is a separate file.
+  /// Call Keep() instead of Finish() after an error. Keep() preserves the frames written so far if
+  /// each frame is a separate file.
   virtual void Keep() {}
 };
 
 /// Writes frames to another output in a separate thread, while the next frame is drawn. At most two
-/// frames wait in the queue; if the queue is full, Add() blocks. An exception in the writing thread
-/// is rethrown by the next call, and no more frames are written. If another exception destroys this
-/// object, the frames in the queue are still written.
+/// frames wait in the queue; if the queue is full, Add() blocks. The next call rethrows an
+/// exception of the writing thread, and no more frames are written. If an exception in the drawing
+/// thread destroys the BackgroundOutput, the frames in the queue are still written.
 class BackgroundOutput : public FilmOutput {
  public:
   explicit BackgroundOutput(std::unique_ptr<FilmOutput> output);
@@ -49,7 +49,7 @@ class BackgroundOutput : public FilmOutput {
   void Rethrow();
 
   std::unique_ptr<FilmOutput> output_;
-  // protects the members below, except for the thread, against concurrent access
+  // protects all members declared below it, except the thread, against concurrent access
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Image> waiting_;
@@ -75,7 +75,7 @@ using OpenOutput = std::unique_ptr<FilmOutput> (*)(const std::filesystem::path& 
 /// A file format in which films can be written.
 struct FilmFormat {
   std::string extension;  ///< File name extension of the format, including the dot.
-  std::string summary;    ///< One-word description of the format.
+  std::string summary;    ///< One-word description of the film format.
   bool even_sides;        ///< Whether the format requires an even width and height.
   /// Function that opens an output in this format; null if this build does not support the format.
   OpenOutput open;

@@ -13,8 +13,8 @@
 #include "render/canvas.h"
 #include "render/recording.h"
 
-/// Interface of overlays, which draw over the recorded world in a film. See
-/// docs/how-to/add-an-overlay.md.
+/// Interface of overlays, which draw over the recorded world in a film. The page
+/// docs/how-to/add-an-overlay.md shows how to add an overlay.
 namespace trackbed::render {
 
 /// Kinds of symbols that show a color in the legend.
@@ -63,8 +63,8 @@ struct PictureContext {
   double left;
 };
 
-/// Base class of overlays; an overlay draws something over the world of one recording. The default
-/// implementations of the functions draw nothing.
+/// Base class of overlays; an overlay draws something over the world of one recording. By default,
+/// an overlay draws nothing and adds nothing to the legend.
 class Overlay {
  public:
   Overlay() = default;

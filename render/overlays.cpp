@@ -42,7 +42,7 @@ void CheckNames(const std::vector<std::string>& names) {
 }  // namespace
 
 /// The registry of overlays is defined by one line per overlay. Overlays that are later in the
-/// registry are drawn over earlier ones.
+/// registry are drawn over earlier overlays.
 const std::vector<OverlayEntry>& OverlayTable() {
   static const std::vector<OverlayEntry> table{
       RoadOverlay(),  ReliefOverlay(),  GateOverlay(),  ObstacleOverlay(), SkidMarkOverlay(),

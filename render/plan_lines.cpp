@@ -17,9 +17,9 @@ constexpr double kAbandonedWidth = 0.24;
 constexpr Color kAsphalt{0.60F, 0.62F, 0.60F};
 // Weight of the plan's color in its mixture with the color of asphalt.
 constexpr float kAbandonedShare = 0.35F;
-// Minimum time for which the car must have followed a plan [s]; otherwise the plan is not shown
-// after it is replaced. If all replaced plans were shown, two replans per second would cover the
-// road with lines.
+// Minimum time for which the car must have followed a replaced plan, so that the plan is still
+// shown [s]. If all replaced plans were shown, two replans per second would cover the road with
+// lines.
 constexpr double kBrief = 1.0;
 
 /// Returns the style of the line that shows a plan. `newer` is the number of plans that the car
@@ -32,7 +32,7 @@ RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
     return asphalt + kAbandonedShare * (own - asphalt);
   };
   // Replaced plans often overlap where they return to the route, so newer plans are drawn above
-  // older ones.
+  // older plans.
   return {{fade(color.r, kAsphalt.r), fade(color.g, kAsphalt.g), fade(color.b, kAsphalt.b)},
           kAbandonedWidth * scale,
           std::max(kPlanHeight - 0.001 * static_cast<double>(newer), 0.002)};

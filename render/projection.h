@@ -11,7 +11,7 @@ namespace trackbed::render {
 /// Projects points of the world into the image of a camera.
 class Projection {
  public:
-  /// Makes the projection for an image of this size [px].
+  /// Makes the projection into an image with the given width and height [px].
   Projection(const CameraPose& camera, int width, int height);
 
   /// Projects a point of the world into the image; the result may be outside the image's borders.

@@ -7,7 +7,7 @@
 #include "trackbed/core/table.h"
 
 /// Reads the plans of a run from the files in the run folder. The functions return an empty result
-/// if a file is missing, and throw InputError naming the file if it is invalid.
+/// if a file is missing, and throw InputError naming the file if a file is invalid.
 namespace trackbed::render {
 
 /// A point on the ground [m]; z is 0 where the height is not needed.
@@ -31,7 +31,7 @@ struct CurvatureProfile {
   std::vector<double> curvature;  ///< Curvature at the stations of the plan [rad/m].
 };
 
-/// Reads a table from the run folder. Throws InputError if the file of the table is missing.
+/// Reads a CSV table from the run folder. Throws InputError if the file is missing.
 Table ReadRunTable(const std::filesystem::path& file);
 
 /// Reads the initial path from `plan.csv`.

@@ -42,7 +42,8 @@ struct Readings {
   std::optional<double> lateral_acceleration;
   /// Largest fraction of the available grip that one of the tyres uses.
   std::optional<double> tyre_use;
-  /// Driver aids that intervene, such as "ABS ESC", or "-"; nullopt for a car without these aids.
+  /// Names of the driver aids that intervene, such as "ABS ESC", or "-"; nullopt for a car with
+  /// neither anti-lock brakes nor stability control.
   std::optional<std::string> aids;
   std::optional<double> hitch_angle;  ///< Hitch angle of the trailer [rad]; nullopt: no trailer.
   /// Position of the first ghost relative to the recorded car.
@@ -54,9 +55,9 @@ struct Readings {
 /// The recorded motion of one plant's car.
 class PlantRecording {
  public:
-  /// Reads `<plant>.state.csv` and `<plant>.csv` in `folder`. Throws InputError if the state file
-  /// lacks the column of a joint of `model`. `index` is the plant's index among the plants of the
-  /// run, which determines the plant's color.
+  /// Reads `<plant>.state.csv` and `<plant>.csv` in `folder`. The constructor throws InputError if
+  /// the state file lacks the column of a joint of `model`. The argument `index` is the plant's
+  /// index among the plants of the run, which determines the plant's color.
   PlantRecording(const std::filesystem::path& folder, const std::string& plant,
                  const mjModel& model, std::size_t index = 0);
 
@@ -108,7 +109,7 @@ class PlantRecording {
 /// The data of a recorded run, read from the run folder.
 struct Recording {
   std::string name;  ///< Name of the run folder.
-  std::string note;  ///< Additional text about the run; may be empty.
+  std::string note;  ///< Note about the run, which the caption shows; may be empty.
   /// World of the run from `scenario.resolved.yaml`; if the file is missing, a flat world without
   /// wind.
   World world;
@@ -147,7 +148,7 @@ struct Recording {
   /// Returns the curvature of the plan that the car follows at `time`, at the car's position
   /// [rad/m]. Returns nullopt if the run has no plan, or after the end of the car's log.
   [[nodiscard]] std::optional<double> PlannedCurvature(double time) const;
-  /// Whether a film of this recording shows a road.
+  /// Whether a film of the recording shows a road.
   [[nodiscard]] bool has_road() const { return road || !roads.bands.empty(); }
   /// Returns the point on the ground at the x and y coordinates of `point`.
   [[nodiscard]] Point OnGround(const Point& point) const;

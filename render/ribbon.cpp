@@ -80,8 +80,8 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   if (length < 1e-6) {
     return;
   }
-  // Neighboring pieces of a line overlap, so they alternate between two heights. At equal heights,
-  // a lamp with shadows would light the overlap of two pieces twice.
+  // Neighboring pieces of a line overlap and therefore lie alternately at two heights. At equal
+  // heights, a lamp with shadows would light the overlap of two pieces twice.
   constexpr double kStagger = 0.0005;
   // The angle between neighboring pieces of a line is at most about 15 degrees. An overlap of the
   // pieces by tan(15/2 degrees) times half the width therefore closes the outer corner.
@@ -98,7 +98,7 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   // map, and a plane has no back face. A thin box would cast speckled shadows on its own upper
   // face, because the shadow map's depth is too coarse.
   if (mjvGeom* piece = AddDecor(scene, mjGEOM_PLANE, size, center, rotation, rgba)) {
-    piece->emission = 0.08F;  // emission that keeps paint brighter than the road, even in the shade
+    piece->emission = 0.08F;  // keeps paint brighter than the road in the shade
   }
 }
 

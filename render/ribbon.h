@@ -24,10 +24,10 @@ struct RibbonStyle {
 /// polyline, which include both ends.
 ///
 /// The distance between an omitted point and the piece that replaces it is at most the tolerance.
-/// The vertical distance between an omitted point and its piece is at most a fifth of the
-/// tolerance, so that paint does not sink into the ground. The tolerance starts at `tolerance` [m]
-/// and is doubled until at most `max_pieces` pieces are left. The run time is proportional to the
-/// number of points of a road, since a piece never spans more than 512 points.
+/// The vertical distance between an omitted point and the piece that replaces it is at most a fifth
+/// of the tolerance. Paint therefore does not sink into the ground. The tolerance starts at
+/// `tolerance` [m] and is doubled until at most `max_pieces` pieces are left. The run time is
+/// proportional to the number of points of a road, since a piece never spans more than 512 points.
 std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance,
                               std::size_t max_pieces);
 

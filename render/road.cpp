@@ -199,7 +199,7 @@ class RoadRibbons : public Overlay {
     for (const PavedBand& band : recording_.roads.bands) {
       for (std::size_t i = 1; i < band.left.size(); ++i) {
         // Each tile of asphalt extends across the road, from border to border. Neighboring tiles of
-        // asphalt overlap, so they alternate between two heights.
+        // asphalt overlap and therefore lie alternately at two heights.
         const Vec2 from = 0.5 * (band.left[i - 1] + band.right[i - 1]);
         const Vec2 to = 0.5 * (band.left[i] + band.right[i]);
         const Vec2 along = to - from;
@@ -209,7 +209,7 @@ class RoadRibbons : public Overlay {
         // In a bend, the outer border of a road is longer than its center line.
         const double length = std::max((band.left[i] - band.left[i - 1]).norm(),
                                        (band.right[i] - band.right[i - 1]).norm());
-        // distance that keeps tiles below the paint on them [m]
+        // maximum deviation of a tile from the ground, so that the tile stays below the paint [m]
         constexpr double kTolerance = 0.0007;
         Tile like;
         like.color = kRoadColor;
@@ -294,7 +294,7 @@ class RoadRibbons : public Overlay {
       const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
                             along.norm() + 2.0 * overlap,
                             width};
-      // Neighboring pieces of asphalt overlap, so they alternate between two heights.
+      // Neighboring pieces of asphalt overlap and therefore lie alternately at two heights.
       const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
       const std::vector<Tile> tiles =
           CutToGround(recording_.world.ground, box, like, above, kTolerance);

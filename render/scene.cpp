@@ -26,8 +26,8 @@ constexpr float kPaintShade = 0.86F;
 // depth by which height fields are lowered below their true height [m]
 constexpr float kSunk = 0.002F;
 
-// Several nested dark layers make a soft shadow under the car. A shadow map instead would take half
-// the rendering time of a frame.
+// Several nested dark layers make a soft shadow under the car. Drawing the car's shadow with a
+// shadow map would take half the rendering time of a frame.
 constexpr int kShadowLayers = 6;
 // Alpha value of one layer of the shadow; MuJoCo draws translucent shapes twice.
 constexpr float kShadowAlpha = 0.055F;
@@ -59,8 +59,8 @@ bool SeesSky(const mjModel& model, const World& world, const CameraPose& camera)
   return !endless || camera.elevation + 0.5 * camera.view_angle > horizon - kHaze;
 }
 
-/// Lowers height fields slightly. Height fields that are not lowered would flicker where they
-/// coincide with the ground plane.
+/// Lowers all height fields slightly. Where a height field had the height of the ground plane, the
+/// two surfaces would flicker.
 void SinkHeightFields(mjvScene& scene) {
   for (int i = 0; i < scene.ngeom; ++i) {
     if (scene.geoms[i].type == mjGEOM_HFIELD) {
@@ -111,7 +111,7 @@ mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   SinkHeightFields(scene);
   for (int i = 0; i < scene.ngeom; ++i) {
     if (scene.geoms[i].type == mjGEOM_PLANE) {
-      // a geom of this category casts no shadow, so the ground casts none on itself
+      // geoms of the category mjCAT_DECOR cast no shadow, so the ground plane does not shade itself
       scene.geoms[i].category = mjCAT_DECOR;
     }
   }

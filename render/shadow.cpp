@@ -18,8 +18,9 @@ constexpr int kShadowMapSide = 4096;
 
 double ShadowReach(const CameraPose& camera) {
   const double half_height = camera.distance * std::tan(0.5 * camera.view_angle);
-  // If the reach is 3.5 half heights of the frame, the side of the shadow map is 7 half heights.
-  // The shadow map's 4096 texels then yield 1.6 texels per pixel of a frame with 720 rows.
+  // If the shadow map reaches 3.5 half heights of the frame to each side, the side of the shadow
+  // map is 7 half heights. The shadow map's 4096 texels then yield 1.6 texels per pixel of a frame
+  // with 720 rows.
   constexpr double kMaxHalfHeights = 3.5;
   // Half the diagonal of a frame with an aspect ratio of up to 21:9, in half heights of the frame;
   // used for a camera that looks down.
@@ -44,8 +45,8 @@ void AimLamps(mjvScene& scene, const CameraPose& camera) {
   const std::array<double, 3> middle{in_steps(camera.target_x + ahead * std::cos(camera.azimuth)),
                                      in_steps(camera.target_y + ahead * std::sin(camera.azimuth)),
                                      camera.ground_z};
-  // The lamp is placed so far away that all ground in the shadow map is in front of it, if the
-  // lamp's elevation is at least 20 degrees.
+  // The lamp is placed so far away that all ground in the shadow map is in front of the lamp, if
+  // the lamp's elevation is at least 20 degrees.
   const double back = 3.0 * reach;
   for (int i = 0; i < scene.nlight; ++i) {
     mjvLight& lamp = scene.lights[i];

@@ -69,7 +69,7 @@ class SkidMarks : public Overlay {
 
  private:
   struct Piece {
-    double time;  // time at which the tyre reaches the end of this piece [s]
+    double time;  // time at which the tyre reaches the end of this piece of a skid mark [s]
     Point from;
     Point to;
   };

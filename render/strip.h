@@ -16,7 +16,7 @@ namespace trackbed::render {
 /// frame's time. The ends of the vertical axes are determined by Recording::scales.
 class Strip {
  public:
-  /// Makes the chart for frames of this size [px].
+  /// Makes the chart for frames with the given width and height [px].
   Strip(const Recording& recording, int width, int height, Font& font);
 
   /// Returns the top row of the chart's panel [px].

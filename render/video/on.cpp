@@ -87,7 +87,7 @@ class VideoOutput : public FilmOutput {
  private:
   fs::path output_;
   FilmCodec codec_;
-  // The file is declared before the writer, so that it outlives the writer.
+  // The temporary file is declared before the writer, so that the file outlives the writer.
   TemporaryFile temporary_;
   VideoWriter writer_;
 };

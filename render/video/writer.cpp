@@ -93,7 +93,7 @@ struct VideoWriter::Encoder {
   [[noreturn]] void Fail(const std::string& why) const {
     throw RunError(fmt::format("cannot write {}: {}", name, why));
   }
-  /// Returns `result` if it is not an error code; otherwise throws.
+  /// Returns the result of an FFmpeg function; throws RunError if `result` is an error code.
   int Check(int result) const {
     if (result < 0) {
       Fail(Describe(result));
@@ -136,8 +136,8 @@ struct VideoWriter::Encoder {
 
   void SetOptions(const std::vector<std::pair<const char*, const char*>>& options) const {
     for (const auto& [key, value] : options) {
-      // The search includes the encoder's private options, since some options belong to one encoder
-      // only.
+      // av_opt_set also searches the encoder's private options, since some options belong to one
+      // encoder only.
       Check(Libav().av_opt_set(codec.get(), key, value, AV_OPT_SEARCH_CHILDREN));
     }
   }
@@ -242,7 +242,7 @@ void VideoWriter::Finish() {
   Encoder& encoder = *encoder_;
   encoder.Encode(nullptr);
   encoder.Check(Libav().av_write_trailer(encoder.format.get()));
-  // A full disk is reported only when the file is closed.
+  // The file system may report a full disk only when the film's file is closed.
   encoder.Check(Libav().avio_closep(&encoder.format->pb));
 }
 

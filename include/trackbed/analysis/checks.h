@@ -22,7 +22,7 @@ const char* ToString(Relation relation);
 enum class CheckReason {
   kExpected,   ///< The scenario's `expect` contains the check.
   kArrival,    ///< Every run must arrive.
-  kNoContact,  ///< Every run must touch no obstacle.
+  kNoContact,  ///< The car must not touch an obstacle, in any run.
   kCorridor,   ///< If the run has a path, the car must stay within one car width of the path.
   /// If the run has a path, the car must not exceed the planned speed by more than its speed
   /// control can correct.
@@ -64,7 +64,7 @@ struct Check {
 /// b.
 std::string PlantsOf(const Check& check);
 
-/// Makes a check of a plant's metric, which is selected by its path.
+/// Makes a check of one metric of a plant. `path` is the path of the metric in metrics.json.
 Check CheckMetric(const PlantMetrics& plant, const std::string& path, Relation relation,
                   const MetricValue& bound);
 

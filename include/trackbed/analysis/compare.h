@@ -31,8 +31,8 @@ struct Trace {
   std::vector<Pose2> pose;  ///< Pose of the car in each row; the yaw is not wrapped.
   std::vector<double> yaw_rate;
   std::vector<double> steering;
-  /// Whether each row has recorded data; false in a gap of the record. Empty if the record has no
-  /// gaps.
+  /// Whether each row has recorded data; false in a gap of the record. `valid` is empty if the
+  /// record has no gaps.
   std::vector<bool> valid{};
   Vec2 origin = Vec2::Zero();  ///< Local origin from which the positions count [m].
 

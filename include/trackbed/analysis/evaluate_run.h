@@ -5,7 +5,7 @@
 #include "trackbed/analysis/run.h"
 
 /// The evaluation of a run: SimulateRun calls these functions for the logs that it simulates. Call
-/// them for a log from another source, such as a SteppedLoop:
+/// PlanRun, AddLog and JudgeRun for a log from another source, such as a SteppedLoop:
 ///
 ///     RunResult result = PlanRun(scenario, car);
 ///     AddLog(result, car, log);
@@ -19,7 +19,7 @@ void AddLog(RunResult& result, const CarModel& car, RunLog log,
             std::vector<WindowErrors> windows = {});
 
 /// Compares every pair of plants, judges the run by the scenario's expectations, and collects the
-/// notes. Call it once, after the last AddLog.
+/// notes. Call JudgeRun once, after the last AddLog.
 void JudgeRun(RunResult& result, const CarModel& car);
 
 }  // namespace trackbed

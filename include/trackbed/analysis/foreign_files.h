@@ -15,7 +15,8 @@ std::vector<std::string> ForeignNames(const std::filesystem::path& folder,
                                       const std::vector<std::string>& names);
 
 /// Throws RunError if the folder has files that ForeignNames returns, because Trackbed must not
-/// replace files that Trackbed did not write. The message lists these files.
+/// replace files that Trackbed did not write. The message lists the files that Trackbed did not
+/// write.
 void RequireNoForeignFiles(const std::filesystem::path& folder,
                            const std::vector<std::string>& names);
 

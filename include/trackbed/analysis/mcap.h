@@ -7,9 +7,10 @@
 /// Exports runs as MCAP files, the log format of Foxglove and other viewers.
 namespace trackbed {
 
-/// Exports a run as an MCAP file (mcap.dev/spec, version 0). The file has chunks of 1 MB with
-/// index, statistics and checksums, without compression. The messages are in JSON format and in
-/// order of time. Message times count from the start of the run [ns]. The file has these topics:
+/// Exports a run as an MCAP file (mcap.dev/spec, version 0). The MCAP file has chunks of 1 MB with
+/// index, statistics and checksums, without compression. The messages of the file are in JSON
+/// format and in order of time. Message times count from the start of the run [ns]. The MCAP file
+/// has these topics:
 ///
 /// | topic | schema | |
 /// |---|---|---|

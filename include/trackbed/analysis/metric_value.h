@@ -32,8 +32,8 @@ struct MetricPlace {
   double from_t = 0.0;
 };
 
-/// The value of a metric, with the part of the run to which the value refers. If that part ends at
-/// the end of the run, the caller fills in the station and time of the end.
+/// The value of a metric, with the part of the run to which the value refers. If the part of the
+/// run ends at the end of the run, the caller fills in the station and time of the end.
 struct MetricReading {
   MetricValue value;
   MetricPlace at;

@@ -46,11 +46,11 @@ struct TrackingMetrics {
 };
 
 /// The largest sustained oscillation of the steering command that neither the path nor the
-/// measurement noise explains, such as a limit cycle (docs/verdict.md). Smaller oscillations than
-/// the tolerance, and those that decay, do not count.
+/// measurement noise explains, such as a limit cycle (docs/verdict.md). Oscillations that are
+/// smaller than the tolerance, or that decay, do not count.
 struct OscillationMetrics {
-  double amplitude = 0.0;           ///< Amplitude [rad], >= 0; 0 if there is no oscillation.
-  std::optional<double> frequency;  ///< Frequency [Hz], > 0; nullopt if there is no oscillation.
+  double amplitude = 0.0;           ///< Steering amplitude [rad], >= 0; 0: no oscillation.
+  std::optional<double> frequency;  ///< Steering frequency [Hz], > 0; nullopt: no oscillation.
   double from_t = 0.0;              ///< Time at which the oscillation begins [s].
   double to_t = 0.0;                ///< Time up to which the oscillation lasts [s].
   double rate = 0.0;                ///< Largest steering rate of the oscillation [rad/s].
@@ -76,8 +76,8 @@ struct WaypointMissMetrics {
   double planned = 0.0;  ///< Largest distance of the initial plan from a waypoint [m].
   double max = 0.0;      ///< Largest distance of the driven path from a waypoint [m].
   int waypoint = 0;      ///< Index of the waypoint from which the distance `max` is measured.
-  double max_s = 0.0;    ///< Station at which the car is nearest to this waypoint [m].
-  double max_t = 0.0;    ///< Time at which the car is nearest to this waypoint [s].
+  double max_s = 0.0;    ///< Station at which the car is nearest to `waypoint` [m].
+  double max_t = 0.0;    ///< Time at which the car is nearest to `waypoint` [s].
 };
 
 /// The path error that the limited steering rate causes in one turn: the measured error, and the
@@ -160,8 +160,8 @@ struct PlantMetrics {
   std::optional<OscillationMetrics> oscillation;
   /// Ratio of the measured yaw rate to v tan(delta)/L, fitted by least squares over the run. The
   /// divisor v tan(delta)/L is the kinematic model's yaw rate at the measured speed and steering.
-  /// In a steady turn, a car with understeer gradient K has the ratio 1 / (1 + K v^2/L). The yaw
-  /// rate ratio is nullopt if the root mean square of the yaw rate is at most 1 mrad/s.
+  /// In a steady turn, a car with understeer gradient K has the yaw rate ratio 1 / (1 + K v^2/L).
+  /// The yaw rate ratio is nullopt if the root mean square of the yaw rate is at most 1 mrad/s.
   std::optional<double> yaw_rate_ratio;
   /// Path tracking errors; nullopt if the run has no path.
   std::optional<TrackingMetrics> tracking;

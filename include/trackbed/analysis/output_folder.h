@@ -26,8 +26,8 @@ struct Manifest;
 /// process left a complete result in a hidden folder inside the output folder, the next process
 /// that opens the output folder moves that result into place. An incomplete result of a killed
 /// process is removed. On file systems without locks, and between machines that share a folder over
-/// NFS, several processes may write to a folder at the same time. The hashes in manifest.json then
-/// reveal a mixture of results.
+/// NFS, several processes may write to a folder at the same time. If several processes mix their
+/// results in a folder, the hashes in manifest.json reveal the mixture.
 class OutputFolder {
  public:
   enum class For {

@@ -30,22 +30,22 @@ struct PathProperty {
 
 /// Returns all properties, in the order of plan.json. Symbols: kappa curvature, s station, L length
 /// of the path.
-///   length_m: length L of the path.
-///   duration_s: driving time at the plan's speeds, without standing times.
-///   curvature_max_radpm: maximum of |kappa|.
-///   curvature_rms_radpm: sqrt(integral of kappa^2 ds / L).
-///   turning_rad: integral of |kappa| ds, which is the total angle by which the car turns.
-///   curvature_rate_max_radpm2: maximum of |dkappa/ds|, except at jumps of kappa.
-///   curvature_jump_max_radpm: largest jump of kappa between segments, except at cusps and stops,
-///   where a car turns its wheels at rest. Jumps of the curvature of at most 1e-12 rad/m are
+///   Property length_m: length L of the path.
+///   Property duration_s: driving time at the plan's speeds, without standing times.
+///   Property curvature_max_radpm: maximum of |kappa|.
+///   Property curvature_rms_radpm: sqrt(integral of kappa^2 ds / L).
+///   Property turning_rad: integral of |kappa| ds, the total angle by which the car turns.
+///   Property curvature_rate_max_radpm2: maximum of |dkappa/ds|, except at jumps of kappa.
+///   Property curvature_jump_max_radpm: largest jump of kappa between segments, except at cusps and
+///   stops, where a car turns its wheels at rest. Jumps of the curvature of at most 1e-12 rad/m are
 ///   rounding errors and count as 0.
-///   clearance_min_m: smallest distance of the footprint from static obstacles that are known from
-///   the start, overestimated by at most 1 cm; 0 if the footprint touches an obstacle, nullopt if
-///   there are no such obstacles.
-///   waypoint_miss_max_m: largest distance of the path from a waypoint (waypoint_miss.h); nullopt
-///   if the mission has no waypoints.
+///   Property clearance_min_m: smallest distance of the footprint from static obstacles that are
+///   known from the start, overestimated by at most 1 cm. The property clearance_min_m is 0 if the
+///   footprint touches an obstacle, and nullopt if no static obstacle is known from the start.
+///   Property waypoint_miss_max_m: largest distance of the path from a waypoint (waypoint_miss.h);
+///   nullopt if the mission has no waypoints.
 ///
-/// All properties except clearance_min_m are exact except for rounding errors, and are 0 for a path
+/// All properties except clearance_min_m are exact apart from rounding errors, and are 0 for a path
 /// of length 0. Cost: a few us per path segment, plus one call of Clearance() per step of the
 /// clearance measurement along the path. The length of a step of the clearance measurement is about
 /// 1 cm plus the difference between the current clearance and the smallest clearance so far.

@@ -57,13 +57,14 @@ Scenario LoadScenario(const std::filesystem::path& file,
                       const std::vector<std::filesystem::path>& asset_folders = {});
 
 struct RunHooks {
-  /// Called before each plant is simulated; returns the hooks for the simulation of that plant.
+  /// Returns the hooks for the simulation of a plant; called before each plant is simulated.
   std::function<DriveHooks(const std::string& plant)> drive{};
-  /// Called when the simulation of a plant has ended, even if an exception ended the simulation.
+  /// Receives the name of each plant whose simulation has ended, even if an exception ended the
+  /// simulation.
   std::function<void(const std::string& plant)> ended{};
   /// Whether to simulate all plants at the same time, each in a separate thread that calls its
-  /// hooks. If false, plants run one after another in the caller's thread. The results do not
-  /// depend on `together`.
+  /// hooks. If `together` is false, the plants are simulated one after another in the caller's
+  /// thread. The results do not depend on `together`.
   bool together = false;
 };
 

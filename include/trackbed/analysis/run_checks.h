@@ -22,17 +22,17 @@ struct RunCheck {
 /// Returns why a run fails the check; empty if the run passes. A run without a plan fails.
 std::vector<std::string> Failures(const RunCheck& check, const RunResult& run);
 
-RunCheck TracksWithin(double limit);  ///< `limit` is in m.
-/// `limit` is in m.
+RunCheck TracksWithin(double limit);  ///< `limit`: largest cross-track error [m].
+/// `limit` is the largest distance [m] between the positions of the plants `first` and `second`.
 RunCheck StaysWithin(const std::string& first, const std::string& second, double limit);
-RunCheck KeepsClearance(double distance);  ///< `distance` is in m.
-RunCheck ReachesGoal(double distance);     ///< `distance` is in m.
+RunCheck KeepsClearance(double distance);  ///< `distance`: smallest clearance [m].
+RunCheck ReachesGoal(double distance);     ///< `distance`: largest distance from the goal [m].
 RunCheck SteersCalmly();
 RunCheck Satisfies(const std::string& formula);
 RunCheck MeetsItsExpectations();
 
 /// Describes bounds on the differences of two plants: "0.1 m in position, 0.05 rad in heading". The
-/// failures of this check are those that Exceeded returns.
+/// function Exceeded returns the failures of a check of the bounds.
 std::string Describe(const DifferenceBounds& bounds);
 
 /// Describes a comparison: "kinematic and mujoco from 0 m to 138.2 m: maximum difference in

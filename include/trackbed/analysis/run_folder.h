@@ -6,7 +6,7 @@
 #include <vector>
 
 /// The names of the files in the folders of runs, comparisons and studies. The page docs/cli.md
-/// describes the files.
+/// describes the content of the files in these folders.
 namespace trackbed::run_folder {
 
 // Manifest of the results in a folder, with the size and SHA-256 hash of each file.
@@ -76,8 +76,8 @@ inline constexpr const char* kMergeSh = "merge.sh";
 inline constexpr const char* kIdentifyJson = "identify.json";
 /// Folder with one run folder for each record of an identification.
 inline constexpr const char* kRecords = "records";
-/// Returns the file name <record>.residuals.csv. Throws InputError unless the record's name is a
-/// plain file name.
+/// Returns the name of the file with the residuals of a record, <record>.residuals.csv. Throws
+/// InputError unless the record's name is a plain file name.
 std::string ResidualsCsv(const std::string& record);
 
 /// Returns the names of the files, besides plan.json, that a plan with a path may have, including
@@ -85,15 +85,16 @@ std::string ResidualsCsv(const std::string& record);
 std::vector<std::string> PathFiles();
 
 // The following functions return file names for a plant, given by its name in the registry. For
-// example, the log of "mujoco:contact" is "mujoco-contact.csv". The functions throw InputError if
-// the plant's name would lead to a file outside of the folder.
+// example, the log of "mujoco:contact" is "mujoco-contact.csv". The functions for names of a
+// plant's files throw InputError if the plant's name would lead to a file outside of the run
+// folder.
 
-std::string LogCsv(const std::string& plant);    ///< Returns <plant>.csv.
-std::string StateCsv(const std::string& plant);  ///< Returns <plant>.state.csv.
+std::string LogCsv(const std::string& plant);    ///< Returns the name <plant>.csv (log).
+std::string StateCsv(const std::string& plant);  ///< Returns the name <plant>.state.csv.
 // Names of the files with the plans that were adopted during the run.
-std::string NewPlansCsv(const std::string& plant);      ///< Returns <plant>.plan.csv.
-std::string NewPlansJson(const std::string& plant);     ///< Returns <plant>.plan.json.
-std::string NewPlansTreeCsv(const std::string& plant);  ///< Returns <plant>.tree.csv.
+std::string NewPlansCsv(const std::string& plant);      ///< Returns <plant>.plan.csv (paths).
+std::string NewPlansJson(const std::string& plant);     ///< Returns <plant>.plan.json (details).
+std::string NewPlansTreeCsv(const std::string& plant);  ///< Returns <plant>.tree.csv (search tree).
 
 /// Returns the plant for which StateCsv returns `file_name`; nullopt if `file_name` is not the name
 /// of a state log. If the plant is not in the registry, its name is returned as spelled in the file
@@ -126,7 +127,7 @@ void RequireResult(const std::filesystem::path& folder, const std::string& hash,
 class Reading {
  public:
   explicit Reading(std::vector<std::filesystem::path> folders);
-  /// Throws InputError if the manifest of a folder has changed. The message names the folder.
+  /// Throws InputError, naming the folder, if the manifest of a folder has changed.
   void RequireUnchanged() const;
 
  private:

@@ -29,7 +29,7 @@ Interval WilsonInterval(std::size_t passed, std::size_t count, double confidence
 std::vector<double> Quantiles(std::vector<double> values, const std::vector<double>& shares);
 
 /// The mean of a sample, with Student's t confidence interval for the mean of the distribution. A
-/// sample of one value has no interval.
+/// sample of one value has no confidence interval.
 struct MeanEstimate {
   std::size_t count = 0;
   double mean = 0.0;
@@ -74,14 +74,13 @@ struct IndexOptions {
 
 /// Estimates the first-order Sobol' index Var(E[Y | X]) / Var(Y) of each parameter X on the output
 /// Y, from a given sample of any design. The estimate is the correlation ratio of the classes
-/// (Pearson 1905; Plischke, Borgonovo and Smith 2013). The value expected by chance for classes of
-/// this size is subtracted (Kelley 1935, epsilon squared). The expected index of a parameter
-/// without influence is therefore 0. The parameters of the sample must be independent. If a numeric
-/// parameter is divided into B classes, the estimated index is too small by a fraction of about 1 /
-/// B^2.
+/// (Pearson 1905; Plischke, Borgonovo and Smith 2013). The correlation ratio expected by chance is
+/// subtracted (Kelley 1935, epsilon squared), so the expected index of a parameter without
+/// influence is 0. The parameters of the sample must be independent. If a numeric parameter is
+/// divided into B classes, the estimated index is too small by a fraction of about 1 / B^2.
 ///
 /// The confidence intervals assume that the estimate is normally distributed. The standard
-/// deviation of this distribution is computed from bootstrap resamples (Efron and Tibshirani 1993),
+/// deviation of the estimate is computed from bootstrap resamples (Efron and Tibshirani 1993),
 /// which are the same on every machine.
 ///
 /// The index of a parameter is nullopt if the output does not vary, or if the parameter has as many

@@ -34,8 +34,8 @@ struct SuiteCase {
 
 struct SuiteOptions {
   int jobs = 1;  ///< Number of scenarios that run at the same time, at least 1.
-  /// Called with each finished case, in the order of the files for any number of jobs. Only one
-  /// thread calls `finished` at a time.
+  /// Receives each finished case, in the order of the files for any number of jobs. Only one thread
+  /// calls `finished` at a time.
   std::function<void(const SuiteCase&)> finished;
   /// Returns true to stop the suite; called once per control period, by any thread.
   std::function<bool()> interrupted;

@@ -32,17 +32,17 @@ struct Shard {
 
 struct SweepOptions {
   int jobs = 1;  ///< Number of scenario runs that are executed at the same time, at least 1.
-  /// Called when a row is finished, by one thread at a time. The argument `fraction` is the
-  /// finished fraction of the rows to run.
+  /// Receives the finished fraction of the rows to run; called when a row is finished, by one
+  /// thread at a time.
   std::function<void(double fraction)> progress;
   /// Returns true to stop the sweep; called before each run, by any thread.
   std::function<bool()> interrupted;
   Shard shard{};  ///< The part of the rows to run; rows outside of the shard are skipped.
-  /// If `again` is not empty, the recorded rows with these statuses are run again, and missing rows
-  /// are not run.
+  /// Statuses of rows to run again. If `again` is not empty, only recorded rows with a status in
+  /// `again` are run.
   std::vector<std::string> again{};
-  /// Called after each run, by any thread, before the row of the run is appended to the records.
-  /// The callback `finished` is not called for bisections.
+  /// Receives the outcome of each run, in any thread, before the row of the run is appended to the
+  /// records. The callback `finished` is not called for bisections.
   std::function<void(std::size_t row, const RunOutcome& outcome)> finished{};
   /// Wanted half-width of the pass rate's confidence interval, from 0.001 to 0.5. The sweep stops
   /// as soon as the confidence interval of the pass rate at each point of the grid has at most the
@@ -120,8 +120,8 @@ void MergeRecords(const std::vector<std::filesystem::path>& files, SweepRecords&
 std::vector<std::size_t> WorstRows(const SweepRecords& records);
 
 /// Returns the overrides of a row, in the order in which they are applied. Running the scenario
-/// named in the header with these overrides reproduces the row. Throws InputError if the study has
-/// no row of this number.
+/// named in the header with the overrides of a row reproduces the row. Throws InputError if the
+/// study has no row of this number.
 std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t row);
 
 /// Returns the numbers of the missing rows, counted from 0, as text such as "3, 17 to 20".

@@ -14,7 +14,7 @@ namespace trackbed {
 
 /// The verdict on a run.
 struct Verdict {
-  /// Whether the run was judged, which requires that there was anything to check.
+  /// Whether the run was judged, which requires at least one check.
   bool judged = true;
   bool passed = true;  ///< Whether the run has passed: the run was judged, and no check failed.
   /// Failed checks, one line each, with value, bound, station and time.

@@ -7,7 +7,7 @@
 #include <vector>
 
 /// The names of all files that the verbs write. The check for foreign files (output_folder.h), the
-/// removal of results and the table of docs/cli.md all use this list.
+/// removal of results and the table of docs/cli.md all use the list of written names.
 ///
 /// A part of a name in angle brackets is variable, as in "<plant>.csv". A name that ends in a slash
 /// is the name of a folder.
@@ -47,9 +47,9 @@ std::vector<std::string> NamesOfVerb(std::string_view verb);
 /// part.
 using NameParts = std::map<std::string, std::vector<std::string>>;
 
-/// Returns the file names in the verb's output folder. Variable parts are replaced by the texts in
-/// `parts` and by the registered plants. Folders are omitted, and so are names with a variable part
-/// that `parts` does not contain.
+/// Returns the file names in the verb's output folder. Variable parts of the file names are
+/// replaced by the texts in `parts` and by the names of the registered plants. Folders are omitted,
+/// and so are names with a variable part that `parts` does not contain.
 std::vector<std::string> FileNamesOfVerb(std::string_view verb, const NameParts& parts = {});
 
 /// Whether a file of the result may have the name `name`.
@@ -61,11 +61,11 @@ inline constexpr std::string_view kPageMark = "<meta name=\"generator\" content=
 /// Graphics, section 11.3.4: tEXt). The chunk follows the header of a .png file, and precedes the
 /// end chunk of an .apng file.
 const std::string& PictureMark();
-/// Returns the last bytes of a video, which mark the video as written by Trackbed. The mark is a
-/// box that players skip (ISO/IEC 14496-12, section 8.1.2: free).
+/// Returns the last bytes of a video, which mark the video as written by Trackbed. The mark of a
+/// video is a box that players skip (ISO/IEC 14496-12, section 8.1.2: free).
 const std::string& VideoMark();
-/// Returns the last chunk of an animated WebP, which marks it as written by Trackbed. Readers skip
-/// chunks that they do not know (RFC 9649, section 2.7.1.6).
+/// Returns the last chunk of an animated WebP, which marks it as written by Trackbed. Readers of
+/// WebP files skip unknown chunks (RFC 9649, section 2.7.1.6).
 const std::string& WebpMark();
 
 /// Whether a page (.html), picture (.png), video (.mp4) or animation (.webp, .apng) carries the

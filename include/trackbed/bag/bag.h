@@ -35,12 +35,13 @@ bool IsBag(const std::filesystem::path& bag);
 /// Reads the topics of a bag, and counts their messages.
 ///
 /// An MCAP file that its recorder did not finish is read up to its last complete record, with a
-/// note. Throws InputError if the file is no bag, or if it has more than 10000 topics. Also throws
-/// InputError if the file is damaged: if a record exceeds its chunk or the file, if a chunk's
-/// checksum is wrong, or if SQLite rejects the file. Compressions other than lz4 and zstd, and
-/// records or decompressed chunks of more than 256 MiB, are errors, too. Throws InputError if
-/// metadata.yaml names a file outside of the bag's folder, and for files that are compressed as a
-/// whole, with the command that decompresses them. Throws RunError if a file cannot be read.
+/// note. Throws InputError if the file is not a bag, or if it has more than 10000 topics. Also
+/// throws InputError if the file is damaged: if a record exceeds its chunk or the file, if a
+/// chunk's checksum is wrong, or if SQLite rejects the file. Also throws InputError for
+/// compressions other than lz4 and zstd, and for records or decompressed chunks of more than 256
+/// MiB. Throws InputError if metadata.yaml names a file outside of the bag's folder. Throws
+/// InputError for a file that is compressed as a whole; the message states the command that
+/// decompresses the file. Throws RunError if a file cannot be read.
 BagContent ReadBagTopics(const std::filesystem::path& bag);
 
 /// Reads all messages of one topic, in the order of the bag (MCAP) or of their times (SQLite).

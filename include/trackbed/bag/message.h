@@ -22,7 +22,7 @@ class BagMessage {
   BagMessage(const std::string& type, const std::string& definition);
 
   /// Names of the numbers that each message has, such as "pose.pose.position.x" and
-  /// "header.stamp.sec". The list does not contain numbers in arrays and sequences.
+  /// "header.stamp.sec". The list of names does not contain numbers in arrays and sequences.
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
 
   /// Names of the numbers of each element of the message's first sequence of messages, such as

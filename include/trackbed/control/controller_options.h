@@ -12,9 +12,9 @@ using ControllerOptions = MethodOptions<SteeringController>;
 
 /// Selects what a path-following controller assumes about the car's steering actuator.
 enum class ActuatorKnowledge {
-  kModel,   ///< The controller knows the actuator that the vehicle's parameters describe.
+  kModel,   ///< The controller uses the actuator model of the vehicle's parameters.
   kIgnore,  ///< The controller assumes an ideal actuator, without dead time, lag, backlash and
-            ///< curve.
+            ///< calibration curve.
 };
 
 }  // namespace trackbed

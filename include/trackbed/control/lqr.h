@@ -19,28 +19,29 @@ namespace trackbed {
 /// turn; g_k change of the path's curvature k periods ahead; K gain, P solution of the discrete
 /// Riccati equation; A_c = A - B K. The steering rate is
 ///   w = -K z - (R + B'PB)^-1 B' sum_k (A_c')^k P g_k
-/// unless this law exceeds the limit of the steering rate within the preview. If the law exceeds
-/// the limit, w is the first input of the quadratic program with this limit
-/// (src/control/bounded_regulator.h), so the wheels begin to turn back in time.
-/// The car is modeled by the dynamic single-track model at the present speed, with the axle forces
-/// that TyreForces selects. A car without tyre coefficients is modeled as the kinematic car. The
-/// dynamic and the kinematic model both include the steering actuator and the steering lag. The
-/// gains are recomputed in each control period for the present speed and direction of motion. The
-/// path ahead is passed at the planned speeds.
+/// unless the formula exceeds the limit of the steering rate within the preview. If the law exceeds
+/// the limit of the steering rate, the rate w is the first input of a quadratic program with this
+/// limit (src/control/bounded_regulator.h). The wheels thus begin to turn back early enough for
+/// their limited rate. The car is modeled by the dynamic single-track model at the present speed,
+/// with the axle forces that TyreForces selects. A car without tyre coefficients is modeled as the
+/// kinematic car. The dynamic and the kinematic model both include the steering actuator and the
+/// steering lag. The gains are recomputed in each control period for the present speed and
+/// direction of motion. The preview assumes that the car drives the path ahead at the planned
+/// speeds.
 ///
 /// The commanded angle is the integral of the steering rate, starting at the actuator's initial
 /// angle. This integral action compensates delay, backlash and gain errors of the actuator.
 ///
 /// On a path of constant curvature, the regulator commands the angle delta_0 to a car without
 /// tracking error. The steering angle is clipped to the car's limit after the regulator has
-/// computed it. The controller of MpcOptions accounts for this limit in its optimization. The
-/// weight of the steering rate grows with the car's distance from the path, so that the
-/// rate-limited steering can follow the commands. The regulator limits the angle at which the car
-/// approaches the path to 0.6 rad. On paths that are driven in reverse, the regulator uses the same
-/// model with a negative speed u. Cost per control period, with a preview of 100 periods: 55 us for
-/// a car on its path; up to 0.5 ms more for a car several meters off its path, and up to 0.55 ms
-/// more while the regulator predicts rates beyond the limit. The LQR controller allocates heap
-/// memory in its first control period only.
+/// computed it. Only the MPC controller (MpcOptions) includes the limit of the steering angle in
+/// its optimization. The weight of the steering rate grows with the car's distance from the path,
+/// so that the rate-limited steering can follow the commands. The regulator limits the angle at
+/// which the car approaches the path to 0.6 rad. On paths that are driven in reverse, the regulator
+/// uses the same model with a negative speed u. Cost per control period, with a preview of 100
+/// periods: 55 us for a car on its path; up to 0.5 ms more for a car several meters off its path,
+/// and up to 0.55 ms more while the regulator predicts rates beyond the limit. The LQR controller
+/// allocates heap memory in its first control period only.
 struct LqrOptions {
   std::optional<double> cross_track;  ///< Weight of the cross-track error [1/m^2], > 0; default:
                                       ///< (2.7/L)^2, with the wheelbase L in m.

@@ -16,9 +16,9 @@ namespace trackbed {
 ///
 /// The symbols and the model are the same as in LqrOptions; N is the option `horizon`. The steering
 /// rate w_k is constant over the step k. In each control period, the controller solves a quadratic
-/// program for the rates w_0 .. w_{N-1} (optimize/quadratic_program.h). The first rate, w_0, is
-/// applied until the next control period. The solver does not start from the previous solution,
-/// because the solver's first step reaches the optimum from any starting point.
+/// program for the rates w_0 .. w_{N-1} (optimize/quadratic_program.h). The first steering rate,
+/// w_0, is applied until the next control period. The solver does not start from the previous
+/// solution, because the solver's first step reaches the optimum from any starting point.
 ///
 /// Guarantees: the actuator can turn from the last commanded angle to the new commanded angle
 /// within one control period, and the new angle is within the steering limit. While no limit is

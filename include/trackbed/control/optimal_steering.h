@@ -64,8 +64,8 @@ struct OptimalSteeringOptions {
   /// is at least 1.5 cbrt(e L v/omega) for a car with the offset e from its path, as in
   /// PreviewOptions.
   std::optional<double> horizon;
-  /// Minimum time that the horizon covers [s], >= 0. The length S of the horizon is at least this
-  /// time multiplied by the speed of the car (kArcLength) or of the primary (kTime).
+  /// Minimum time that the horizon covers [s], >= 0. The length S of the horizon is at least the
+  /// minimum time multiplied by the speed of the car (kArcLength) or of the primary (kTime).
   double time = 0.0;
   SearchOptions search{.method = SearchMethod::kNelderMead, .population = 20, .tolerance = 1e-6};
   DeviationWeights weights;
@@ -119,12 +119,12 @@ Deviation DeviationAhead(const VehicleParams& vehicle, const SteeringProblem& pr
 
 /// Converts the search variable q = `share` to a steering angle delta. The search variable q is a
 /// fraction of the largest reachable heading change. At q = +-1, the wheels turn at their full rate
-/// over the whole distance to drive. The steering angle follows from q and the angle R by which the
-/// wheels can turn over that distance:
+/// over the whole distance to drive. With the angle R by which the wheels can turn over the
+/// distance to drive, the steering angle is
 ///   delta = delta_now +- R (1 - sqrt(1 - abs(q))).
 /// The pose that the car reaches is nearly linear in q, but not in delta. A steering angle that the
-/// wheels reach only near the end of the distance has almost no effect on the end pose. A search
-/// over delta would therefore stall on a plateau.
+/// wheels reach only near the end of the distance has almost no effect on the end pose, so a search
+/// over delta would stall on a plateau of the cost.
 double SteeringOfShare(const VehicleParams& vehicle, const SteeringProblem& problem, double share);
 /// Converts a steering angle to the search variable q; the inverse of SteeringOfShare. Returns +-1
 /// for angles that the wheels cannot reach.

@@ -37,12 +37,12 @@ struct RecordingColumns {
 };
 void Visit(KeyVisitor& keys, RecordingColumns& columns);
 
-/// Replays a recording in open loop. In each control period of length T, the inputs are as follows:
-///   steering: commands the recorded angle at the end of the period, which is at the time t + T or
-///   at the distance D + abs(v) T.
-///   speed: commands the acceleration (change of the recorded speed over the period, divided by T)
-///   plus gain times the speed error (SpeedAlong).
-///   acceleration: commands the mean of the recorded acceleration over the period.
+/// Replays a recording in open loop. In each control period of length T, the inputs are as follows.
+///   Steering: the command is the recorded steering angle at the end of the period, at the time
+///   t + T or at the distance D + abs(v) T.
+///   Speed: the command is the change of the recorded speed over the period, divided by T, plus the
+///   gain times the speed error (SpeedAlong).
+///   Acceleration: the command is the mean of the recorded acceleration over the period.
 /// A car that follows the commands exactly has the recorded values at the end of every control
 /// period. Recorded values are treated as constant before the first row and after the last row. If
 /// the axis is the distance, the car never leaves a place where the recorded speed is zero.

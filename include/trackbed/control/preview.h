@@ -9,8 +9,8 @@ namespace trackbed {
 
 /// The law by which the preview controller computes the steering angle from the preview angle u.
 enum class PreviewLaw {
-  /// Steering angle delta = (2 L/R) u, with MacAdam's gain for a single preview point and the
-  /// kinematic car.
+  /// Steering angle delta = (2 L/R) u for the preview angle u, with MacAdam's gain for a single
+  /// preview point and the kinematic car.
   kLinear,
   /// Steering angle delta = atan(2 L sin(u)/R), which steers on the circle through the preview
   /// point, as pure pursuit does.
@@ -18,11 +18,11 @@ enum class PreviewLaw {
 };
 
 /// MacAdam's preview control (MacAdam 1981) with a single preview point P. The preview point P lies
-/// on the path, ahead of the path point nearest to the car. P is the first point of this part of
-/// the path whose distance from the rear-axle center O is R. The preview angle u is the signed
-/// angle from the direction of motion to the line OP. Beyond the end of the path, the preview point
-/// lies on the tangent at the end. If the car is farther than R from the path, the preview point is
-/// the path point whose station is R ahead of the path point nearest to the car.
+/// on the path, ahead of the path point nearest to the car. P is the first point of the path ahead
+/// whose distance from the rear-axle center O is the preview distance R. The preview angle u is the
+/// signed angle from the direction of motion to the line OP. Beyond the end of the path, the
+/// preview point lies on the tangent at the end. If the car is farther than R from the path, the
+/// preview point is the path point whose station is R ahead of the path point nearest to the car.
 ///
 /// With a long preview distance R, the car cuts corners; on a circle of radius r, the car drives
 /// R^2/(8 r) further inside. With a short preview distance, the control is less robust to the
@@ -35,18 +35,19 @@ enum class PreviewLaw {
 /// stiffnesses of the axles [N/rad], and m mass [kg]. The page docs/algorithms/control.md has the
 /// derivation and the sources.
 ///
-/// Wheels with a limited rate cannot follow a step of the path's curvature. Without `distance`, the
-/// preview point therefore lies on a path whose steps are ramps. A car with a limited rate can
-/// drive the ramped path. The ramped path leaves the given path by at most kappa S^2/24, where
-/// kappa is the height of the step and S the distance driven while the wheels turn.
+/// Wheels with a limited rate cannot follow a step of the path's curvature. Without the option
+/// `distance`, the preview point lies on a path whose curvature steps are replaced by ramps. A car
+/// with a limited steering rate can drive the ramped path. The ramped path leaves the given path by
+/// at most kappa S^2/24, where kappa is the height of the curvature step and S the distance driven
+/// while the wheels turn.
 ///
-/// Without `distance`, the wheels turn no further than they can turn back in time: the angle is
-/// that of the law for the errors that the car will have when its wheels, turning at their full
-/// rate, have returned to the steering of the path. Beside a straight path, the bound on the
-/// wheels' angle acts on large deviations alone. Where the path itself turns the wheels at their
-/// full rate, the bound keeps the car from overshooting to one side after the other. With
-/// `distance`, the textbook law is applied to the path without ramps, and the wheels' angle is not
-/// bounded.
+/// Without the option `distance`, the wheels turn back early enough for their limited rate. The
+/// controller predicts the errors of the car after its wheels have turned back, at their full rate,
+/// to the steering angle of the path. The preview law is applied to the predicted errors. On a
+/// straight path, the prediction changes the steering angle only for large deviations of the car.
+/// Where the path itself turns the wheels at their full rate, the prediction keeps the car from
+/// oscillating about the path. With a given `distance`, the textbook law is applied to the path
+/// without ramps, and to the present errors of the car.
 ///
 /// For a car at an offset e from the path, R is at least 1.5 cbrt(e L v/omega), because with a
 /// shorter R, the car would oscillate about the path.

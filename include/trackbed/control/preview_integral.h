@@ -17,26 +17,27 @@ enum class PreviewWeight {
 ///
 /// Symbols: T = R/|v| preview time; R = max(distance, time |v|), lengthened for a car off its path
 /// as in PreviewOptions. The default of `distance` is sqrt(g) times the default distance of
-/// PreviewOptions, where `delay` is added to the response time. Without a `distance`, the
-/// controller follows ramps instead of steps of the curvature, and turns the wheels no further than
-/// they can turn back in time, as PreviewOptions. The factor g = 5/3 (5/2 with kNear) is the
+/// PreviewOptions, where `delay` is added to the response time. Without a given `distance`, the
+/// controller follows curvature ramps instead of curvature steps, and turns the wheels back early
+/// enough for their limited rate (PreviewOptions). The factor g = 5/3 (5/2 with kNear) is the
 /// kinematic car's gain on an offset, divided by the gain of the controller with a single preview
 /// point. For a car with tyre coefficients, sqrt(g) is replaced by the larger factor at which the
 /// gain on an offset equals that of the controller with a single preview point. Tyres respond late,
-/// so the gain of this law is higher than that of the kinematic car. With the factor sqrt(g), a car
-/// with a limited steering rate would weave about its path for ever. The variable eta in [0, T] is
-/// the time ahead. The following functions of eta are offsets across the direction of motion [m]:
-/// f(eta) is the offset of the path, y_0(eta) is the offset of the car with straight wheels, and
-/// A(eta) is the displacement of the car per unit of tan(delta). W(eta) is the weight of the time
-/// eta. The commanded steering angle follows from
+/// so the preview law has a higher gain on an offset for a car with tyres than for the kinematic
+/// car. With the smaller factor sqrt(g), a car with tyres and a limited steering rate would weave
+/// about its path for ever. The variable eta in [0, T] is the time ahead. The following functions
+/// of eta are offsets across the direction of motion [m]: f(eta) is the offset of the path,
+/// y_0(eta) is the offset of the car with straight wheels, and A(eta) is the displacement of the
+/// car per unit of tan(delta). W(eta) is the weight of the path point at the time eta ahead. The
+/// commanded steering angle delta minimizes the weighted deviation of the car from the path:
 ///   tan(delta) = int (f - y_0) A W d(eta) / int A^2 W d(eta).
 /// A car without tyre coefficients is modeled as the kinematic car, with y_0 = 0 and A = (v
 /// eta)^2/(2 L). A car with tyre coefficients is modeled as the linear single-track car with its
 /// present lateral speed and yaw rate. The offset f(eta) is evaluated at the first point of the
 /// path at the distance v eta from the rear axle, as in PreviewAngle. On a circle of radius r, the
-/// steering angle of a kinematic car is therefore exactly atan(L/r). For a car with tyre
-/// coefficients, the steering angle on a circle includes the understeer, with an error of the order
-/// of (R/r)^2. If only the end of the preview had weight, the controller would be pure pursuit.
+/// steering angle of a kinematic car is exactly atan(L/r). For a car with tyre coefficients, the
+/// steering angle on a circle includes the understeer, with an error of the order of (R/r)^2. If
+/// only the end of the preview had weight, the controller would be pure pursuit.
 ///
 /// The integrals are computed by Gauss quadrature with ten points, which is exact for the kinematic
 /// car. The commanded steering angle is delayed by `delay` [s], with linear interpolation between

@@ -18,10 +18,10 @@ namespace trackbed {
 /// cbrt(v/(L omega)) is long enough for an offset of an eighth of the wheelbase. Unlike the preview
 /// controller, pure pursuit does not lengthen a given `distance` when the car is off its path.
 ///
-/// By default, the wheels turn no further than they can turn back in time
-/// (src/control/timely_steering.h): on a path that turns the wheels at nearly their full rate,
-/// wheels that have turned too far cannot return in time. With a given `distance`, the textbook law
-/// is used without timely steering. Cost per control period: up to 160 points of the path. The
+/// By default, the wheels turn back early enough for their limited rate
+/// (src/control/timely_steering.h). Wheels that turn back too late would make the car overshoot on
+/// a path that turns the wheels at nearly their full rate. With a given `distance`, the textbook
+/// law is used without timely steering. Cost per control period: up to 160 points of the path. The
 /// controller allocates heap memory in its first control period only.
 ///
 /// A look-ahead point may be behind the car, for example after a start that faces away from the

@@ -14,7 +14,8 @@ namespace trackbed {
 /// cannot follow (docs/algorithms/control.md, "Ramped path"); psi_0(kappa) the heading error of the
 /// steady turn on that curvature, 0 for a car without slip; d the option `distance` [m]. The
 /// commanded curvature is
-///   kappa_c = kappa cos(psi - psi_0)/(1 - kappa e) - D 2 (psi - psi_0)/d - e sinc(psi - psi_0)/d^2
+///   kappa_c = kappa cos(psi - psi_0)/(1 - kappa e) - D 2 (psi - psi_0)/d
+///             - e sinc(psi - psi_0)/d^2.
 /// For a car without slip, the commanded steering angle is atan(L kappa_c). For a car with tyre
 /// coefficients, the commanded steering angle is that of a steady turn of the linear single-track
 /// car with the curvature kappa_c, and thus includes the understeer.
@@ -28,7 +29,7 @@ namespace trackbed {
 /// e, ReturnDistance for the offset L/8, and 3 |v| T (src/control/preview_distance.h).
 ///
 /// The control law has no preview, so at a curvature step the steering lags by the time that the
-/// wheels need to turn. By default, the wheels turn no further than they can turn back in time
+/// wheels need to turn. By default, the wheels turn back early enough for their limited rate
 /// (src/control/timely_steering.h). With a given `distance`, the control law is used without timely
 /// steering.
 struct RearAxleFeedbackOptions {

@@ -9,9 +9,9 @@ namespace trackbed {
 
 /// Reads recorded inputs from a CSV file with a header line. The file must have a column for the
 /// axis and a column for the steering. If `columns` names a speed or an acceleration column, the
-/// named column is read. If `columns` names neither, a speed or acceleration column with the
-/// default name is read, if the file has such a column. The order of the columns does not matter,
-/// and other columns are ignored.
+/// named column is read. If `columns` names neither a speed nor an acceleration column, a column
+/// with a default name is read if the file has one. The order of the columns does not matter, and
+/// other columns are ignored.
 ///
 /// Errors: throws InputError with file, line and column name for every cell that is not a finite
 /// number or is out of range. The steering must be from -1.5 to 1.5 rad, and the speed from 0 to

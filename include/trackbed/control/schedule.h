@@ -6,8 +6,8 @@ namespace trackbed {
 
 /// Open-loop controller that follows the plan's steering schedule. The commanded steering angle is
 /// the scheduled angle at the distance that the car will have driven by the end of the control
-/// period. A rate-limited actuator that follows these commands reproduces the schedule for any
-/// length of the control period.
+/// period. A rate-limited actuator that follows the controller's commands reproduces the schedule
+/// for any length of the control period.
 struct ScheduleOptions {};
 void Visit(KeyVisitor& keys, ScheduleOptions& options);
 

@@ -17,12 +17,13 @@ namespace trackbed {
 ///   forwards   delta = delta_0 - (psi - psi_0) - atan(k (e + L sin(psi - psi_0))/(k_s + |v|))
 ///   backwards  delta = delta_0 + (psi - psi_0) - atan(k e/(k_s + |v|)).
 /// The law corrects the offset of the axle that leads in the direction of motion. When the car
-/// drives forwards, the offset is e + L sin(psi - psi_0). The offset e + L sin(psi - psi_0) is the
-/// distance of the front axle from the line along which the front axle moves when the rear axle is
-/// exactly on the path. Without slip and with k_s = 0, a small offset decays as exp(-k t), and a
-/// large offset decays at a rate of at most |v|. When the car drives backwards, the rear axle leads
-/// but does not steer, so e oscillates with the damping ratio sqrt((k_s + |v|)/(k L))/2, 0.6 at 3
-/// m/s and 0.4 at 1 m/s for the Prius.
+/// drives forwards, the law corrects the offset e + L sin(psi - psi_0) of the front axle. The
+/// offset e + L sin(psi - psi_0) is the distance of the front axle from the line along which the
+/// front axle moves when the rear axle is exactly on the path. Without slip and with k_s = 0, a
+/// small offset decays as exp(-k t), and a large offset decays at a rate of at most |v|. When the
+/// car drives backwards, the rear axle leads but does not steer, so the cross-track error e
+/// oscillates with the damping ratio sqrt((k_s + |v|)/(k L))/2. For the Prius, the damping ratio is
+/// 0.6 at 3 m/s and 0.4 at 1 m/s.
 ///
 /// For the Prius, the default gain k is 1 per second, and the default softening speed k_s is 1 m/s.
 ///
@@ -34,7 +35,7 @@ namespace trackbed {
 /// at most 1/(6 |v| T). T is the response time of docs/algorithms/control.md, "The default
 /// distance".
 ///
-/// By default, the wheels turn no further than they can turn back in time
+/// By default, the wheels turn back early enough for their limited rate
 /// (src/control/timely_steering.h). With a given `gain`, the law ignores the limit on the steering
 /// rate: at 3 m/s, the Prius returns from an offset of 1.5 m, but is unstable from an offset of 4
 /// m.

@@ -58,7 +58,7 @@ class SteeringController {
 
   /// Returns an independent copy of the controller in its present state: for the same inputs, both
   /// controllers then return the same outputs. Returns nullptr if the controller cannot be copied,
-  /// as by default.
+  /// which is the default.
   [[nodiscard]] virtual std::unique_ptr<SteeringController> Clone() const;
 };
 
@@ -106,8 +106,7 @@ struct ControllerEntry {
   /// All file names that the function `input_files` may return.
   std::vector<std::string> input_names{};
   /// Changes the file names in the options to the names of the files that `input_files` returns. If
-  /// the controller replays the scenario's recorded drive (`from_record`), clears the file names
-  /// instead.
+  /// the controller replays the scenario's recorded drive (`from_record`), clears the file names.
   void (*resolve)(ControllerOptions& options, bool from_record) = nullptr;
 };
 
@@ -132,8 +131,8 @@ class CopyableController final : public SteeringController {
 };
 
 /// Implements ControllerEntry::make for a controller class whose constructor takes the controller's
-/// options. If the class has a copy constructor, which must copy all of the controller's state, the
-/// controller can be copied (SteeringController::Clone).
+/// options. If the controller class has a copy constructor, which must copy all of the controller's
+/// state, the controller can be copied (SteeringController::Clone).
 template <typename Options, typename Controller>
 std::unique_ptr<SteeringController> MakeBy(const ControllerOptions& options) {
   if constexpr (std::is_copy_constructible_v<Controller>) {

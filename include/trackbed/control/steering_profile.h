@@ -64,8 +64,8 @@ enum class Sweep {
   kExponential,
 };
 
-/// A swept sine, with the angle delta = A sin(phi(tau)) for 0 <= tau < T, and then 0. The phase
-/// phi, with phi' = 2 pi f(tau) and phi(0) = 0, is
+/// A swept sine, with the angle delta = A sin(phi(tau)) for 0 <= tau < T, and then 0. The phase phi
+/// is the integral of 2 pi f over tau. With a linear or exponential Sweep, the phase is:
 ///   linear:       phi = 2 pi (f0 tau + (f1 - f0) tau^2/(2 T))
 ///   exponential:  phi = 2 pi f0 T ((f1/f0)^(tau/T) - 1)/ln(f1/f0)
 struct SweptSineOptions {

@@ -25,15 +25,15 @@ struct EdgeDistances {
 /// The edges of a track along a path, at the stations 0, `spacing`, 2 `spacing`, ... [m].
 struct PathEdges {
   double spacing = 0.0;                    ///< Distance between two stations [m], > 0.
-  std::vector<EdgeDistances> distances{};  ///< Empty if the plan is not on a track.
+  std::vector<EdgeDistances> distances{};  ///< Distances at the stations; empty without a track.
 
   /// Returns the edges at a station [m]. The distances of the edges are linear between the stations
   /// and constant before the first and beyond the last station. `distances` must not be empty.
   [[nodiscard]] EdgeDistances At(double station) const;
 };
 
-/// The surroundings of the car in one control period. The members are computed when a controller
-/// first asks for them; the references are valid until the end of the control period.
+/// The surroundings of the car in one control period. Each member is computed when a controller
+/// first requests it; the returned references are valid until the end of the control period.
 class Surroundings {
  public:
   virtual ~Surroundings() = default;
@@ -47,13 +47,13 @@ class Surroundings {
 
 /// Interface of a SteeringController that uses the surroundings of the car. A controller class that
 /// is derived from both interfaces sees the surroundings in every control period, even through the
-/// wrappers of MakeSteeringController. The class must define SteeringController::Clone, because
-/// CopyableController hides this interface.
+/// wrappers of MakeSteeringController. A class that is derived from SeesSurroundings must define
+/// SteeringController::Clone, because CopyableController hides SeesSurroundings.
 class SeesSurroundings {
  public:
   virtual ~SeesSurroundings() = default;
-  /// Called before SteeringController::Steer in each control period. `surroundings` is valid until
-  /// the end of the period.
+  /// Receives the surroundings of the car; called before SteeringController::Steer in each control
+  /// period. `surroundings` is valid until the end of the period.
   virtual void See(const Surroundings& surroundings) = 0;
 };
 

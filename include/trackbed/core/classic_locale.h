@@ -5,7 +5,7 @@ namespace trackbed {
 /// While a ClassicLocale object exists, numbers are read and written in the C locale ("2.5"), even
 /// if the program that uses Trackbed has set another locale. The libraries that parse numbers for
 /// Trackbed (yaml-cpp, MuJoCo) use the global locale. In a locale that separates thousands by a
-/// dot, these libraries would read "1.500" as 1500.
+/// dot, yaml-cpp and MuJoCo would read "1.500" as 1500.
 ///
 /// The locale is global to the process: while a ClassicLocale object exists, all threads of the
 /// program use the C locale. A ClassicLocale object changes nothing if the program already uses the

@@ -19,9 +19,10 @@ using TakeCsvRow = std::function<void(std::vector<std::string>& cells, int line)
 using TakeCsvNames = std::function<void(std::vector<std::string>& names, int line)>;
 
 /// Value of CsvLimits::delimiter that stands for the most frequent of comma, semicolon and tab in
-/// the first line that is neither empty nor a comment. If this line contains none of these
-/// characters, the delimiter is kBlanks on one condition: blanks separate numbers in this line, or
-/// names in this line and equally many numbers in the next line.
+/// the first line that is neither empty nor a comment. If the first line contains no comma,
+/// semicolon or tab, blanks (kBlanks) can be the delimiter. Blanks are the delimiter if they
+/// separate numbers in the first line, or names in the first line and equally many numbers in the
+/// next line.
 inline constexpr char kFindDelimiter = '\0';
 
 /// Value of CsvLimits::delimiter for cells that are separated by any number of spaces and tabs.
@@ -53,13 +54,14 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
 
 /// Reads a table with named columns from a CSV file of another program. Lines that begin with '#'
 /// are comments. The names of the columns are in the first line that is not a comment or, if this
-/// line consists of numbers, in the last comment before it that has as many cells. The cells of a
-/// comment are separated by the same delimiter.
+/// line consists of numbers, in the last comment with equally many cells before this line. The
+/// cells of a comment are separated by the delimiter of the file.
 ///
 /// Calls `take_names` once, and then `take` for each row. Drops empty cells at the end of a row
 /// that exceed the number of names, because some programs end each line with a delimiter. Returns
 /// false, without a problem, if the file has no line but comments. Adds a problem if there are no
-/// names, unless limits.numbers_columns. Other problems and errors are those of ReadCsvRows.
+/// column names, unless limits.numbers_columns is true. All other problems and errors are the same
+/// as for ReadCsvRows.
 bool ReadCsvTable(const std::filesystem::path& file, CsvLimits limits, ProblemList& problems,
                   const TakeCsvNames& take_names, const TakeCsvRow& take);
 

@@ -8,13 +8,12 @@
 #include <utility>
 #include <vector>
 
-/// The library reports four kinds of failure, which differ in who has to act:
-///   * InputError: the user's input is wrong (a file, an option, a model). Exit code 2.
-///   * RunError: the environment failed (a full disk, an unwritable folder, no encoder). Exit code
-///     2.
-///   * PreconditionError: the calling program passed an invalid argument to a function of the
-///     library; a bug in the calling program.
-///   * InternalError: an internal check failed; a bug in Trackbed. Exit code 1.
+/// The library reports four kinds of failure, which differ in who has to act.
+///   InputError: the user's input is wrong (a file, an option, a model); exit code 2.
+///   RunError: the environment failed (a full disk, an unwritable folder, no encoder); exit code 2.
+///   PreconditionError: the calling program passed an invalid argument to a function of the
+///   library; a bug in the calling program.
+///   InternalError: an internal check failed; a bug in Trackbed; exit code 1.
 /// Two kinds of failure are results, not exceptions: a planner that finds no plan (PlanStatus), and
 /// a run that ends early (DriveStatus).
 namespace trackbed {

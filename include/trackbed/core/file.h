@@ -10,8 +10,8 @@
 
 namespace trackbed {
 
-/// The default limit on the size of an input file [bytes]. This limit is about twice the size of a
-/// log of one hour with 100 rows per second.
+/// The default limit on the size of an input file [bytes]. The limit is about twice the size of a
+/// one-hour log with 100 rows per second.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{512} << 20U;
 
 /// Reads a whole file as bytes. Throws RunError if the file is missing, is not a regular file
@@ -25,10 +25,10 @@ void ReadBlocks(const std::filesystem::path& file,
                 std::size_t max_bytes = kMaxFileBytes);
 
 /// Writes `content` to a temporary file next to `file`, then renames the temporary file to `file`.
-/// Even if the process is killed, `file` therefore contains either the complete old or the complete
-/// new content. If writing fails, for example because the disk is full, removes the temporary file
-/// and throws RunError. The content is not forced to the disk (fsync), which would take up to tens
-/// of milliseconds per file. After a power failure a file may therefore be empty; the hashes in
+/// Even if the process is killed, `file` contains either the complete old or the complete new
+/// content. If writing fails, for example because the disk is full, removes the temporary file and
+/// throws RunError. The content is not forced to the disk (fsync), which would take up to tens of
+/// milliseconds per file. After a power failure, a file without fsync may be empty; the hashes in
 /// manifest.json (analysis/output_folder.h) reveal the loss.
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view content);
 

@@ -5,9 +5,9 @@
 
 namespace trackbed {
 
-/// Explains what content is if it is not plain text, and how to get the text. Recognizes compressed
-/// data, archives, spreadsheets, bags, pictures, text in UTF-16, and other binary data. Returns ""
-/// for plain text. Needs only the first bytes of the content.
+/// Explains the kind of content that is not plain text, and how to get plain text from such
+/// content. Recognizes compressed data, archives, spreadsheets, bags, pictures, text in UTF-16, and
+/// other binary data. Returns "" for plain text. The first bytes of a file suffice as `content`.
 std::string ForeignBytes(std::string_view content);
 
 /// Same as ForeignBytes, but also explains empty files and web pages.

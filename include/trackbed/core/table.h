@@ -55,17 +55,17 @@ class Table {
 Table ReadCsv(const std::filesystem::path& file);
 
 /// Collects the problems of a file. Keeps the first twenty problems in the order of the lines, and
-/// counts the others.
+/// counts the omitted problems.
 class ProblemList {
  public:
   void Add(Problem problem);
   [[nodiscard]] bool empty() const { return problems_.empty(); }
-  /// Throws an InputError that lists the collected problems in the order of the lines. Does nothing
-  /// if there are no problems.
+  /// If there are collected problems, throws an InputError that lists the problems in the order of
+  /// the lines.
   void ThrowIfAny() const;
 
  private:
-  std::vector<Problem> problems_;  // Kept problems, in the order of the lines.
+  std::vector<Problem> problems_;  // The first problems, in the order of the lines.
   std::size_t omitted_ = 0;
 };
 

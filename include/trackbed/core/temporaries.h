@@ -8,12 +8,13 @@
 /// do not run. RemoveTemporariesForEver therefore removes the files and folders in the list.
 namespace trackbed {
 
-/// Adds `path` to the list and calls `create`. If `create` returns false, takes `path` off the list
-/// again. Returns the result of `create`, and leaves `errno` as `create` set it.
+/// Adds `path` to the list of temporary files and calls `create`. If `create` returns false,
+/// removes `path` from the list. Returns the result of `create`, and leaves `errno` as `create` set
+/// it.
 bool AddTemporary(const std::filesystem::path& path, const std::function<bool()>& create);
 
-/// Calls `remove`, which removes or renames `path`. If `remove` returns true, takes `path` off the
-/// list. Returns the result of `remove`.
+/// Calls `remove`, which removes or renames `path`. If `remove` returns true, removes `path` from
+/// the list of temporary files. Returns the result of `remove`.
 bool DropTemporary(const std::filesystem::path& path, const std::function<bool()>& remove);
 
 /// Removes all files and folders of the list. Call this function right before _exit(): after the

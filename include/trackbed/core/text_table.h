@@ -45,8 +45,8 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// Reads a table of texts from a CSV file with a header line (RFC 4180, with libcsv). The cells are
-/// equal to the cells from which ToCsv wrote the file. Skips empty lines, spaces around cells and a
+/// Reads a table of texts from a CSV file with a header line (RFC 4180, with libcsv). From a file
+/// that ToCsv wrote, ReadTextCsv reads the same cells. Skips empty lines, spaces around cells and a
 /// byte order mark.
 ///
 /// Throws InputError, naming file and line, if a row has the wrong length, or if a column name is

@@ -30,13 +30,12 @@ struct DriveHooks {
   std::function<void(double fraction)> progress{};
   /// Returns true to end the run early; called once per control period.
   std::function<bool()> interrupted{};
-  /// Called after each call of the steering controller, with the wall-clock duration of the call
-  /// [s].
+  /// Receives the wall-clock duration of each call of the steering controller [s], after the call.
   std::function<void(double seconds)> steered{};
-  /// Called after each new row of the log, before the control period that starts at this row is
-  /// simulated, and also after the last row. The run waits until the callback returns. `log`
-  /// contains all rows and plan changes so far, and `configurations` contains all configurations
-  /// logged so far.
+  /// Receives the log after each new row, and also after the last row. The callback is called
+  /// before the control period that starts at the new row is simulated. The run waits until the
+  /// callback returns. `log` contains all rows and plan changes so far, and `configurations`
+  /// contains all configurations logged so far.
   std::function<void(const RunLog& log, const Table& configurations)> logged{};
 };
 
@@ -74,16 +73,17 @@ struct LoopConfig {
   double time_limit = 600.0;         ///< Simulated time after which the run is ended [s], > 0.
   std::optional<double> duration{};  ///< Duration of a run whose plan has no path [s], > 0.
 
-  /// Maximum distance from a vehicle at rest to Plan::goal at which the vehicle counts as arrived.
-  /// The distance is given as a fraction of the vehicle's length, >= 0.
+  /// Maximum distance from a vehicle at rest to Plan::goal at which the vehicle counts as arrived,
+  /// as a fraction of the vehicle's length, >= 0.
   double goal_tolerance = 0.1;
   /// Maximum heading error at which a vehicle at the goal counts as arrived [rad], >= 0; nullopt if
   /// any heading is accepted.
   std::optional<double> goal_heading_tolerance{};
 
   StationSource station_source = StationSource::kProjection;
-  /// Whether to send the plan's steering schedule to the actuator at every timestep. If true, the
-  /// controller's output is only logged, and the controller must use StationSource::kOdometer.
+  /// Whether to send the plan's steering schedule to the actuator at every timestep. If
+  /// `follow_schedule` is true, the controller's output is only logged, and the controller must use
+  /// StationSource::kOdometer.
   bool follow_schedule = false;
   /// Type of the steering input; must equal the type that the plant uses. With kPrescribed, the
   /// angle of the wheels changes linearly during a control period and reaches the commanded angle
@@ -103,16 +103,17 @@ struct LoopConfig {
   std::optional<ReplanningConfig> replanning{};
 
   /// Column names for the values of Plant::Configuration; see CarModel::configuration_columns. If
-  /// the list is empty, the loop logs no configurations.
+  /// the list of column names is empty, the loop logs no configurations.
   std::vector<std::string> configuration_columns{};
   DriveHooks hooks{};
 };
 
 /// Simulates the car `plant` driving along `plan`, controlled by `controller` and the speed
-/// controller. Each control period has these steps: read the state of the plant; project the
-/// plant's pose onto the path; if a new plan or the next forward or reverse segment is due, switch
-/// to it; end the run if an end criterion is met; compute steering and acceleration; log a row;
-/// simulate the plant until the next control period.
+/// controller. In each control period, the loop first reads the state of the plant, and projects
+/// the plant's pose onto the path. If a new plan or the next forward or reverse segment is due, the
+/// loop switches to this plan or segment. The loop then ends the run if an end criterion is met.
+/// If the run continues, the loop computes steering and acceleration, logs a row, and simulates the
+/// plant until the next control period.
 ///
 /// `plant` must not have simulated any steps yet, and must have the timestep, world and steering
 /// input of `config`. The run starts at the plant's present speed and actuator angle; the odometer

@@ -36,7 +36,7 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car);
 /// drive starts with the steering angle that the first recorded command would produce in steady
 /// state, unless the mission sets the start angle. When an obstacle becomes known and blocks the
 /// path, the car replans. The car follows the current plan until the delay of the local planner has
-/// passed. The new plan starts at the car's state at the end of the delay.
+/// passed. The new plan starts at the car's state at the end of the local planner's delay.
 ///
 /// Guarantees: the same scenario, plan and build give the same log, bit for bit. Throws
 /// PreconditionError for a plan that is not ok, and for kRecordedPlant if the scenario has no

@@ -47,15 +47,16 @@ struct LogRow {
   Command command;
   /// Cross-track and heading error of the car relative to the path; nullopt if there is no path. Up
   /// to the goal tolerance beyond the end of the path, the errors are relative to the straight
-  /// extension of the path. Farther beyond the end, the errors are relative to the end point.
+  /// extension of the path. Farther beyond the end of the path, the tracking errors are relative to
+  /// the end point.
   std::optional<Projection> tracking;
   /// Smallest distance from the footprints of car and trailer to the obstacles [m]; 0 on contact;
   /// nullopt if there are no obstacles.
   std::optional<double> clearance;
-  /// Highest planned speed on the short stretch of the path directly behind the car [m/s]. The
-  /// length of this stretch is the goal tolerance plus the distance driven in one control period.
-  /// The speed is nullopt if there is no path, at the end of the run, and while the controller or
-  /// control.speed sets the speed.
+  /// Highest planned speed on a short stretch of the path directly behind the car [m/s]. The
+  /// stretch is as long as the goal tolerance plus the distance driven in one control period. The
+  /// planned speed is nullopt if there is no path, at the end of the run, and while the controller
+  /// or control.speed sets the speed.
   std::optional<double> planned_speed{};
   /// Pose with measurement noise that the controller received; nullopt if there is no measurement
   /// noise.
@@ -67,7 +68,7 @@ struct LogRow {
   std::optional<AidState> aids{};
   /// State of the trailer at the start of the control period; nullopt for a car without a trailer.
   std::optional<TrailerState> trailer{};
-  bool valid = true;  ///< False if the row lies in a gap of a recorded drive.
+  bool valid = true;  ///< Whether the row is valid; false in a gap of a recorded drive.
 };
 
 /// A new plan that the car adopted during the run.
@@ -86,7 +87,7 @@ struct RunLog {
   std::string cause;
   /// Time of the first contact with an obstacle [s]; nullopt if the car touched no obstacle.
   std::optional<double> contact_time;
-  /// Local origin from which the coordinates count, in the scenario's own coordinates [m].
+  /// Origin of the log's coordinates, given in the coordinates of the scenario [m].
   Vec2 origin = Vec2::Zero();
   std::optional<TrailerParams> trailer{};       ///< The trailer of the car; nullopt: none.
   std::vector<std::string> controller_columns;  ///< Names from SteeringController::Columns.
@@ -106,9 +107,9 @@ std::optional<OrientedBox> TrailerFootprint(const RunLog& log, const LogRow& row
 Table ToTable(const RunLog& log);
 
 /// Returns a function that returns the next part of the text of `<plant>.csv` at each call. The
-/// parts together are equal to ToTable(log).ToCsv(). An empty part marks the end of the text. A
-/// part has at most 1024 rows, so that neither the table nor the text of a long log is in memory as
-/// a whole. The log must outlive the returned function.
+/// parts together are equal to ToTable(log).ToCsv(). At the end of the text, the returned function
+/// returns an empty text. A part of the text has at most 1024 rows, so that neither the table nor
+/// the text of a long log is in memory as a whole. The log must outlive the returned function.
 std::function<std::string()> CsvParts(const RunLog& log);
 
 }  // namespace trackbed

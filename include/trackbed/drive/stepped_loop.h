@@ -58,13 +58,13 @@ class SteppedLoop {
   void Step();
   /// Simulates the coming control period with the commanded steering angle of the bicycle model
   /// `steering` [rad], positive to the left. `acceleration` [m/s^2] is positive if the car speeds
-  /// up in the direction of its gear; nullopt leaves the speed to the plan. Both values have the
-  /// meaning of the outputs of a SteeringController. The loop's own controller is not called.
-  /// Throws PreconditionError, and leaves the loop unchanged, if a command is not finite or if the
-  /// run has ended.
+  /// up in the direction of its gear; nullopt leaves the speed to the plan. `steering` and
+  /// `acceleration` have the same meaning as the outputs of a SteeringController. The loop's own
+  /// controller is not called. Throws PreconditionError, and leaves the loop unchanged, if a
+  /// command is not finite or if the run has ended.
   void Step(double steering, std::optional<double> acceleration);
 
-  /// Returns a copy of the log so far. If the run has not ended, the copy has the status
+  /// Returns a copy of the log so far. If the run has not ended, the copy of the log has the status
   /// kInterrupted.
   [[nodiscard]] RunLog log() const;
 

@@ -23,9 +23,9 @@ struct Regression {
 /// the run.
 ///
 /// Some failures cannot be expressed as expectations: a missing plan, wheels that turn faster than
-/// the actuator allows, an unmeasured metric, or two plants that differ. For failures that cannot
-/// be expressed, the expectations stay unchanged. The function then runs the new scenario to verify
-/// that the scenario passes.
+/// the actuator allows, an unmeasured metric, or two plants that differ. If a failure cannot be
+/// expressed, the scenario keeps the original expectations. MakeRegression runs the scenario with
+/// the inverted expectations, and keeps the original expectations unless this run passes.
 Regression MakeRegression(const RunResult& failed, const std::string& name);
 
 /// Returns the text of counterexample.yaml: the output of ResolvedYaml, and a comment with the

@@ -24,17 +24,18 @@ enum class ProbabilityVerdict {
 ///
 /// Guarantees: if the trials are independent and have the same probability of success, each of the
 /// two verdicts is wrong with a probability of at most 1 - confidence. If the true probability is
-/// at most P, L is a nonnegative supermartingale with a mean of at most 1. If the true probability
-/// is at most P, L ever reaches 1/(1 - confidence) with a probability of at most 1 - confidence
-/// (Ville 1939). If the true probability is at least P, M is a nonnegative supermartingale with a
-/// mean of at most 1. Unlike SequentialTest, Wald's test needs a second probability besides P, and
-/// guarantees nothing if the true probability lies between P and the second probability. If the
-/// true probability is very near P, the test needs many trials. If the true probability equals P,
-/// the test usually reaches no verdict.
+/// at most P, the likelihood ratio L is a nonnegative supermartingale with a mean of at most 1. If
+/// the true probability is at most P, the likelihood ratio L ever reaches 1/(1 - confidence) with a
+/// probability of at most 1 - confidence (Ville 1939). If the true probability is at least P, the
+/// likelihood ratio M is a nonnegative supermartingale with a mean of at most 1. Unlike
+/// SequentialTest, Wald's test needs a second probability besides P, and guarantees nothing if the
+/// true probability lies between P and the second probability. If the true probability is very near
+/// P, the test needs many trials. If the true probability equals P, the test usually reaches no
+/// verdict.
 ///
 /// If no trial fails, the test needs 449 trials for the verdict that the probability of success is
-/// at least 0.99, with 95 % confidence. A test with a fixed number of trials needs 299 trials for
-/// the same verdict.
+/// at least 0.99, with 95 % confidence. With 299 passing trials, a test with a fixed number of
+/// trials shows that the probability of success is at least 0.99, with 95 % confidence.
 class SequentialTest {
  public:
   /// Throws PreconditionError unless both arguments are in (0, 1).

@@ -24,7 +24,7 @@ using EvaluatePoint = std::function<std::optional<Evaluation>(const UnitPoint& p
 /// How far one key can be moved from its nominal value without a failure, while all other keys have
 /// their nominal values.
 struct SingleKeyReach {
-  /// The position furthest from the nominal value at which the run passed.
+  /// Position of the key furthest from its nominal value at which a run passed.
   double passes = 0.0;
   bool whole_range = false;  ///< Whether `passes` is the end of the key's range.
 };
@@ -40,8 +40,8 @@ struct KeyMargin {
   std::optional<double> holds_to{};
   /// Sensitivity of the robustness to the key: the change of the robustness over the whole range of
   /// the key. The sensitivity is extrapolated from two points, one tolerance below and one
-  /// tolerance above the counterexample. The sensitivity is nullopt if one of these points has no
-  /// robustness.
+  /// tolerance above the counterexample. The sensitivity is nullopt if the run at one of the two
+  /// points has no robustness.
   std::optional<double> sensitivity{};
   /// How far the key can be lowered from its nominal value without a failure; nullopt if the
   /// nominal value is the lower end of the range.
@@ -53,7 +53,7 @@ struct ShrinkResult {
   UnitPoint point;          ///< Shrunk point; the run at this point was evaluated and fails.
   double robustness = 0.0;  ///< Robustness at `point`.
   double distance = 0.0;    ///< Distance of `point` from the nominal point.
-  /// False if the allowed number of runs was used up before the shrinking converged.
+  /// Whether the shrinking converged before the allowed number of runs was used up.
   bool complete = false;
   std::vector<KeyMargin> keys;  ///< Margins of each key; margins that are unknown are nullopt.
 };

@@ -21,17 +21,17 @@ inline constexpr const char* kFmuMark = "FMU by Trackbed";
 /// `plant` is the plant that the FMU simulates; the plants in `scenario` are ignored. Expectations
 /// and the video settings are not exported. An existing file is replaced.
 ///
-/// Guarantees: outside of its shared library, the FMU contains no file path of this machine. Equal
-/// scenarios give equal files. Before the file is written, the FMU is instantiated and initialized
-/// once, so that an FMU without a plan is not written.
+/// Guarantees: outside of its shared library, the FMU contains no file path of this machine. Two
+/// exports of the same scenario are identical files. Before the file is written, the FMU is
+/// instantiated and initialized once, so that an FMU without a plan is not written.
 ///
 /// Cost: about two seconds, mostly to compress the libraries (about 30 MB).
 ///
 /// Errors: throws InputError if the plant cannot be stepped, or if FMI 2 does not know the
-/// machine's architecture. Also throws InputError if the FMU does not start. Possible causes are a
-/// scenario without a plan, and a planner or controller that this program registered. Throws
-/// RunError if the shared library of FMUs (trackbed_fmu.so) is missing or the file cannot be
-/// written.
+/// machine's architecture. Also throws InputError if the FMU does not start. An FMU does not start,
+/// for example, without a plan, or with a planner or controller that the calling program
+/// registered. Throws RunError if the shared library of FMUs (trackbed_fmu.so) is missing or the
+/// file cannot be written.
 void ExportFmu(const Scenario& scenario, const std::string& plant,
                const std::filesystem::path& file, FmiVersion version = FmiVersion::k3);
 

@@ -9,23 +9,24 @@
 
 namespace trackbed {
 
-/// Distances that lines keep from rectangles.
+/// Distances that line segments must keep from rectangles.
 struct Inflation {
-  /// The same distance [m], >= 0, from every rectangle.
+  /// Requires the same distance [m], >= 0, from every rectangle.
   Inflation(double distance) : most(distance) {}  // NOLINT(google-explicit-constructor)
 
-  double most = 0.0;  ///< Largest distance from any rectangle [m].
-  /// Distance from each rectangle [m], at most `most`; empty: `most` for all rectangles.
+  double most = 0.0;  ///< Largest of the required distances [m].
+  /// Required distance from each rectangle [m], at most `most`; if empty, the distance is `most`
+  /// for all rectangles.
   std::vector<double> own{};
 
-  /// Returns the distance from a rectangle [m].
+  /// Returns the required distance from the rectangle with the index `box` [m].
   [[nodiscard]] double From(std::size_t box) const { return own.empty() ? most : own[box]; }
 };
 
-/// Returns the inflation of each rectangle [m]: `most`, or less if the rectangle is nearer than
-/// `most` to one of the `points`. With this inflation, a line is free if it begins at one of the
-/// `points` and comes no nearer to the rectangle. A point inside a rectangle is not free, whatever
-/// the inflation.
+/// Returns the inflation of each rectangle [m]: the distance `most`, or less if one of the `points`
+/// is nearer than `most` to the rectangle. With the returned inflation, a line that begins at one
+/// of the `points` is free if the line comes no nearer to the rectangle than this point. A point
+/// inside a rectangle is not free, whatever the inflation.
 Inflation InflationAt(const std::vector<Vec2>& points, const std::vector<OrientedBox>& boxes,
                       double most);
 

@@ -13,7 +13,8 @@ struct OrientedBox {
   double length = 0.0;  ///< Extent of the rectangle along its own x axis [m], > 0.
   double width = 0.0;   ///< Extent of the rectangle along its own y axis [m], > 0.
 
-  /// Returns the four corners in counter-clockwise order, starting with the front left corner.
+  /// Returns the four corners of the rectangle in counter-clockwise order, starting with the front
+  /// left corner.
   [[nodiscard]] std::array<Vec2, 4> Corners() const;
 };
 

@@ -109,7 +109,7 @@ struct IdentificationResult {
 };
 
 struct IdentificationHooks {
-  /// Called with the finished fraction of the work, which is estimated and may be too high.
+  /// Receives the finished fraction of the work, which is estimated and may be too high.
   std::function<void(double fraction)> progress{};
   /// Returns true to end the search early; called by several threads. After an interruption,
   /// Identify returns the best estimate found so far, without replays of the records. Identify

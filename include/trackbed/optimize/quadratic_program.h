@@ -6,8 +6,8 @@
 ///   minimize x^T H x/2 + f^T x  subject to  G x <= h
 namespace trackbed {
 
-/// A quadratic program. Maximum sizes of the quadratic program; because of these limits, only NLopt
-/// allocates heap memory.
+/// A quadratic program. Maximum sizes of the quadratic program; because the sizes are limited, only
+/// NLopt allocates heap memory.
 struct QuadraticProgram {
   static constexpr int kMaxVariables = 40;
   static constexpr int kMaxConstraints = 4 * kMaxVariables;
@@ -21,7 +21,7 @@ struct QuadraticProgram {
   Matrix hessian;    ///< Matrix H of the objective, symmetric positive definite.
   Vector linear;     ///< Vector f of the objective.
   Rows constraints;  ///< Matrix G of the constraints, with any number of rows.
-  Bounds bounds;     ///< Vector h of the constraints.
+  Bounds bounds;     ///< Vector h, the upper bounds of G x.
 };
 
 struct QuadraticSolution {
@@ -37,8 +37,8 @@ struct QuadraticSolution {
 /// solution. If constraints are active, NLopt's SLSQP solves the program with only a subset of the
 /// constraints; violated constraints are added to the subset until no constraint is violated. The
 /// variables are transformed so that H becomes the identity matrix, which SLSQP uses as its initial
-/// Hessian. Because of this transformation, the first step of SLSQP reaches the solution from any
-/// start point.
+/// Hessian. Because the initial Hessian is exact, the first step of SLSQP reaches the solution from
+/// any start point.
 ///
 /// Guarantees: the constraints are met to the absolute `tolerance`, and the same quadratic program
 /// always has a bit-identical solution. If no point meets all constraints, `ok` is false, and x is

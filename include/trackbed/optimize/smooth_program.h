@@ -11,11 +11,11 @@ namespace trackbed {
 struct SmoothValues {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  double objective = 0.0;     ///< f(x)
+  double objective = 0.0;     ///< Objective f(x).
   Eigen::VectorXd gradient;   ///< Derivatives of f by x.
-  Eigen::VectorXd equal;      ///< c(x)
+  Eigen::VectorXd equal;      ///< Equality constraints c(x).
   Rows equal_rows;            ///< Derivatives of c by x, one row per constraint.
-  Eigen::VectorXd at_most_0;  ///< d(x)
+  Eigen::VectorXd at_most_0;  ///< Inequality constraints d(x).
   Rows at_most_0_rows;        ///< Derivatives of d by x, one row per constraint.
 };
 
@@ -33,7 +33,7 @@ struct SmoothProgram {
 struct SmoothSolution {
   bool ok = false;  ///< Whether x meets all constraints to the tolerance.
   Eigen::VectorXd x;
-  double objective = 0.0;  ///< f(x)
+  double objective = 0.0;  ///< Objective f(x).
   double violation = 0.0;  ///< Largest violation of a constraint at x.
   int evaluations = 0;     ///< Number of points that were evaluated.
 };

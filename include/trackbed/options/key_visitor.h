@@ -71,8 +71,9 @@ struct PairShape {
 inline constexpr PairShape kPoint{"a point [x, y]", "points [x, y]", kMap, kMap};
 
 /// Returns the range with values for its missing bounds. The value for a missing bound depends on
-/// the key's unit and lies beyond any realistic number. For example, the value is 1e5 m, 1e6 s or
-/// 1e3 m/s, and 1e12 for other units.
+/// the key's unit and lies beyond any realistic number. For example, a missing upper bound becomes
+/// 1e5 m, 1e6 s or 1e3 m/s, or 1e12 in other units. A missing lower bound becomes the negative of
+/// the same number.
 Range WithinReason(const Key& key, Range range);
 
 /// Formats the allowed values as text, such as "above 0 and at most 10"; returns an empty text if
@@ -142,7 +143,7 @@ class KeyVisitor {
   /// Does nothing in modes other than kList.
   virtual void Mention(const Key&, const char* /*type*/) {}
 
-  /// Returns true in mode kRead if `key` is a section that has a key of `inner` but no key
+  /// Returns true in mode kRead if the section `key` contains one of the keys `inner`, but no key
   /// `method`.
   [[nodiscard]] virtual bool HasAny(const char* /*key*/, const Names& /*inner*/) const {
     return false;

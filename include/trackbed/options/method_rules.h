@@ -49,7 +49,8 @@ class InputReader {
 };
 
 /// Wraps a function whose argument is one options struct, so that the function can be called with
-/// MethodOptions. Further arguments, which must be references, are passed to the original function.
+/// MethodOptions. Further arguments of the wrapper, which must be references, are passed to the
+/// wrapped function.
 template <typename Options, auto Function>
 inline constexpr auto OnOptions = [](auto& options, auto&... arguments) {
   return Function(options.template Get<Options>(), arguments...);

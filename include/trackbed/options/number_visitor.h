@@ -11,8 +11,8 @@
 namespace trackbed {
 
 /// Base of the classes that visit the numbers of a struct. Visits the numbers that are set,
-/// including numbers in sections, in lists and in the options of the selected method. Ignores all
-/// other values.
+/// including numbers in sections, in lists and in the options of the selected method. A
+/// NumberVisitor ignores all values that are not numbers.
 class NumberVisitor : public KeyVisitor {
  public:
   [[nodiscard]] Mode mode() const override { return Mode::kWrite; }
@@ -33,11 +33,10 @@ class NumberVisitor : public KeyVisitor {
   void Pair(const Key& key, int& first, int& second, Range range) override;
 
  protected:
-  /// Called for each number, also for each number of a list. The function may change a
-  /// floating-point number. For a whole number (int), `value` is a copy, so that changes have no
-  /// effect.
+  /// Visits a number, which may be an element of a list. An override may change a floating-point
+  /// number. For a whole number (int), `value` is a copy, so that changes have no effect.
   virtual void Number(const Key& key, double& value, const Range& range) = 0;
-  /// Called for each list of pairs. The function may change the pairs.
+  /// Visits a list of pairs of numbers. An override may change the pairs.
   virtual void Pairs(const Key& key, std::vector<Vec2>& pairs, const PairShape& shape) = 0;
 
   /// Returns the dotted key of the section that is being visited, such as "world.obstacles[0]"; ""

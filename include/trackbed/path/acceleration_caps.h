@@ -27,8 +27,8 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
                        const std::vector<SpeedCap>& caps,
                        const std::vector<AccelerationCap>& sections);
 
-/// Makes a speed profile in the same way as StopAtEnd, but for a path with cusps. The profile also
-/// stops at each cusp and at the stations `stops` [m].
+/// Makes a speed profile in the same way as StopAtEnd, but for a path with cusps. In the profile,
+/// the car also stops at each cusp and at the stations `stops` [m].
 SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits& limits,
                          const std::vector<SpeedCap>& caps, const std::vector<double>& stops,
                          const std::vector<AccelerationCap>& sections);

@@ -75,11 +75,12 @@ struct FittedPath {
   std::size_t added = 0;
   /// Corners of a polyline at which the direction changes by more than 1e-9 rad.
   std::vector<HeadingJump> jumps;
-  /// Points at which the direction of travel changes by more than kMaxHeadingJump. If any point has
-  /// such a change, no path is fitted.
+  /// Points at which the direction of travel changes by more than kMaxHeadingJump. No path is
+  /// fitted if the list `reversals` is not empty.
   std::vector<HeadingJump> reversals;
   /// If `reversals` is not empty: about the smallest max_deviation with which a spline can be
-  /// fitted [m]. Nullopt if this value would exceed a tenth of the length of the points.
+  /// fitted [m]. `noise_deviation` is nullopt if it would exceed a tenth of the length of the
+  /// points, or if the search for the value needs too many fits.
   std::optional<double> noise_deviation{};
   /// Smoothing length l of the fitted spline [m]; 0 for a polyline, and for a path that follows the
   /// given headings and curvatures.
@@ -101,50 +102,54 @@ inline constexpr double kMaxHeadingJump = 2.8;
 /// conversion assumes that the rear axle follows the reference point without slip (a tractrix) and
 /// starts on the circle through the first three points. Keeps the speeds, but drops the curvatures,
 /// because these are the curvatures of the reference point's path. Throws InputError if the car
-/// drives in reverse and no headings are given, because no axle follows a point in reverse.
+/// drives in reverse and no headings are given, because the motion of an axle behind a given point
+/// is unstable in reverse.
 PathPoints AtRearAxle(PathPoints given, double ahead);
 
 /// Fits a path through or along the points.
 ///
 /// The points are divided into legs, each driven in one direction of motion. The legs follow from
-/// the directions of motion at the points (+1 forwards, -1 backwards). Where these directions are
-/// unknown, the legs follow from the headings. The car drives in reverse where its heading is
-/// opposite to the step to the next point. A leg that is shorter than max_deviation counts as
-/// noise. The car changes its direction of motion only at some of the points, which are the cusps
-/// of the path. Each leg is fitted as a separate curve. At a cusp, the heading is continuous. The
-/// heading at a cusp is the given heading, corrected by the mean difference between curves and
-/// given headings. Without suitable given headings, the heading at a cusp is the mean of the
-/// headings of the two curves. The curvature may jump at a cusp, where the car stands. A path
+/// the directions of motion at the points (+1 forwards, -1 backwards). Where the directions of
+/// motion are unknown, the legs follow from the headings. The car drives in reverse where its
+/// heading is opposite to the step to the next point. A leg that is shorter than max_deviation
+/// counts as noise. The car changes its direction of motion only at some of the points, which are
+/// the cusps of the path. Each leg is fitted as a separate curve. At a cusp, the heading is
+/// continuous. The heading at a cusp is the given heading, corrected by the mean difference between
+/// curves and given headings. Without suitable given headings, the heading at a cusp is the mean of
+/// the headings of the two curves. The curvature may jump at a cusp, where the car stands. A path
 /// without directions and headings has one forward leg.
 ///
-/// Because a Path has a continuous heading, each corner of a polyline becomes an arc. The arc is at
-/// most 2 mm long, is within 1 mm of the corner, and is far too tight for any car.
+/// Because a Path has a continuous heading, each corner of a polyline becomes an arc. The arc that
+/// replaces a corner is at most 2 mm long, lies within 1 mm of the corner, and is far too tight for
+/// any car.
 ///
 /// A spline is fitted in two steps. First, a quintic spline over the chord length u, with a knot at
 /// every point, minimizes
 ///     sum over i of w_i |P(u_i) - p_i|^2 + l^6 integral of |P'''(u)|^2 du,
 /// where w_i [m] is the length of path that point i represents, and l [m] is the smoothing length.
 /// Details of the points that are shorter than the smoothing length l are smoothed out (Reinsch
-/// 1967). Bisection finds the largest l, to 10 %, for which the deviation of the points is at most
-/// max_deviation. Second, Newton's method, which starts at this spline, minimizes over all curves
+/// 1967). Bisection finds, to 10 %, the largest smoothing length l for which the deviation of the
+/// points is at most max_deviation. Second, Newton's method, which starts at the quintic spline,
+/// minimizes over all curves
 ///     sum over i of w_i n_i^2 + l^6 integral of (kappa'(s) - c)^2 ds,
 /// where n_i [m] is the distance of point i from the curve, kappa' is the curvature rate, and c is
 /// its mean: a minimum variation curve (Moreton and Séquin 1992). The integral is 0 for lines, arcs
-/// and clothoids, so points on a line, arc or clothoid are fitted by exactly this curve. Curvature
-/// and curvature rate are continuous. If the deviation of the curve exceeds max_deviation, the
-/// smoothing length l is reduced. If no curve converges, the path is the quintic spline itself.
+/// and clothoids, so points on a line, arc or clothoid are fitted by exactly this curve. The fitted
+/// curve has a continuous curvature and a continuous curvature rate. If the deviation of the curve
+/// exceeds max_deviation, the smoothing length l is reduced. If Newton's method finds no curve
+/// within max_deviation, the path is the quintic spline itself.
 ///
 /// If headings and curvatures of an open path agree with the points as exactly as a planner's own
 /// output, no spline is fitted: the path has these headings and curvatures. If the curvature is
 /// constant before a step between two points, and has another constant value after the step, the
 /// curvature jumps within the step.
 ///
-/// Steps that turn back by more than a right angle within max_deviation count as noise, such as
-/// that of a recorder in a standing car. Noisy points are merged into groups, and a spline is
+/// Steps that turn back by more than a right angle within max_deviation count as noise, for example
+/// the noise of a recorder in a standing car. Noisy points are merged into groups, and a spline is
 /// fitted to the centers of the groups. Successive points with the speed 0 are fitted as one point
-/// if they lie within max_deviation of one place; `given` then contains this place.
+/// if they lie within max_deviation of one place; FittedPath::given then contains only this place.
 ///
-/// Guarantees: an open path, and each of its legs, begins at the first point and ends at the last
+/// Guarantees: each leg of an open path begins at the leg's first point and ends at the leg's last
 /// point, to 1e-9 m. At coordinates of 1e6 m and more, the ends of the path are exact to the
 /// rounding error of the coordinates. If all points lie on one line, arc or clothoid, the path
 /// deviates from this curve by at most 1e-9 m. No point lies further than max_deviation from the
@@ -156,11 +161,11 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// turns by the same angle as the points. The fit does not account for obstacles or the limits of a
 /// car.
 ///
-/// A step between two points counts as a straight line in two cases. In the first case, the step is
-/// more than four times as long as the median step, and has less than a quarter of the curvature
-/// beside it. In the second case, the spline would exceed the bound of `bulge` on the step, and the
-/// points turn by at most 45 degrees at both ends. Points are added on straight lines (`added`),
-/// and the spline stays within max_deviation of the added points.
+/// A long step between two points counts as a straight line: a step that is more than four times as
+/// long as the median step, and has less than a quarter of the curvature beside it. A step also
+/// counts as a straight line if the spline would exceed the bound of `bulge` on the step, and the
+/// points turn by at most 45 degrees at both ends of the step. Points are added on these straight
+/// lines (`added`), and the spline stays within max_deviation of the added points.
 ///
 /// Throws InputError if there are fewer than two different points or more than 200 000 points to be
 /// fitted, or if no spline stays within max_deviation. Throws InputError if the heading of a point

@@ -10,14 +10,16 @@
 /// path at station s; n is the left normal of the path; x and theta are the position and yaw of the
 /// car; d = (x - r(s)) n is the lateral offset [m], positive to the left; d' = dd/ds and d'' =
 /// d^2d/ds^2; s_t and s_tt are the time derivatives of s; Dtheta = theta - theta_r; v, a and kappa
-/// are the speed, acceleration and curvature of the car's motion.
+/// are the speed, acceleration and curvature of the car's motion. The conversion formulas are
+/// (Werling et al. 2010):
 ///   x = r + d n                            d' = (1 - kappa_r d) tan Dtheta
 ///   v = s_t (1 - kappa_r d)/cos Dtheta
 ///   d'' = -(kappa_r' d + kappa_r d') tan Dtheta
 ///         + (1 - kappa_r d)/cos^2 Dtheta (kappa (1 - kappa_r d)/cos Dtheta - kappa_r)
 ///   a = s_tt (1 - kappa_r d)/cos Dtheta + s_t^2/cos Dtheta
 ///       [(1 - kappa_r d) tan Dtheta (kappa (1 - kappa_r d)/cos Dtheta - kappa_r)
-/// (Werling et al. 2010). The derivatives d' and d'' with respect to the station are also defined
+///        - (kappa_r' d + kappa_r d')].
+/// The derivatives d' and d'' with respect to the station are also defined
 /// at standstill. The time derivatives are d_t = d' s_t and d_tt = d'' s_t^2 + d' s_tt.
 namespace trackbed {
 
@@ -65,8 +67,8 @@ std::optional<FrenetState> ToFrenet(const Path& path, const MotionState& motion,
 /// Converts path coordinates to the motion of a car; the inverse of ToFrenet. Returns nullopt if 1
 /// - kappa_r d <= 0, or if the car drives backwards on the path. The returned yaw is not wrapped
 /// and differs from the path's yaw by less than 90 degrees. The error of a conversion to path
-/// coordinates and back is at most 1e-9 if the path's curvature is continuous. For lines and arcs,
-/// the error is only a rounding error.
+/// coordinates and back is at most 1e-9 if the path's curvature is continuous. On lines and arcs,
+/// the conversion error is only a rounding error.
 ///
 /// To plan motions, use a path with continuous curvature. Where the path's curvature jumps, the
 /// heading of the converted motion jumps unless d or d' is 0; where the path's sharpness jumps, the

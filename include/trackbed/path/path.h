@@ -54,7 +54,7 @@ struct Projection {
   double heading_error = 0.0;
 };
 
-/// An interval of stations [m] in which to search.
+/// An interval of stations on a path [m], such as the interval of a search.
 struct Stations {
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
@@ -136,12 +136,12 @@ struct CurvePoint {
 
 /// Returns segments that follow a smooth curve in the forward direction. Each segment connects two
 /// neighboring points and has the curve's heading and curvature at both points. Between the points,
-/// the heading of the segments differs from the heading of the curve by at most h^4 k/384. In this
-/// bound, h is the distance of the points and k the largest third derivative of the curvature. The
-/// position error at the end of the segments is at most h^4 k/720 times the length of the curve,
-/// where h and k have the same meaning as for the heading. The position error is about 1e-7 m for
-/// points 0.1 m apart on bends that a car can drive. Throws InternalError unless the distances of
-/// the points along the curve increase.
+/// the heading of the segments differs from the heading of the curve by at most h^4 k/384, where h
+/// is the distance of the points and k the largest third derivative of the curvature. The position
+/// error at the end of the segments is at most h^4 k/720 times the length of the curve, for points
+/// at the distance h and a third derivative of the curvature of at most k. The position error is
+/// about 1e-7 m for points 0.1 m apart on bends that a car can drive. Throws InternalError unless
+/// the distances of the points along the curve increase.
 std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points);
 
 }  // namespace trackbed

@@ -57,24 +57,24 @@ struct SpeedCap {
   double to = 0.0;     ///< End station [m].
   double speed = 0.0;  ///< Speed limit of the section [m/s], > 0.
   /// Whether a car that starts too fast brakes as hard as it must to keep the limit from the start
-  /// of the section on. If false, the car brakes at the maximum deceleration, and may be faster
-  /// than the limit until its speed has fallen to the limit, as for SpeedLimits::speed.
+  /// of the section on. If `strict` is false, the car brakes at the maximum deceleration, and may
+  /// be faster than the limit until its speed has fallen to the limit, as for SpeedLimits::speed.
   bool strict = true;
 };
 
 /// Makes a speed profile that starts at s = 0 with `start_speed`, is as fast as `limits` and `caps`
 /// allow, and stops at s = `length`. If the length is too short to reach the speed limit, the
-/// highest speed of the profile is below the limit. The profile brakes harder than `limits` allow,
-/// at a constant deceleration, where it would otherwise miss the stop at the end or a strict cap.
-/// The start speed may be above the speed limit, above a cap that is not strict, or above a cap at
-/// the start. From a start speed above a limit, the profile slows down at the maximum deceleration
-/// of `limits`. Throws PreconditionError if a number is not finite; only the numbers of a cap may
-/// be infinite.
+/// highest speed of the profile is below the limit. Where the limits would make the car miss the
+/// stop at the end or a strict cap, the profile brakes harder than `limits` allow, at a constant
+/// deceleration. The start speed may be above the speed limit, above a cap that is not strict, or
+/// above a cap at the start. From a start speed above a limit, the profile slows down at the
+/// maximum deceleration of `limits`. Throws PreconditionError if a number is not finite; only the
+/// numbers of a cap may be infinite.
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps = {});
 
-/// Makes a speed profile in the same way as StopAtEnd, but for a path with cusps. The profile also
-/// stops at each cusp and at the stations `stops` [m].
+/// Makes a speed profile in the same way as StopAtEnd, but for a path with cusps. In the profile,
+/// the car also stops at each cusp and at the stations `stops` [m].
 SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits& limits,
                          const std::vector<SpeedCap>& caps = {},
                          const std::vector<double>& stops = {});

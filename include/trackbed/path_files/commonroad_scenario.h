@@ -52,10 +52,10 @@ struct CommonRoadScenario {
   CommonRoadGoal goal;
   /// Points for the car's center, about 1 m apart [m]. The points lead from the start onto the
   /// lanelets' centers, and along the shortest sequence of lanelets to the goal. Beyond the goal,
-  /// the points continue far enough for a car to stop.
+  /// the points of the route continue far enough for a car to stop.
   std::vector<Vec2> route;
-  /// The speed nearest to the initial speed at which a car on the route meets the goal in time
-  /// [m/s], >= 0.1.
+  /// Speed at which a car on the route reaches the goal in time [m/s], >= 0.1; of all such speeds,
+  /// the one nearest to the initial speed.
   double speed = 0.0;
   /// Heading of the route at the goal, continued from the start's heading without jumps [rad].
   double goal_yaw = 0.0;
@@ -72,8 +72,8 @@ struct CommonRoadScenario {
 /// [m/s^2].
 inline constexpr double kCommonRoadAcceleration = 2.5;
 
-/// Distance from the rear axle to the center of the car of a planning problem [m]. In CommonRoad's
-/// vehicle 2 (BMW 320i), this is the distance from the rear axle to the center of gravity.
+/// Distance from the rear axle to the center of the car of a planning problem [m]. The value is the
+/// distance from the rear axle to the center of gravity of CommonRoad's vehicle 2 (BMW 320i).
 inline constexpr double kCommonRoadCenterAhead = 1.42200396;
 
 /// Whether the text is an XML document with the root element `commonRoad`.

@@ -24,13 +24,14 @@ inline constexpr const char* kLanesCsv = "lanes.csv";
 inline constexpr std::size_t kMaxLanePoints = 1'000'000;
 
 /// Returns the lanes whose bounding box comes within `reach` [m] of a point of the path. May also
-/// return lanes that are up to 5 m farther away. The returned lanes have at most kMaxLanePoints
-/// points in total. The cost is proportional to the number of lanes times the length of the path.
+/// return lanes that are up to 5 m farther away than `reach`. The returned lanes have at most
+/// kMaxLanePoints points in total. The cost is proportional to the number of lanes times the length
+/// of the path.
 DrawnLanes LanesNear(const DrawnLanes& lanes, const std::vector<Vec2>& path, double reach);
 
 /// Formats lanes as a CSV file with the columns `lane`, `left_x_m`, `left_y_m`, `right_x_m` and
 /// `right_y_m`: a row for each pair of points of the two bounds. ReadLanesCsv reads equal lanes
-/// from this file.
+/// from the formatted file.
 std::string LanesCsv(const DrawnLanes& lanes);
 
 /// Reads the file that LanesCsv writes. All rows of a lane must follow each other.

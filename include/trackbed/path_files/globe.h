@@ -25,9 +25,9 @@ inline constexpr double kMaxLatitude = 89.0;
 /// Largest magnitude of a longitude [deg]; some receivers count from 0 to 360 degrees.
 inline constexpr double kMaxLongitude = 360.0;
 
-/// Returns why no car can be at the position, and the remedy; "" if the position is valid. The text
-/// recognizes three mistakes: swapped coordinates, degrees and minutes of NMEA 0183, and numbers in
-/// 1e-7 degrees.
+/// Returns why no car can be at the position, and the remedy; "" if the position is valid. The
+/// returned text names three likely mistakes: swapped coordinates, degrees and minutes of NMEA
+/// 0183, and numbers in 1e-7 degrees.
 std::string GlobeProblem(const GlobePosition& position);
 
 /// Returns the numbers of the positions at which a receiver had no fix: latitude and longitude are
@@ -42,10 +42,10 @@ std::string NoFixNote(std::size_t count, const std::string& first);
 /// its origin. The x axis points to the east and the y axis to the north at the origin.
 ///
 /// Scale: lengths at the distance x east or west of the origin are too long by the factor 1 +
-/// x^2/(2 R^2) with the earth's radius R. The relative error of a length is 1.2e-8 for x = 1 km,
-/// 1.2e-6 for 10 km, and 1.2e-4 for 100 km. In a UTM zone, lengths are too short by 4e-4 on the
-/// zone's meridian. Heights are ignored: a road at the height h is longer than its projection by
-/// the fraction h/R, which is 1.6e-4 for h = 1 km.
+/// x^2/(2 R^2) with the earth's radius R. The relative error of a length is 1.2e-8 at x = 1 km east
+/// or west of the origin, 1.2e-6 at 10 km, and 1.2e-4 at 100 km. In a UTM zone, lengths are too
+/// short by 4e-4 on the zone's meridian. Heights are ignored: a road at the height h is longer than
+/// its projection by the fraction h/R, which is 1.6e-4 for h = 1 km.
 class LocalPlane {
  public:
   explicit LocalPlane(const GlobePosition& origin);
@@ -74,7 +74,7 @@ struct GlobePoints {
   std::vector<Vec2> points;  ///< Positions [m]; empty if there is a `problem`.
   std::string note;
   std::size_t bad = 0;  ///< Number of the position that cannot be projected.
-  std::string problem;  ///< Why `bad` cannot be projected; empty if there is no `bad` position.
+  std::string problem;  ///< Why the position `bad` cannot be projected; otherwise empty.
 };
 
 /// Projects valid positions to a plane about `origin`, by default the first position.

@@ -16,7 +16,7 @@ struct GlobePoint {
   GlobePosition position;
   std::optional<double> time;    ///< Time since 1970-01-01T00:00:00Z [s].
   std::optional<double> height;  ///< Height as in the file [m].
-  int line = 0;                  ///< Line in the file; 0 if unknown.
+  int line = 0;                  ///< Line number in the file; 0 if unknown.
 };
 
 /// A line in a file: a route, a segment of a track, a line string.
@@ -29,7 +29,7 @@ struct GlobeLine {
 
 struct GlobeFile {
   std::string format;            ///< "GPX", "KML" or "GeoJSON".
-  std::vector<GlobeLine> lines;  ///< Lines with at least one point.
+  std::vector<GlobeLine> lines;  ///< Lines of the file with at least one point.
   /// Points of the file that belong to no line, such as waypoints and markers.
   std::size_t single_points = 0;
 };

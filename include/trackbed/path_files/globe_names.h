@@ -23,7 +23,7 @@ struct GlobeColumn {
 std::optional<GlobeColumn> GlobeColumnOf(std::string_view name);
 
 /// Returns whether a column's name contains a word for latitude or longitude, without a unit of
-/// length. The numbers of this column may not be read as meters.
+/// length. The numbers in a column of latitudes or longitudes must not be read as meters.
 bool NamesGlobeAxis(std::string_view name);
 
 /// Returns whether a column's name is usual for letters of hemispheres, such as "N/S" or "lat_dir".

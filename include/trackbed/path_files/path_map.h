@@ -76,13 +76,13 @@ struct PathMap {
   int line = 0;
   /// Topic of a bag; default: the only topic of the type nav_msgs/Path.
   std::optional<std::string> topic;
-  /// Lanelets of a Lanelet2 map that the route visits, by their ids, in this order.
+  /// Ids of the lanelets of a Lanelet2 map that the route visits, in the order of the route.
   std::vector<std::string> lanelets;
 };
 void Visit(KeyVisitor& keys, PathMap& map);
 
-/// Returns the problems that concern more than one key. Each pair contains the key that the user
-/// should change and the message.
+/// Returns the problems that concern more than one key. Each returned pair contains the key that
+/// the user should change and the error message.
 std::vector<std::pair<std::string, std::string>> PathMapProblems(const PathMap& map);
 
 /// A usual name of a column, and the unit that this name implies.

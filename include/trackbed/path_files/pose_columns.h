@@ -27,8 +27,8 @@ struct PoseColumns {
   std::optional<UsualColumn> x;
   std::optional<UsualColumn> y;
   std::optional<UsualColumn> yaw;
-  /// If the columns of several poses match, the names of their x columns; `x`, `y` and `yaw` are
-  /// then empty.
+  /// Names of the x columns if the columns of several poses match; `x`, `y` and `yaw` are then
+  /// empty.
   std::vector<std::string> choices;
 };
 

@@ -24,10 +24,10 @@ struct BankedTrack {
   bool closed = true;              ///< Whether the line continues from the last to the first point.
 };
 
-/// Returns whether points form a closed line, since track files need not state whether the track is
-/// closed. In a closed line, the gap between the last and the first point is at most twice the
-/// largest distance between neighboring points. The direction changes little across the gap: by at
-/// most 30 degrees plus the sum of the turns at the second point and at the point before the last.
+/// Returns whether points form a closed line, for track files that do not state whether the track
+/// is closed. In a closed line, the gap between the last and the first point is at most twice the
+/// largest distance between neighboring points. Across the gap, a closed line turns by at most 30
+/// degrees plus its turns at the second and the second-to-last point.
 bool IsClosedLine(const std::vector<TrackPoint>& points);
 
 /// Returns the reason why points cannot form an open line, as a text for users; empty if the points
@@ -36,20 +36,20 @@ std::string OpenLineProblem(const std::vector<TrackPoint>& points);
 
 class GroundLine;
 
-/// Makes terrains along one center line, for any banks.
+/// Makes terrains along one center line, for any banks and heights.
 ///
-/// Between the edges of the track and 1.5 m beyond the edges, the terrain is the banked road,
-/// interpolated from points every 0.5 m. Further outside, the terrain blends into smooth ground
-/// within 8 m. Bank and height are smoothed in the same way as the center line (Track). Where parts
-/// of the track are close to each other, each part keeps its height on the road. The ground between
-/// these parts has the mean of their heights, weighted by proximity. On the inside of bends, the
-/// road ends at 0.9 of the bend's radius from the center line. Beyond its ends, an open road
-/// continues straight, with the slope and the bank at the end. An open road blends into smooth
-/// ground between 1.5 m and 9.5 m from its ends.
+/// From edge to edge of the track and 1.5 m beyond the edges, the terrain is the banked road,
+/// interpolated from points every 0.5 m. Within the next 8 m beside the road, the terrain blends
+/// into smooth ground. Bank and height are smoothed in the same way as the center line (Track).
+/// Where parts of the track are close to each other, each part keeps its height on the road. The
+/// ground between neighboring parts of the track has the mean of the parts' heights, weighted by
+/// proximity. On the inside of bends, the road ends at 0.9 of the bend's radius from the center
+/// line. Beyond its ends, an open road continues straight, with the slope and the bank at the end.
+/// An open road blends into smooth ground between 1.5 m and 9.5 m from its ends.
 class BankedGround {
  public:
   /// Throws InputError if the track spreads over more than 4 km along x or y, or if the track is
-  /// open and has an OpenLineProblem. Cost: 0.3 s per kilometer.
+  /// open and has an OpenLineProblem. Computing time: 0.3 s per kilometer of track.
   explicit BankedGround(std::vector<TrackPoint> points, bool closed = true);
 
   [[nodiscard]] const std::vector<TrackPoint>& points() const;
@@ -59,8 +59,8 @@ class BankedGround {
   [[nodiscard]] double StationOf(std::size_t point) const;
 
   /// Returns the terrain for the bank [rad] and the height [m] at each point of the center line.
-  /// Throws PreconditionError unless both arguments have a number for each point. Cost: 0.1 s per
-  /// kilometer.
+  /// Throws PreconditionError unless `banks` and `heights` have a number for each point. Computing
+  /// time: 0.1 s per kilometer of track.
   [[nodiscard]] std::shared_ptr<const Terrain> With(const std::vector<double>& banks,
                                                     const std::vector<double>& heights) const;
 
@@ -69,17 +69,17 @@ class BankedGround {
   struct Place {
     double s = 0.0;
     double d = 0.0;
-    double weight = 0.0;  // weight by proximity; the weights of all parts add up to 1
+    double weight = 0.0;  // Weight by proximity; the weights of all places of a node add up to 1.
   };
   /// A node of the terrain, with its place relative to each nearby part of the track.
   struct Node {
     std::vector<Place> places{};
-    double share = 0.0;  // weight of the road; the coarse ground has the weight 1 - share
+    double share = 0.0;  // Weight of the road; the coarse ground has the weight 1 - share.
   };
   struct Block {
     int column = 0;
     int row = 0;
-    std::vector<Node> nodes{};  // in the order in which Terrain::Refine evaluates the nodes
+    std::vector<Node> nodes{};  // Nodes in the order in which Terrain::Refine uses them.
   };
 
   void FindNodes();
@@ -90,9 +90,9 @@ class BankedGround {
 
   std::shared_ptr<const GroundLine> line_;
   Terrain::Size size_;
-  std::vector<PathPoint> samples_;  // samples of the center line
-  std::vector<double> stations_;    // stations of the samples [m]
-  double reach_ = 0.0;              // largest distance of changed ground from the center line
+  std::vector<PathPoint> samples_;  // Samples of the center line.
+  std::vector<double> stations_;    // Stations of the samples [m].
+  double reach_ = 0.0;              // Largest distance of changed ground from the center line [m].
   std::vector<Block> blocks_;
 };
 
@@ -103,20 +103,20 @@ std::shared_ptr<const Terrain> MakeTerrain(const BankedTrack& track);
 struct CenterPoints {
   std::vector<TrackPoint> points;
   bool closed = true;
-  std::vector<int> lines{};  ///< Line of each point in its file.
+  std::vector<int> lines{};  ///< Line number of each point in the track file.
 };
 
 /// Reads the points of a track file (track/track_file.h), which may be open. In a file with a
-/// column `closed`, the line is open if the column contains 0. In a file without this column, the
-/// line is open unless it has the shape of a closed line (IsClosedLine). A file without columns of
-/// widths is the log of a drive. The path of the drive, with points 0.5 m or more apart, is then
-/// the center line of an open road, which is 10 m wide. Throws InputError in the same cases as
+/// column `closed`, the line is open if the column contains 0. In a file without a column `closed`,
+/// the line is open unless it has the shape of a closed line (IsClosedLine). A file without columns
+/// of widths is the log of a drive. The path of a logged drive, with points 0.5 m or more apart,
+/// becomes the center line of an open road 10 m wide. Throws InputError in the same cases as
 /// ReadTrackFile, and if the line is open and has an OpenLineProblem.
 CenterPoints ReadCenterPoints(const std::filesystem::path& file);
 
 /// Reads a track file with the column `bank_rad`, `z_m`, or both; a missing column counts as 0.
-/// Throws InputError in the same cases as ReadCenterPoints, and if both columns are missing or a
-/// number is out of range.
+/// Throws InputError in the same cases as ReadCenterPoints, and if both `bank_rad` and `z_m` are
+/// missing or a number is out of range.
 BankedTrack ReadBankedTrack(const std::filesystem::path& file);
 
 /// The file name of a banked track in a run folder and in the folder of an identification.

@@ -18,10 +18,10 @@ namespace trackbed {
 /// `half_width` after the point. The weight of a row is (1 - u^3)^3, where u is the time between
 /// row and point, divided by `half_width` (Cleveland 1979). Pose, velocity and acceleration are the
 /// value and the first and second derivative of the polynomial. If fewer than `degree` + 1 rows are
-/// within `half_width`, the nearest other rows are added. Columns for speed or yaw rate, if the log
-/// has any, are fitted in the same way and replace the values computed from the pose. Commands and
-/// steering angles are interpolated linearly between rows, or between the updates of a slower
-/// control loop.
+/// within `half_width` of a point, the fit also uses the nearest other rows. Columns for speed or
+/// yaw rate, if the log has any, are fitted in the same way and replace the values computed from
+/// the pose. Commands and steering angles are interpolated linearly between rows, or between the
+/// updates of a slower control loop.
 ///
 /// Guarantees: the fit adds no phase shift, because the rows on both sides of a point are used
 /// symmetrically (except at the ends of a stretch). If the recorded motion is a polynomial of the

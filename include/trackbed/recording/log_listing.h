@@ -25,7 +25,7 @@ struct LogListing {
   /// Log map that reads the log; nullopt unless the log's columns have usual names.
   std::optional<LogMap> map;
   std::string problem;  ///< Why the log has no map, such as missing columns; empty if `map` is set.
-  std::vector<std::string> notes;  ///< Damaged parts of the log.
+  std::vector<std::string> notes;  ///< Notes on damaged parts of the log.
 };
 
 /// Lists the columns of a log: of a CSV file, a GPX, KML or GeoJSON file, or a bag of ROS 2. Throws

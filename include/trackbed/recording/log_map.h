@@ -18,12 +18,13 @@ enum class LogQuantity { kAngle, kSpeed, kYawRate, kSteeringAngle, kThrottle };
 /// Returns the names of the units of a quantity, with the SI unit first; for angles "rad", "deg".
 Names UnitsOf(LogQuantity quantity);
 
-/// Returns the value of one unit in SI units, such as pi/180 for "deg". Throws InternalError if the
+/// Returns the size of a unit in SI units, such as pi/180 for "deg". Throws InternalError if the
 /// unit is unknown.
 double UnitInSi(const std::string& unit);
 
-/// How to read one column of a log. The measured value is curve(scale * number in SI units +
-/// offset). Each value was measured `delay` seconds before the value was logged.
+/// How to read one column of a log. The measured value is curve(scale * x + offset), where x is the
+/// number in the column, converted to SI units. Each value was measured `delay` seconds before the
+/// value was logged.
 struct LogColumn {
   std::string column;
   /// File that contains the column, in the same folder as the log; nullopt: the log itself contains
@@ -42,7 +43,7 @@ struct LogColumn {
   std::optional<double> period{};
 };
 
-/// Visits a column of the given quantity; the quantity determines the allowed units.
+/// A column of the given quantity; the quantity determines the allowed units.
 template <LogQuantity quantity>
 struct LogColumnOf : LogColumn {
   LogColumnOf() { unit = UnitsOf(quantity).front(); }
@@ -142,7 +143,8 @@ struct LogMap {
   std::optional<LogColumnOf<LogQuantity::kAngle>> yaw{};
   std::optional<LogOrientation> orientation{};
   /// Whether the yaw is the direction of motion of the measured point, for logs without a heading
-  /// such as GPS tracks. A car that drives in reverse would be read as a car that turned around.
+  /// such as GPS tracks. Without measured headings, a car in reverse is read as a car that has
+  /// turned around.
   bool heading_from_motion = false;
   LogFrame frame = LogFrame::kEnu;
   LogSensor sensor{};
@@ -173,8 +175,8 @@ struct LogMap {
 
 void Visit(KeyVisitor& keys, LogMap& map);
 
-/// Returns the problems that concern more than one key. Each pair contains the key that the user
-/// should change and the message.
+/// Returns the problems of a log map that concern more than one key. Each returned pair contains
+/// the key that the user should change and the message.
 std::vector<std::pair<std::string, std::string>> LogMapProblems(const LogMap& map);
 
 }  // namespace trackbed

@@ -20,10 +20,10 @@ struct RecordedSample {
   double time = 0.0;  ///< Time since the first sample [s].
   /// Pose X_WV of the vehicle frame in the world; the yaw is not wrapped.
   Pose2 pose{};
-  /// Velocity over the ground of the origin of V, in the axes of V [m/s].
+  /// Velocity over the ground of the origin of the vehicle frame V, in the axes of V [m/s].
   Vec2 velocity_V = Vec2::Zero();
   double yaw_rate = 0.0;  ///< Yaw rate [rad/s].
-  /// Acceleration over the ground of the origin of V, in the axes of V [m/s^2].
+  /// Acceleration over the ground of the origin of the vehicle frame V, in the axes of V [m/s^2].
   Vec2 acceleration_V = Vec2::Zero();
   double yaw_acceleration = 0.0;  ///< Yaw acceleration [rad/s^2].
   double steering = 0.0;  ///< Measured angle of the road wheels [rad], positive to the left.
@@ -34,8 +34,7 @@ struct RecordedSample {
   bool valid = true;  ///< Whether the sample is valid; samples in gaps of the log are invalid.
 };
 
-/// A recorded drive. A recorded drive; it has at least two evenly spaced samples, the first at time
-/// 0.
+/// A recorded drive with at least two evenly spaced samples, the first at time 0.
 struct RecordedDrive {
   std::string name;     ///< Name of the log file, without the extension.
   double period = 0.0;  ///< Time between two samples [s].

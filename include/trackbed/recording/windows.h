@@ -27,7 +27,7 @@ struct ReplayOptions {
   SteeringInput input = SteeringInput::kActuator;
   AidOptions aids{};  ///< Driver aids of the plant `mujoco`.
   World world{};
-  /// Returns true to stop the prediction; called once per window.
+  /// Function that returns true to stop the prediction; PredictWindows calls it once per window.
   std::function<bool()> interrupted{};
 };
 
@@ -42,7 +42,7 @@ struct WindowPrediction {
 };
 
 /// Predicts the plant's states in a window from `restart` to `restart + horizon` [s], for each
-/// start time in `restarts`. Returns the windows in the same order.
+/// start time in `restarts`. Returns the predicted windows in the order of `restarts`.
 ///
 /// Restart times are rounded to whole control periods. At the start of a window, the plant has the
 /// recorded pose, speed, lateral speed and yaw rate (StartFrom). The kinematic car starts with only
@@ -55,8 +55,9 @@ struct WindowPrediction {
 /// window does not depend on other windows. The car model is not changed, and several threads may
 /// share the model. Throws InputError in the same cases as ReplayInputs and MakePlant. Throws
 /// PreconditionError if the control period is not a whole number of timesteps, or if a window is
-/// not within the drive. The cost consists of the construction of one plant for each window (0.1 ms
-/// for MuJoCo), the simulation steps of all windows, and 0.1 us per timestep of the drive.
+/// not within the drive. The computing time consists of the construction of one plant for each
+/// window (0.1 ms for MuJoCo), the simulation steps of all windows, and 0.1 us per timestep of the
+/// drive.
 std::vector<WindowPrediction> PredictWindows(const CarModel& car, const std::string& plant,
                                              const RecordedDrive& drive,
                                              const std::vector<double>& restarts, double horizon,

@@ -91,40 +91,39 @@ void CheckGl(const std::string& gl);
 /// The run folder must contain `model.xml` and, for each plant, `<plant>.state.csv` and
 /// `<plant>.csv`. The file `plan.csv` is optional. The file `scenario.resolved.yaml` is optional if
 /// the world is flat, calm and uniform. The file `<plant>.plan.csv` is read if the plant adopted
-/// new plans during the run. The first plant whose name begins with "mujoco" is shown as the car;
-/// if there is none, the first plant in alphabetical order. Every other plant is shown as a
-/// translucent car (ghost). If FilmOptions::plants is not empty, each of these plants is instead
-/// shown in a separate part of the frame, without ghosts. The video shows the recorded world with
-/// its friction patches, and the overlays of FilmOptions::overlays. When the car adopts a new plan,
-/// that plan gets a distinct color, and earlier plans become faint and narrow. New plans of the
-/// plants that are shown as ghosts are not drawn. Frame k shows the run at the time `from` + k /
-/// fps, with linear interpolation between recorded states. The last frame shows a time at or before
-/// `to`; if `to` is not set, a time at or before the end of the longest recording. A plant whose
-/// recording ends before the end of the video stays at the last recorded pose.
+/// new plans during the run. The first plant whose name begins with "mujoco" is shown as the car.
+/// Without such a name, the first plant in alphabetical order is shown as the car. Every other
+/// plant is shown as a translucent car (ghost). If FilmOptions::plants is not empty, each of these
+/// plants is instead shown in a separate part of the frame, without ghosts. The video shows the
+/// recorded world with its friction patches, and the overlays of FilmOptions::overlays. When the
+/// car adopts a new plan, that plan gets a distinct color, and earlier plans become faint and
+/// narrow. New plans of the plants that are shown as ghosts are not drawn. Frame k shows the run at
+/// the time `from` + k / fps, with linear interpolation between recorded states. The last frame
+/// shows a time at or before `to`; if `to` is not set, a time at or before the end of the longest
+/// recording. A plant whose recording ends before the end of the video stays at the last recorded
+/// pose.
 ///
 /// The function `progress`, which may be empty, is called after every frame with the finished
 /// fraction, in (0, 1]. If `progress` throws an exception, RenderFilm stops and rethrows the
 /// exception.
 ///
 /// The extension of `output` selects the format. RenderFilm creates the folder of `output` if the
-/// folder is missing.
-///   * `.mp4`: a video (H.264, yuv420p) that a player can start to play before the file is loaded
-///     completely. A build without an encoder cannot write videos. Even after an exception, the
-///     `.mp4` file is either unchanged or a complete video.
-///   * `.webp`, `.apng`: an animated picture that repeats. Even after an exception, the `.webp` or
-///     `.apng` file is either unchanged or complete.
-///   * `.png`: one file per frame. For example, the name `frames/f.png` produces
-///     `frames/f_00000.png`, `frames/f_00001.png`, ... Each `.png` file is either unchanged or
-///     complete; after an exception, the frames written so far remain. Additional frames of an
-///     older, longer video with the same name are removed.
+/// folder is missing. The format `.mp4` is a video (H.264, yuv420p) that a player can start to play
+/// before the file is loaded completely. A build without an encoder cannot write videos. Even after
+/// an exception, the `.mp4` file is either unchanged or a complete video. The formats `.webp` and
+/// `.apng` are an animated picture that repeats. Even after an exception, the `.webp` or `.apng`
+/// file is either unchanged or complete. The format `.png` has one file per frame. For example, the
+/// name `frames/f.png` produces `frames/f_00000.png`, `frames/f_00001.png`, ... Each `.png` file is
+/// either unchanged or complete; after an exception, the frames written so far remain. Additional
+/// frames of an older, longer video with the same name are removed.
 ///
 /// Guarantees: the same run folder, options and OpenGL library always produce the same bytes. A
-/// separate thread encodes and writes the frames, at most three frames after they are drawn. This
-/// thread has ended when RenderFilm returns or throws. RenderFilm must not run on two threads at a
-/// time. A process must not draw with both OSMesa and EGL, because MuJoCo's table of OpenGL
-/// functions is global. RenderFilm silences libav's log permanently. After RenderFilm with EGL, the
-/// OpenGL context of the caller is current again; after RenderFilm with OSMesa, no context is
-/// current. Throws InputError if the run folder is missing, incomplete or inconsistent, if the
+/// separate thread encodes and writes the frames, at most three frames after they are drawn. The
+/// encoding thread has ended when RenderFilm returns or throws. RenderFilm must not run on two
+/// threads at a time. A process must not draw with both OSMesa and EGL, because MuJoCo's table of
+/// OpenGL functions is global. RenderFilm silences libav's log permanently. After RenderFilm with
+/// EGL, the OpenGL context of the caller is current again; after RenderFilm with OSMesa, no context
+/// is current. Throws InputError if the run folder is missing, incomplete or inconsistent, if the
 /// extension is unknown, or if an option is out of range. Throws RunError if the video cannot be
 /// drawn, encoded or written. On two shared cores, a frame of 1280x720 takes 0.1 to 0.15 s with the
 /// quality "draft", and 0.3 to 0.6 s with "film". Overlays and caption take a fifth of the time for

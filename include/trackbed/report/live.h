@@ -17,7 +17,7 @@ namespace trackbed {
 /// therefore equals the report of the run.
 class LiveRows {
  public:
-  /// `plant` is the plant's entry in the list runs[0].plants of ReportData.
+  /// The argument `plant` is the plant's entry in the list runs[0].plants of ReportData.
   explicit LiveRows(const nlohmann::ordered_json& plant);
 
   /// Formats the last row of the plant's log.

@@ -11,19 +11,19 @@ namespace trackbed {
 struct ShownName {
   std::string label;
   std::string unit;  ///< Unit of the value; empty if the value is dimensionless.
-  /// Whether reports show the value before values whose `headline` is false.
+  /// Whether the value is a headline, which reports show before all other values.
   bool headline = false;
-  /// Limit on the value that the standard of the maneuver sets.
+  /// Limit that the maneuver's standard sets for the value.
   std::optional<StandardLimit> limit = std::nullopt;
 };
 
-/// Returns the label and unit of a metric. `path` is the path of the metric in a plant's entry of
-/// metrics.json, such as "cross_track.max" or "turns[0].lateral_offset". If no label is registered
-/// for the path, the label is the path.
+/// Returns the label and unit of a metric. The argument `path` is the path of the metric in a
+/// plant's entry of metrics.json, such as "cross_track.max" or "turns[0].lateral_offset". If no
+/// label is registered for the path, the label is the path.
 ShownName NameOfMetric(const std::string& path);
 
-/// Returns the label and unit of a difference between plants. `path` is the path of the difference
-/// in an entry of `between` in metrics.json, such as "position.max".
+/// Returns the label and unit of a difference between plants. The argument `path` is the path of
+/// the difference in an entry of `between` in metrics.json, such as "position.max".
 ShownName NameOfComparison(const std::string& path);
 
 /// Returns the label and unit of an output of a study; `path` is the path of the output, such as

@@ -17,17 +17,17 @@ enum class FilmPlace {
   kAbsent,  ///< The page neither contains nor links to the videos.
 };
 
-/// Returns the data of a report page as JSON. `paths` may be
+/// Returns the data of a report page as JSON. The argument `paths` names runs, a study, two results
+/// of a study, or an identification.
 ///
-///   * one or more run folders, or a comparison (the folder of a compare.json), whose run folders
-///     are used: the page shows metrics, verdicts, plans, logs and resolved scenarios;
-///   * a study (the folder of a sweep, or the CSV file of a study): the page shows the table of the
-///     study;
-///   * two results of the same study, first the result before a change, then the result after the
-///     change: the page shows both tables, and pairs rows with equal settings;
-///   * a single identification: the page shows the estimates with their standard errors and
-///     correlations, the prediction errors for each record before and after the fit, and the
-///     residuals over time.
+/// To show runs, `paths` contains one or more run folders, or a comparison (the folder of a
+/// compare.json), whose run folders are used. The page of runs shows metrics, verdicts, plans, logs
+/// and resolved scenarios. To show a study, `paths` contains the folder of a sweep or the CSV file
+/// of a study. The page of a study shows the study's table. To compare two results of the same
+/// study, `paths` contains first the result before a change, then the result after the change. The
+/// page of two results shows both tables, and pairs rows with equal settings. The page of a single
+/// identification shows the estimates with their standard errors and correlations, the prediction
+/// errors for each record before and after the fit, and the residuals over time.
 ///
 /// Plants are compared with each other at equal stations, as described in
 /// trackbed/analysis/compare.h. The page of a comparison shows the compared pairs of plants, with
@@ -66,12 +66,12 @@ std::string ReportPageOf(const std::vector<std::filesystem::path>& paths,
 void WriteReport(const std::vector<std::filesystem::path>& paths, const std::filesystem::path& file,
                  FilmPlace film = FilmPlace::kEmbedded);
 
-/// Returns the report page of a run in progress; the page grows during the run. `data` is the
-/// ReportData of a run folder in which the log of each plant has only one row. The page has neither
-/// metrics nor a verdict. The page connects to the WebSocket `live` of its server. The page has the
-/// same Content-Security-Policy as every report, but also allows the connection to the WebSocket.
-/// The `id` identifies the run: if the server announces a different id, the browser reloads the
-/// page.
+/// Returns the report page of a run in progress; the page grows during the run. The argument `data`
+/// is the ReportData of a run folder in which the log of each plant has only one row. The page has
+/// neither metrics nor a verdict. The page connects to the WebSocket `live` of its server. The page
+/// has the same Content-Security-Policy as every report, but also allows the connection to the
+/// WebSocket. The `id` identifies the run: if the server announces a different id, the browser
+/// reloads the page.
 std::string LivePage(const nlohmann::ordered_json& data, const std::string& id);
 
 }  // namespace trackbed

@@ -12,7 +12,8 @@
 ///     const Formula lane = Formula::Parse("always[0, T] abs(cross_track_m) < 0.5", log.columns());
 ///     const double margin = Robustness(lane, log);  // > 0: met with this margin
 ///
-/// Grammar, from the weakest to the strongest operator (docs/how-to/requirements.md):
+/// This grammar lists the operators from the weakest to the strongest
+/// (docs/how-to/requirements.md):
 ///
 ///     phi implies psi                      right associative
 ///     phi or psi,  phi and psi
@@ -27,8 +28,8 @@
 /// number c; a negative `T - c` is replaced by 0. An operator without a window has the window [0,
 /// T].
 ///
-/// Semantics (Donzé and Maler 2010; Fainekos and Pappas 2009), over the samples i of a log at times
-/// t_i:
+/// This table states the value of each formula at the sample i of a log, at the time t_i (Donzé and
+/// Maler 2010; Fainekos and Pappas 2009):
 ///
 ///     x < y, x <= y         y - x;  x > y, x >= y: x - y
 ///     not phi               -phi
@@ -47,7 +48,7 @@ namespace trackbed {
 /// duration of the log.
 struct WindowBound {
   double seconds = 0.0;  ///< Time [s], nonnegative.
-  /// If true, the bound is T - `seconds`; otherwise the bound is `seconds`.
+  /// If `from_end` is true, the bound is T - `seconds`; otherwise the bound is `seconds`.
   bool from_end = false;
 };
 
@@ -110,7 +111,7 @@ class Formula {
   /// Returns the names of the signals in the formula, in the order of their first use.
   [[nodiscard]] const std::vector<std::string>& signals() const { return signals_; }
   /// Returns how far after a sample the log can affect the robustness at this sample [s]. Returns
-  /// infinity if a bound is missing or relative to the end of the log.
+  /// infinity if a window's bound is missing or relative to the end of the log.
   [[nodiscard]] double horizon_s() const;
   [[nodiscard]] const std::vector<FormulaStep>& steps() const { return steps_; }
 

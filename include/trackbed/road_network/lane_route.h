@@ -36,7 +36,7 @@ struct LaneRoute {
   Path path;  ///< Path along the route, in the direction of traffic.
   /// Largest distance of the path from the lanes' centers [m], at most 0.05.
   double deviation = 0.0;
-  /// Number, largest size and place of the gaps between lanes that the path closes, for people;
+  /// Number, largest size and place of the gaps between lanes that the path closes, for users;
   /// empty if no gap exceeds 1 mm.
   std::string note;
 
@@ -61,11 +61,12 @@ std::string LanePlaceError(const RoadNetwork& network, const LanePlace& place);
 /// of more than 1e-6 rad in the centers of lanes are rounded over 0.5 m on either side. Across a
 /// gap between lanes, the path moves sideways over a length that adds at most 1e-3 1/m of
 /// curvature: 7.6 m for a gap of 1 cm. Away from kinks and gaps, the path is within 1 mm of the
-/// centers of the lanes. `deviation` is the largest distance by which rounding and closing of gaps
-/// move the path. FindLaneRoute finds no route if a kink exceeds 0.2 rad, if the deviation exceeds
-/// 0.05 m, or if the route is longer than 100 km. FindLaneRoute also finds no route if a lane lies
-/// beyond the center of curvature of the lane's road. If a route is missing because the file has
-/// broken links or roads (RoadNetwork::broken), `failure` names the broken parts.
+/// centers of the lanes. The value `deviation` is the largest distance by which rounding and
+/// closing of gaps move the path. FindLaneRoute finds no route if a kink exceeds 0.2 rad, if the
+/// deviation exceeds 0.05 m, or if the route is longer than 100 km. FindLaneRoute also finds no
+/// route if a lane lies beyond the center of curvature of the lane's road. If a route is missing
+/// because the file has broken links or roads (RoadNetwork::broken), `failure` names the broken
+/// parts.
 ///
 /// Throws PreconditionError if there are fewer than two places, or if LanePlaceError rejects a
 /// place. The cost is O(n log n) for each pair of places in a network of n lanes, plus about 30 us

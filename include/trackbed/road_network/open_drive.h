@@ -21,17 +21,17 @@ inline constexpr std::size_t kMaxOpenDriveBytes = std::size_t{32} << 20U;
 ///
 /// A road or junction with a problem is left out: RoadNetwork::broken contains its first problem,
 /// and RoadNetwork::notes names it. Links to missing or broken elements, links and connections with
-/// a problem, and wrong road marks are only noted.
+/// a problem, and wrong road marks only cause a note.
 ///
-/// Throws InputError, which lists the first twenty problems, each with the line in the file and the
-/// place in the road network, if the document is not an OpenDRIVE file, or if each road has a
-/// problem. Problems are invalid XML, a wrong root element, a document type
+/// Throws InputError if the document is not an OpenDRIVE file, or if each road has a problem. The
+/// InputError lists the first twenty problems, each with its line in the file and its place in the
+/// road network. Problems of a file are invalid XML, a wrong root element, a document type
 /// declaration, and a missing or repeated id. A number that is missing, not finite or out of range
-/// is also a problem. Other problems are decreasing stations, and gaps of more than 0.1 m in the
-/// stations of a reference line. Lanes that are not numbered consecutively or have no width are
-/// also problems. Throws RunError if the file cannot be read or is larger than kMaxOpenDriveBytes.
-/// Reading takes about 20 ms per megabyte, and temporarily needs 25 times the file's size in
-/// memory.
+/// is also a problem of the file. Other problems of a file are decreasing stations, and gaps of
+/// more than 0.1 m in the stations of a reference line. Lanes that are not numbered consecutively
+/// or have no width are also problems of a file. Throws RunError if the file cannot be read or is
+/// larger than kMaxOpenDriveBytes. Reading takes about 20 ms per megabyte, and temporarily needs 25
+/// times the file's size in memory.
 RoadNetwork ReadOpenDrive(const std::filesystem::path& file);
 
 /// The text of an OpenDRIVE file, and the road network that was read from this text.
@@ -39,7 +39,7 @@ struct OpenDriveFile {
   std::string text;
   RoadNetwork network;
   /// Offset of the header [m]: the place of the file's origin in the coordinates of its map
-  /// projection. The offset is not part of the coordinates of the roads.
+  /// projection. The header's offset is not part of the coordinates of the roads.
   Vec2 offset = Vec2::Zero();
   double offset_heading = 0.0;  ///< Rotation of the header's offset [rad]; not applied.
 };

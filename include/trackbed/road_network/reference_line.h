@@ -33,10 +33,10 @@ class PiecewiseCubic {
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
   /// Returns the value of the function at station s; 0 before the first piece, and 0 if there are
-  /// no pieces. If several pieces begin at the same station, the last of these pieces applies. Cost
-  /// O(log n) for n pieces.
+  /// no pieces. If several pieces begin at the same station, the last of these pieces applies.
+  /// Computing time: O(log n) for n pieces.
   [[nodiscard]] CubicValue At(double s) const { return At(s, s); }
-  /// Returns the value at station s of the polynomial piece that belongs to the station `piece_of`.
+  /// Returns the value at station s of the polynomial piece that At(`piece_of`) uses.
   [[nodiscard]] CubicValue At(double s, double piece_of) const;
 
  private:
@@ -56,7 +56,7 @@ class ParametricCubic {
                   double length);
 
   /// Makes the curve (u, v(u)) from u = 0 to the point at which the arc length is `length`. Throws
-  /// InternalError in the same cases as the constructor.
+  /// InternalError in the same cases as the constructor of ParametricCubic.
   static ParametricCubic OverU(const std::array<double, 4>& v, double length);
 
   /// Returns the arc length of the curve before the stations are scaled [m].
@@ -113,10 +113,9 @@ class ReferenceLine {
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
   /// Returns the point of the reference line at station s. The point is exact to rounding on lines
-  /// and arcs, and to 1e-9 m on other pieces. Cost O(log n) for n pieces.
+  /// and arcs, and to 1e-9 m on other pieces. Computing time: O(log n) for n pieces.
   [[nodiscard]] ReferenceLinePoint At(double s) const { return At(s, s); }
-  /// Returns the point at station s on the piece of the reference line that belongs to the station
-  /// `piece_of`.
+  /// Returns the point at station s on the piece of the reference line that At(`piece_of`) uses.
   [[nodiscard]] ReferenceLinePoint At(double s, double piece_of) const;
 
  private:

@@ -66,10 +66,10 @@ enum class RoadEnd { kStart, kEnd };
 /// The road or junction to which an end of a road is linked.
 struct RoadLink {
   bool is_junction = false;
-  std::string id;  ///< Id of the road or junction to which the end is linked.
+  std::string id;  ///< Id of the road or junction to which the road's end is linked.
   /// End of the linked road at which the two roads meet; unused if the link leads to a junction.
   RoadEnd contact = RoadEnd::kStart;
-  int line = 0;  ///< Line number in the OpenDRIVE file.
+  int line = 0;  ///< Line number of the link in the OpenDRIVE file.
 };
 
 struct Road {
@@ -84,8 +84,8 @@ struct Road {
   /// Roll angle of the road's surface about the reference line [rad]; positive if the left side is
   /// higher.
   PiecewiseCubic superelevation;
-  /// Profiles across the road, ordered by station. Between two profiles, the height is
-  /// interpolated linearly over the station. Empty if all heights are 0.
+  /// Profiles across the road, ordered by station. Between two profiles, the height is interpolated
+  /// linearly over the station. The list of profiles is empty if all heights are 0.
   std::vector<ShapeProfile> shape;
   PiecewiseCubic lane_offset;  ///< Lateral coordinate t of the center lane [m] as a function of s.
   /// Lane sections, ordered by station; there is at least one section, and the first section starts
@@ -96,7 +96,7 @@ struct Road {
   /// Kinds of height data in the file that are not supported and therefore ignored: "crossfall",
   /// "crossSectionSurface", "lane height", "level lane".
   std::vector<std::string> unread_heights;
-  int line = 0;  ///< Line number in the OpenDRIVE file.
+  int line = 0;  ///< Line number of the road in the OpenDRIVE file.
 
   /// Returns the index of the lane section at station s. At the border of two sections, returns the
   /// index of the section that begins at s.
@@ -113,7 +113,7 @@ struct JunctionConnection {
   RoadEnd contact = RoadEnd::kStart;
   /// Pairs of linked lanes: first a lane of the incoming road, then a lane of the connecting road.
   std::vector<std::pair<int, int>> lane_links;
-  int line = 0;  ///< Line number in the OpenDRIVE file.
+  int line = 0;  ///< Line number of the connection in the OpenDRIVE file.
 };
 
 struct Junction {
@@ -125,8 +125,8 @@ struct RoadNetwork {
   std::map<std::string, Road, std::less<>> roads;          ///< Roads by id.
   std::map<std::string, Junction, std::less<>> junctions;  ///< Junctions by id.
   /// Parts of the file that cannot be read and are left out, such as "road 7", "road 7 successor",
-  /// "junction 2" and "junction 2 connection", each with a text for users: the first problem of the
-  /// part and its line.
+  /// "junction 2" and "junction 2 connection", each with a text for users. The text states the
+  /// first problem of the broken part and the problem's line.
   std::map<std::string, std::string, std::less<>> broken;
   /// Notes on parts of the file that are not used: broken roads, links to missing roads, junctions
   /// or lanes, invalid road marks, and heights that are not read.
@@ -146,16 +146,16 @@ struct LaneBorders {
 
 /// Computes the borders of a lane at station s. Throws PreconditionError if the section does not
 /// have the lane. Widths and offsets are evaluated with the polynomial pieces that apply at the
-/// station `piece_of` [m]; this selects one of two pieces where the pieces meet. The cost is O(l
-/// log p) for l lanes and p polynomial pieces.
+/// station `piece_of` [m]. Where two polynomial pieces meet, `piece_of` selects one of them. The
+/// computing time is O(l log p) for l lanes and p polynomial pieces.
 LaneBorders LaneBordersAt(const Road& road, std::size_t section, int lane, double s,
                           double piece_of);
 LaneBorders LaneBordersAt(const Road& road, int lane, double s);
 
 /// Returns the unit vector that points to the left across a road's surface: the horizontal normal
-/// of the reference line, rotated by `roll` about the line's tangent in space. `tangent` is the
-/// derivative of the reference line with respect to the station, as seen from above. `slope` is the
-/// derivative of the reference line's elevation.
+/// of the reference line, rotated by `roll` about the line's tangent in space. The argument
+/// `tangent` is the derivative of the reference line with respect to the station, as seen from
+/// above. The argument `slope` is the derivative of the reference line's elevation.
 Eigen::Vector3d AcrossSurface(const Vec2& tangent, double slope, double roll);
 
 /// A point on the surface of a road, with the heading of the road.
@@ -168,25 +168,25 @@ struct RoadPosition {
 };
 
 /// Returns the height that the profiles of a road add at station s and lateral coordinate t [m].
-/// Beyond the first and last record of a profile,
-/// its outermost polynomials apply. Cost O(log n) for n records.
+/// Beyond the first and last record of a profile, its outermost polynomials apply. Computing time:
+/// O(log n) for n records.
 double ShapeHeight(const Road& road, double s, double t);
 
 /// The center of a lane, or another line along a road, at one station s: a point in the plane and
 /// its derivatives with respect to s. The line is at the distance t(s) from the reference line,
 /// measured across the surface, which the superelevation rolls about the tangent of the reference
-/// line. The profiles of the road do not move the line.
+/// line. The height profiles of the road (Road::shape) do not move the line.
 struct SurfaceLine {
   Vec2 position{0.0, 0.0};
-  double heading = 0.0;    ///< [rad]
-  double curvature = 0.0;  ///< [1/m]
+  double heading = 0.0;    ///< Heading [rad].
+  double curvature = 0.0;  ///< Curvature [1/m].
   double speed = 0.0;      ///< Derivative of the arc length in the plane with respect to s.
   /// Whether t is so large that the line runs backward, beyond the center of curvature.
   bool folded = false;
 };
 
-/// Returns the line at distance `t` from the reference line. The polynomials of the road are those
-/// that apply at the station `piece_of`.
+/// Returns the SurfaceLine at the distance `t` from the reference line. Uses the polynomial pieces
+/// of the road that apply at the station `piece_of`.
 SurfaceLine SurfaceLineAt(const Road& road, const CubicValue& t, double s, double piece_of);
 
 /// Returns the point of the road's surface at station s and at the distance t [m] from the

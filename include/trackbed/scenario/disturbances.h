@@ -27,7 +27,7 @@ struct SpeedLoss {
 /// Standard deviations of the noise on the measured pose. The noise is Gaussian, and independent
 /// for each component of the pose and for each control period.
 struct MeasurementNoise {
-  double position = 0.0;  ///< Standard deviation of the noise on x and on y [m], >= 0.
+  double position = 0.0;  ///< Standard deviation of the noise on the measured x and y [m], >= 0.
   double heading = 0.0;   ///< Standard deviation of the noise on the heading [rad], >= 0.
 };
 
@@ -57,7 +57,7 @@ struct Disturbances {
 };
 
 /// Returns the end time of the last temporary disturbance (kick or gust) that ends at or before
-/// `before` [s]. Returns nullopt if there is no such disturbance.
+/// `before` [s]. Returns nullopt if no temporary disturbance ends by that time.
 std::optional<double> DisturbedUntil(const Disturbances& disturbances, const Wind& wind,
                                      double before);
 

@@ -50,7 +50,7 @@ struct ResidualDeviations {
 enum class RobustLoss {
   kSquared,  ///< Loss r^2/2.
   kHuber,    ///< Loss r^2/2 for |r| up to `loss_scale`, and linear in |r| beyond (Huber 1964).
-  kSoftL1,   ///< Loss s^2 (sqrt(1 + (r/s)^2) - 1) with s = `loss_scale`.
+  kSoftL1,   ///< Loss s^2 (sqrt(1 + (r/s)^2) - 1) of r, with s = `loss_scale`.
 };
 
 /// The bank of a track or an open road on which all records were driven, as a function of the

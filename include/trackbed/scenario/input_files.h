@@ -11,7 +11,8 @@ namespace trackbed {
 
 /// Returns the input files of a scenario, with the names and contents that are stored in the run
 /// folder. The input files are the recorded drive, track, map and road network, and the files that
-/// the controller and planner read. The file of the vehicle model is not included in the list.
+/// the controller and planner read. The list of input files does not include the file of the
+/// vehicle model.
 std::vector<InputFile> InputFiles(const Scenario& scenario);
 
 /// Returns all file names that InputFiles may return, for all registered controllers and planners.
@@ -21,10 +22,10 @@ std::vector<std::string> InputFileNames();
 /// model file or tyre files.
 bool HasOwnVehicle(const VehicleSpec& vehicle);
 
-/// Returns the scenario like ResolvedYaml, but without the members of the start and the duration
-/// that the scenario does not set. An override of a key in this YAML therefore has the same effect
-/// as in the scenario's own file. For example, an override of the first waypoint also moves the
-/// start.
+/// Returns the scenario's YAML like ResolvedYaml, but without start values and duration if the
+/// scenario does not set them. An override of a key in the portable YAML therefore has the same
+/// effect as in the scenario's own file. For example, an override of the first waypoint in the
+/// portable YAML also moves the start.
 std::string PortableYaml(const Scenario& scenario);
 
 /// Returns the options with which ComposeScene makes the scenario's car. Reads the tyre files of

@@ -3,14 +3,15 @@
 #include <string>
 #include <vector>
 
-/// Lists all keys of scenarios, studies and log maps. The list is made by the same code that reads
-/// the keys.
+/// Lists all keys of scenarios, studies and log maps. The same code lists the keys and reads them
+/// from files.
 namespace trackbed {
 
 struct KeyInfo {
-  std::string name;      ///< Name of the key within its section.
-  std::string type;      ///< Type of the value: "number", "list of names", "section", …
-  std::string unit;      ///< Unit such as "m/s"; empty if the key is not a physical quantity.
+  std::string name;  ///< Name of the key within its section.
+  std::string type;  ///< Type of the value, such as "number", "list of names" or "section".
+  /// Unit of the value, such as "m/s"; empty if the key is not a physical quantity.
+  std::string unit;
   std::string fallback;  ///< Default value; empty if the key has no default.
   /// Allowed values, such as "above 0 and at most 10"; empty if all values of the type are allowed.
   std::string allowed;

@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// Formats a log map as YAML. ReadLogMap reads the same map.
+/// Formats a log map as YAML. ReadLogMap reads the same log map from this YAML.
 std::string LogMapText(LogMap map);
 
 }  // namespace trackbed

@@ -7,21 +7,21 @@
 /// computed; steering and braking are the task of the controller.
 namespace trackbed {
 
-/// ISO 4138: steady-state circular driving test. The evaluation uses the samples after the time
-/// `settle` at which the yaw rate changes slowly. Gradients over the lateral acceleration a_y are
+/// ISO 4138: steady-state circular driving test. The evaluation uses samples that are later than
+/// `settle` and have a slowly changing yaw rate. Gradients over the lateral acceleration a_y are
 /// least-squares fits to the samples with fit_from <= |a_y| <= fit_to.
 struct SteadyStateCircleOptions {
   double settle = 2.0;    ///< Settling time [s].
-  double fit_from = 0.5;  ///< Smallest |a_y| of the samples to fit [m/s^2].
-  double fit_to = 4.0;    ///< Largest |a_y| of the samples to fit [m/s^2].
+  double fit_from = 0.5;  ///< Smallest lateral acceleration |a_y| of fitted samples [m/s^2].
+  double fit_to = 4.0;    ///< Largest lateral acceleration |a_y| of fitted samples [m/s^2].
 };
 
 /// SAE J266, method 2: slowly increasing steer at constant speed. The metrics are those of the
 /// steady-state circular test, plus the steering angle at a lateral acceleration of 0.3 g.
 struct SlowlyIncreasingSteerOptions {
   double settle = 2.0;    ///< Settling time [s].
-  double fit_from = 0.5;  ///< Smallest |a_y| of the samples to fit [m/s^2].
-  double fit_to = 4.0;    ///< Largest |a_y| of the samples to fit [m/s^2].
+  double fit_from = 0.5;  ///< Smallest lateral acceleration |a_y| of fitted samples [m/s^2].
+  double fit_to = 4.0;    ///< Largest lateral acceleration |a_y| of fitted samples [m/s^2].
 };
 
 /// ISO 7401: a step of the steering angle while driving straight ahead.

@@ -20,11 +20,11 @@ inline constexpr std::size_t kMaxMapFileBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kMaxMapCells = 20'000'000;
 inline constexpr std::size_t kMaxWalls = 20'000;
 
-/// Function that returns why a file must not be read; empty if the file may be read. The text
-/// continues a message that begins with the file name ("lies outside of ...").
+/// Function that returns why a file must not be read; empty if the file may be read. The returned
+/// text continues a message that begins with the file name ("lies outside of ...").
 using AccessCheck = std::function<std::string(const std::filesystem::path& file)>;
 
-/// Reads a map of map_server from its YAML file:
+/// Reads a map of map_server from its YAML file, which has these keys:
 ///
 ///     image, resolution [m], origin [x, y, yaw]  required
 ///     mode: trinary or scale                     default trinary

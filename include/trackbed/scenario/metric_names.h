@@ -8,9 +8,9 @@
 
 namespace trackbed {
 
-/// Finds expectations on metrics that are not among the `possible` metrics of a run. Returns the
-/// dotted key and an error message for each of these expectations; the message suggests the most
-/// similar metric.
+/// Finds expectations on metrics that are not among the `possible` metrics of a run. For each
+/// unknown metric, returns the dotted key and an error message that suggests the most similar
+/// metric.
 std::vector<std::pair<std::string, std::string>> UnknownMetrics(
     const Expectations& expect, const std::vector<std::string>& possible);
 

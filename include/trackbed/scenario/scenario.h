@@ -49,7 +49,7 @@ struct VehicleSpec {
   std::optional<TrailerOptions> trailer{};  ///< Trailer behind the car; nullopt: none.
 };
 
-/// The initial state of the car. Values that are not set are derived from the mission.
+/// The initial state of the car. Start values that are not set are derived from the mission.
 struct StartSpec {
   std::optional<double> x;  ///< Initial x of the car [m]; default: x of the first waypoint, or 0.
   std::optional<double> y;  ///< Initial y of the car [m]; default: y of the first waypoint, or 0.
@@ -67,7 +67,7 @@ struct StartSpec {
 };
 
 struct MissionSpec {
-  double speed = 0.0;  ///< Speed of the mission [m/s]; 0 if a mission without a plan sets none.
+  double speed = 0.0;  ///< Speed of the mission [m/s]; 0 if a mission without a plan sets no speed.
   std::vector<Vec2> waypoints;  ///< Points through which the route leads [m].
   /// Heading of the car at each waypoint [rad]; if empty, the headings follow from the directions
   /// between the waypoints.
@@ -144,7 +144,7 @@ struct PlantExpectation {
   std::optional<double> min_clearance;
   /// True if the car must hit an obstacle, false if the car must not hit any obstacle.
   std::optional<bool> collision;
-  std::vector<MetricExpectation> metrics;  ///< Expectations on other metrics.
+  std::vector<MetricExpectation> metrics;  ///< Expectations on metrics without an own key.
   std::vector<RequirementExpectation> requirements;
 };
 
@@ -222,14 +222,14 @@ using MetricPaths = std::function<std::vector<std::string>(const Scenario& scena
 /// problem of the file, each with file, line, column and dotted key: unknown key (with the most
 /// similar known key), missing or repeated key, wrong type, NaN or infinity, value out of range,
 /// unknown name. For a problem of an override, the InputError states the text of the override. The
-/// function `metrics` returns the names that are allowed in `expect.metrics`; if the function is
-/// empty, these names are not checked (LoadScenario in analysis/run.h checks the names).
+/// function `metrics` returns the names that are allowed in `expect.metrics`. If `metrics` is
+/// empty, ReadScenario does not check these names; LoadScenario (analysis/run.h) checks them.
 /// `asset_folders` becomes Scenario::asset_folders.
 ///
 /// If a coordinate of a place exceeds 1e5 m, as in UTM, all places are moved to one local origin
-/// (Scenario::origin). The origin is the middle of the places, rounded to 1000 m, or the key
-/// `origin`. Places are the coordinates of keys, of files and of the start. Throws InputError if a
-/// place is more than 1e5 m from the origin, because then the inputs are in different coordinates.
+/// (Scenario::origin). The local origin is the middle of the places, rounded to 1000 m, or the key
+/// `origin`. Places are the positions in keys and files, and the start. Throws InputError if a
+/// place is more than 1e5 m from the origin, because the inputs then have different coordinates.
 /// The <offset> in the header of a road network is added to the roads' coordinates if only the
 /// shifted roads are near the other places.
 Scenario ReadScenario(const std::filesystem::path& file,
@@ -266,12 +266,12 @@ Expectations ReadExpectations(const std::filesystem::path& file);
 void CheckScenario(const Scenario& scenario);
 
 /// Formats the scenario as YAML, including all default values. ReadScenario reads an equal scenario
-/// from this YAML, in any folder. Coordinates are those of the scenario's own file, from before the
-/// move to the local origin, which the key `origin` states. A model that is given by a path is
-/// written with its absolute path. The caller must write data from other files to the folder of the
-/// YAML file. A recording is written as `recording.csv` (RecordingCsv), a recorded drive as
-/// `record.csv` (RecordCsv), and a track as `track.csv` (TrackCsv). A map is written as `map.yaml`
-/// and `map.pgm` (map_file.h), and a road network as `road_network.xodr`.
+/// from this YAML, in any folder. The YAML has the coordinates of the scenario's own file, and
+/// states the local origin in the key `origin`. A model that is given by a path is written with its
+/// absolute path. The caller must write data from other files to the folder of the YAML file. A
+/// recording is written as `recording.csv` (RecordingCsv), a recorded drive as `record.csv`
+/// (RecordCsv), and a track as `track.csv` (TrackCsv). A map is written as `map.yaml` and `map.pgm`
+/// (map_file.h), and a road network as `road_network.xodr`.
 std::string ResolvedYaml(const Scenario& scenario);
 
 /// Formats the keys and values of a method's options on one line, such as "distance: 2.5, law:

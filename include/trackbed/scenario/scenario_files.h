@@ -11,8 +11,8 @@ namespace trackbed {
 enum class FolderContent { kScenarios, kScenariosAndStudies };
 
 /// Returns the scenario files (and study files, if `content` asks for studies) that are shipped
-/// with Trackbed. The files of each folder precede the files of its subfolders. The list excludes
-/// scenarios/validation, whose recordings are not installed.
+/// with Trackbed. The files of each folder precede the files of its subfolders. The list of shipped
+/// scenarios excludes scenarios/validation, whose recordings are not installed.
 std::vector<std::filesystem::path> ShippedScenarios(FolderContent content);
 
 /// Finds the scenario file or study file that a name refers to. FindScenario returns an existing

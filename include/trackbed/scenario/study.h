@@ -17,8 +17,8 @@ namespace trackbed {
 struct Setting {
   std::string key;    ///< Dotted key, as in the command-line option --set.
   std::string value;  ///< Value of the key, as YAML on one line.
-  int line = 0;       ///< Line number in the study's file, from 1.
-  int column = 0;     ///< Column number in the study's file, from 1.
+  int line = 0;       ///< Line number of the setting in the study's file, from 1.
+  int column = 0;     ///< Column number of the setting in the study's file, from 1.
 };
 
 /// A bisection that finds the highest value of a key with which the run passes.
@@ -42,10 +42,10 @@ struct OutputSpec {
 struct KeepSpec {
   enum class Rows {
     kNone,
-    kFailed,  ///< Rows whose run did not pass.
+    kFailed,  ///< Rows of the study whose run did not pass.
     kAll,
-    kHighest,  ///< The `count` rows with the highest values of the output `by`.
-    kLowest,   ///< The `count` rows with the lowest values of the output `by`.
+    kHighest,  ///< The `count` rows of the study with the highest output `by`.
+    kLowest,   ///< The `count` rows of the study with the lowest output `by`.
   };
   Rows rows = Rows::kNone;
   int count = 0;
@@ -73,7 +73,7 @@ struct Variation {
   /// The CSV file that contains the values of the key. In each run, all keys with the same CSV file
   /// take their values from the same row.
   std::string rows_of{};
-  /// Conditions; the key is only set in runs in which all conditions hold.
+  /// Conditions for setting the key; a run sets the key only if all conditions hold.
   std::vector<Condition> when{};
 };
 
@@ -90,11 +90,11 @@ struct DerivedKey {
 struct SearchSpec {
   std::string method = "surrogate";  ///< One of StudySearches().
   int runs = 200;                    ///< Maximum number of runs of the search.
-  /// Number of parallel NLopt searches, which together use the maximum number of runs. The value 0
-  /// means two searches, or one search with the method `direct`.
+  /// Number of parallel NLopt searches, which together use the maximum number of runs. If
+  /// `restarts` is 0, there are two searches, or one search with the method `direct`.
   int restarts = 0;
-  /// Population size of the methods crs2, esch and isres. The value 0 means a population of 4 n + 4
-  /// for n keys.
+  /// Population size of the methods crs2, esch and isres. If `population` is 0, the population size
+  /// is 4 n + 4 for n keys.
   int population = 0;
   /// Local search method for the last quarter of the runs: "none", "nelder_mead" or "cobyla".
   std::string finish = "none";
@@ -116,19 +116,19 @@ const std::vector<std::string>& StudySearches();
 /// of the grid use the same sample, so that the points can be compared under equal conditions.
 struct Study {
   std::string name;
-  std::string file;  ///< File name as the user gave it.
+  std::string file;  ///< Name of the study file as the user gave it.
   /// Path of the scenario file; a path in the study is relative to the study's folder.
   std::filesystem::path scenario;
   /// Content of the scenario file at the time at which the study was read.
   std::string scenario_text;
   /// Overrides of keys from the command line, which take precedence over `set`.
   std::vector<Override> overrides;
-  MetricPaths metrics;                               ///< Argument of ReadScenario.
-  std::vector<std::filesystem::path> asset_folders;  ///< Argument of ReadScenario.
+  MetricPaths metrics;                               ///< Allowed metrics, for ReadScenario.
+  std::vector<std::filesystem::path> asset_folders;  ///< Asset folders, for ReadScenario.
   std::vector<Setting> set;                          ///< Settings that apply to every run.
   /// Keys that vary between runs, in the order of the file.
   std::vector<Variation> vary;
-  /// Points of the list, each of which sets several keys; may be empty.
+  /// Points of the study's `list`, each of which sets several keys; may be empty.
   std::vector<std::vector<Setting>> list;
   /// Options of the sample for the keys of `vary` with distributions.
   std::optional<SampleSpec> sample;

@@ -10,10 +10,11 @@
 /// Proposes a car file (docs/models.md) for a vehicle model that was written for another program.
 namespace trackbed {
 
-/// Answers to questions that the geometry of a model leaves open. Options of `trackbed model
-/// --adapt` have the same names.
+/// Answers to questions that the geometry of a model leaves open. The options of `trackbed model
+/// --adapt` have the names of the members of AdaptOptions.
 struct AdaptOptions {
-  std::vector<std::filesystem::path> asset_folders{};  ///< See SceneOptions::asset_folders.
+  /// Folders for meshes (SceneOptions::asset_folders).
+  std::vector<std::filesystem::path> asset_folders{};
   /// Name of the body that is the vehicle, or that contains it, if the file has several vehicles.
   std::string body{};
   std::optional<double> wheel_radius{};    ///< Radius of all wheels [m].
@@ -25,12 +26,12 @@ struct AdaptOptions {
   bool steers_front_only = false;
 };
 
-/// One decision of AdaptModel.
+/// One decision of AdaptModel about the proposed car.
 struct AdaptGuess {
   std::string what;   ///< Part or parameter of the car, such as "wheel fl" or "steering limit".
   std::string value;  ///< The proposed value, with its unit.
-  /// The parts of the model from which the value follows. The text begins with "assumed" if nothing
-  /// in the model determines the value.
+  /// The parts of the model from which the value follows. The evidence begins with "assumed" if
+  /// nothing in the model determines the value.
   std::string evidence;
 };
 
@@ -38,9 +39,9 @@ struct AdaptGuess {
 struct AdaptedModel {
   VehicleKind kind = VehicleKind::kSteered;
   std::string xml;                  ///< MJCF text of the car file, without references to files.
-  std::vector<AdaptGuess> guesses;  ///< Decisions, in the order of the car's parts.
+  std::vector<AdaptGuess> guesses;  ///< Decisions of AdaptModel, by part of the car.
   /// Faults of the given model that would disturb a run, such as tyres that touch the chassis. The
-  /// proposed file does not contain these faults.
+  /// proposed file does not contain the faults of the given model.
   std::vector<std::string> notes;
 };
 
@@ -48,8 +49,8 @@ struct AdaptedModel {
 /// a new car file with these parts. Joints and bodies may have any names; AdaptGuess::evidence
 /// states the names.
 ///
-/// A wheel is a body on a hinge joint with a nearly horizontal axis. The body carries a geom that
-/// is round about this axis and touches the ground. A steered wheel also turns about a nearly
+/// A wheel is a body on a hinge joint with a nearly horizontal axis. A geom of the wheel's body is
+/// round about the hinge axis and touches the ground. A steered wheel also turns about a nearly
 /// vertical hinge; the steered axle is the front axle. A vehicle with four wheels is a car, and one
 /// axle of a car must steer. A vehicle with two driven wheels that do not steer has differential
 /// drive, and is supported by casters or skids of the model. The proposed file has the total mass,
@@ -63,9 +64,8 @@ struct AdaptedModel {
 /// Errors: throws InputError if the file cannot be read or does not compile. Throws InputError,
 /// with a question and the option that answers it, if the model has no vehicle with four wheels or
 /// with two driven wheels. Also throws InputError if the steered axle cannot be determined, or if
-/// nothing in the model suggests a value for a missing limit. The limits of size and of the
-/// separate process are those of ComposeScene and CompileScene. Cost: that of compiling the model
-/// twice.
+/// nothing in the model suggests a value for a missing limit. The model's size and the separate
+/// process have the limits of ComposeScene and CompileScene. AdaptModel compiles the model twice.
 AdaptedModel AdaptModel(const std::filesystem::path& file, const AdaptOptions& options);
 
 }  // namespace trackbed

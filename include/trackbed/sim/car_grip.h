@@ -12,8 +12,8 @@ namespace trackbed {
 /// The roll stiffness of an axle results from the slide joints between wheels and chassis, and from
 /// the fixed tendons on these joints. Magic Formula tyres act as additional vertical springs in
 /// series with the suspension. If an axle has neither suspension springs nor Magic Formula tyres,
-/// its roll stiffness is set to 1e7 N m/rad per ton of car mass. `law` must not be kAuto (see
-/// SelectTyreLaw). Throws InternalError for a vehicle without steered front wheels.
+/// its roll stiffness is set to 1e7 N m/rad per ton of car mass. The tyre law `law` must not be
+/// kAuto (see SelectTyreLaw). Throws InternalError for a vehicle without steered front wheels.
 GripModel MakeGripModel(const CarModel& car, TyreLaw law);
 
 /// Computes the g-g-v diagram of a vehicle on roads with the friction factors `roads`. For a

@@ -122,8 +122,8 @@ struct TrailerParts {
 /// The model is compiled without visual geoms (MuJoCo's `discardvisual`). Visual geoms (without
 /// collisions, and not referenced by other elements of the MJCF) are only in scene(). Without
 /// visual geoms, a simulation step takes less time, and masses and motion are bit for bit the same.
-/// The motion differs only if the model specifies the density of a medium: MuJoCo's ellipsoid fluid
-/// forces on visual geoms are then missing.
+/// Without visual geoms, the motion differs only if the model specifies the density of a medium,
+/// because MuJoCo's ellipsoid fluid forces on visual geoms are then missing.
 ///
 /// Errors: throws InputError if the MJCF does not compile, if a named part is missing, or if a part
 /// does not follow the rules in docs/models.md. The error message lists the file and all problems.
@@ -150,7 +150,8 @@ class CarModel {
   /// unladen) do not include the trailer, except for the limits of acceleration and the top speed.
   [[nodiscard]] const std::optional<TrailerParts>& trailer() const { return trailer_; }
   /// Returns the collision geoms of the wheels (four for a car, two for a differential drive), in
-  /// the order of CarParts or WheelPairParts. The wheels of a trailer are not included.
+  /// the order of CarParts or WheelPairParts. The returned geoms do not include the wheels of a
+  /// trailer.
   [[nodiscard]] std::span<const int> tyres() const;
   /// Returns the bodies of the wheels, in the same order as tyres().
   [[nodiscard]] std::span<const int> wheels() const;
@@ -169,14 +170,14 @@ class CarModel {
   [[nodiscard]] std::vector<double> ExtractConfiguration(std::span<const double> qpos) const;
 
   /// Returns the position vector qpos of the car at rest on `ground`, with its rear-axle center at
-  /// `pose` as seen from above. `steering` is the steering angle of the bicycle model [rad]. `spin`
-  /// is the rotation angle of each wheel [rad], with one value for each of wheels(); if `spin` is
-  /// empty, all angles are 0. The x and y axes of the vehicle frame V lie in the plane that best
-  /// fits the heights of the ground under the four wheels. The vehicle is then raised until no
-  /// wheel penetrates the ground. If the car has a payload, the weight of the payload then
-  /// compresses the springs. For a vehicle with differential drive, the front corners of the
-  /// footprint are used instead of the front wheels. A trailer stands on the ground at the hitch
-  /// angle `hitch_angle` [rad].
+  /// `pose` as seen from above. The argument `steering` is the steering angle of the bicycle model
+  /// [rad]. The argument `spin` is the rotation angle of each wheel [rad], with one value for each
+  /// of wheels(); if `spin` is empty, all angles are 0. The x and y axes of the vehicle frame V lie
+  /// in the plane that best fits the heights of the ground under the four wheels. StandingPosition
+  /// raises the vehicle until no wheel penetrates the ground. If the car has a payload, its springs
+  /// are compressed by the weight of the payload. For a vehicle with differential drive,
+  /// StandingPosition uses the front corners of the footprint instead of front wheels. A trailer
+  /// stands on the ground at the hitch angle `hitch_angle` [rad].
   [[nodiscard]] std::vector<double> StandingPosition(const Pose2& pose, double steering,
                                                      const std::vector<double>& spin,
                                                      const Ground& ground,

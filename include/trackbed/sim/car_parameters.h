@@ -38,7 +38,7 @@ struct CarParameter {
 };
 
 /// Returns the value of a parameter in the model of a car. Throws InputError, which names the car's
-/// file and suggests the most similar name, if the name is unknown.
+/// file and suggests the most similar name, if no parameter has this name.
 double CarParameterValue(const CarModel& car, const std::string& name);
 
 /// Returns the car's scene with the given parameter values. Each parameter name may occur only

@@ -9,12 +9,12 @@ namespace trackbed {
 
 /// Distribution of the drive torque between the two wheels of a driven axle.
 enum class Differential {
-  kOpen,         ///< Both wheels get the same torque at any difference of their speeds.
-  kLocked,       ///< Both wheels turn at the same speed.
-  kLimitedSlip,  ///< A clutch transmits torque from the faster to the slower wheel.
+  kOpen,         ///< Open: both wheels get the same torque at any speed difference.
+  kLocked,       ///< Locked: both wheels of the axle turn at the same speed.
+  kLimitedSlip,  ///< A clutch transmits torque from the axle's faster to its slower wheel.
 };
 
-/// The driver aids of a car. All aids are off by default.
+/// The driver aids of a car. All driver aids are off by default.
 struct AidOptions {
   bool abs = false;  ///< Anti-lock brakes: slip control of each wheel, select-low on the rear axle.
   bool esc = false;  ///< Electronic stability control: brakes single wheels and reduces the drive.
@@ -26,13 +26,13 @@ struct AidOptions {
   /// for kLimitedSlip. Default: 0.25.
   std::optional<double> differential_ramp{};
 
-  /// Whether the car has any aid.
+  /// Whether the car has any driver aid.
   [[nodiscard]] bool any() const { return abs || esc || differential != Differential::kOpen; }
 };
 
 /// State of the stability control of a car.
 struct EscState {
-  double yaw_rate_reference = 0.0;  ///< Yaw rate that the driver asks for [rad/s].
+  double yaw_rate_reference = 0.0;  ///< Yaw rate that corresponds to the driver's steering [rad/s].
   /// Brake torque that stability control applies to each wheel in addition to the driver's brake
   /// torque [N m], >= 0; in the order of kWheels.
   std::array<double, 4> brake_torque{};

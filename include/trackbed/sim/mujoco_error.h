@@ -12,8 +12,8 @@ namespace trackbed {
 ///
 /// Guarantees: other threads and the global handlers (mju_setLogHandler, mju_user_error,
 /// mju_user_warning) are not affected. The destructor restores the handlers that the thread had
-/// before. Instances may be nested, and must be destroyed in the thread that created them, in
-/// reverse order. Cost: a few nanoseconds for making and destroying an instance.
+/// before. Instances of MujocoErrorScope may be nested, and must be destroyed in the thread that
+/// created them, in reverse order. Cost: a few nanoseconds for making and destroying an instance.
 class MujocoErrorScope {
  public:
   MujocoErrorScope();

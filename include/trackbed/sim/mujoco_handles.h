@@ -15,7 +15,7 @@ struct MujocoDeleter {
 using MujocoModel = std::unique_ptr<mjModel_, MujocoDeleter>;
 using MujocoData = std::unique_ptr<mjData_, MujocoDeleter>;
 
-/// Copies a model. Throws RunError if there is not enough memory.
+/// Copies a MuJoCo model. Throws RunError if there is not enough memory.
 MujocoModel CopyMujocoModel(const mjModel_& model);
 
 /// Creates an mjData for the model, in the initial configuration. Throws RunError if there is not

@@ -51,25 +51,25 @@ class Plant {
   [[nodiscard]] virtual Pose2 pose() const = 0;
   [[nodiscard]] virtual double obstacle_force() const { return 0.0; }
 
-  /// Returns the present configuration vector. CarModel::configuration_columns returns the names of
-  /// the components.
+  /// Returns the present configuration vector of the vehicle (free joint and other joints).
+  /// CarModel::configuration_columns returns the names of the configuration's components.
   [[nodiscard]] virtual std::vector<double> Configuration() const = 0;
 
-  /// Whether the simulation has diverged. A diverged plant must not be stepped.
+  /// Whether the simulation has diverged. Do not call Step of a diverged plant.
   [[nodiscard]] virtual bool diverged() const = 0;
 
   /// Returns the reason why the simulation has diverged; empty if unknown.
   [[nodiscard]] virtual std::string divergence() const { return ""; }
 
   /// Returns the smallest distance between an undeformed tyre and the road below it [m]. The
-  /// distance is negative while the load deflects the tyre. Plants whose wheels cannot leave the
-  /// road return 0.
+  /// distance from the undeformed tyre to the road is negative while the load deflects the tyre.
+  /// Plants whose wheels cannot leave the road return 0.
   [[nodiscard]] virtual double wheel_gap() const { return 0.0; }
 
   /// Returns an independent copy of the plant in its present state: for the same commands, both
-  /// plants then simulate the same motion, bit for bit. The copy refers to the same car and world.
-  /// Returns nullptr if the plant cannot be copied, as by default; all built-in plants can be
-  /// copied. Throws RunError if there is not enough memory.
+  /// plants then simulate the same motion, bit for bit. The copy of the plant refers to the same
+  /// car and world. Returns nullptr if the plant cannot be copied, as by default; all built-in
+  /// plants can be copied. Throws RunError if there is not enough memory.
   [[nodiscard]] virtual std::unique_ptr<Plant> Clone() const { return nullptr; }
 };
 
@@ -82,9 +82,9 @@ struct PlantSetup {
   TyreLaw tyre = TyreLaw::kAuto;
   SteeringInput steering = SteeringInput::kActuator;
   AidOptions aids{};  ///< Driver aids, which only the MuJoCo plant simulates.
-  /// State of the car's steering response after earlier commands. The filter must have the same
-  /// timestep as the car. If `filter` is nullopt, the steering response starts in its steady state
-  /// at the initial wheel angle.
+  /// State of the car's steering response after earlier commands. The steering filter must have the
+  /// same timestep as the car's model. If `filter` is nullopt, the steering response starts in its
+  /// steady state at the initial wheel angle.
   std::optional<SteeringFilter> filter{};
 };
 
@@ -129,8 +129,9 @@ inline constexpr const char* kRecordedPlant = "recorded";
 /// torque on the differential. The MuJoCo plant converts a commanded deceleration to dry friction
 /// of the brakes. The braking torque is distributed between the front and rear wheels in proportion
 /// to their largest brake torques in the model. Drive and brake torques are clamped to the model's
-/// limits. The torques are computed from the car's mass without payload. The angle of the steering
-/// actuator is updated in every physics step, and changes at most at the model's rate limit.
+/// limits. Drive and brake torques are computed from the car's mass without payload. The angle of
+/// the steering actuator is updated in every physics step, and changes at most at the model's rate
+/// limit.
 ///
 /// Driver aids (PlantSetup::aids) act in the MuJoCo plant on Magic Formula tyres. `kinematic` and
 /// `single_track` ignore driver aids, because their wheels neither lock nor spin. MakePlant throws

@@ -18,7 +18,8 @@ struct SceneOptions {
   /// file.
   std::optional<double> steering_rate;
   /// Numbers that describe the tyres, under their names in the <custom> section of a car's file
-  /// (ReadTyreFiles). If not empty, the numbers replace all tyre coefficients in the car's file.
+  /// (ReadTyreFiles). Unless `tyre_numbers` is empty, its numbers replace all tyre coefficients in
+  /// the car's file.
   std::vector<std::pair<std::string, double>> tyre_numbers{};
   /// Additional folders; the car's file may include files from these folders or use them as assets.
   std::vector<std::filesystem::path> asset_folders{};
@@ -35,7 +36,7 @@ struct Scene {
   std::string xml;
   std::vector<SceneAsset> assets;
   /// Line in the car's file from which each element of `xml` originates, in document order; 0 for
-  /// an element that is not from the car's file. The list of lines is empty if the lines are
+  /// an element that is not from the car's file. The list is empty if the lines of the elements are
   /// unknown.
   std::vector<int> lines;
   /// Shape of the ground that the geom `ground` and the height fields in the model represent.
@@ -45,16 +46,16 @@ struct Scene {
   bool trusted = false;
 };
 
-/// Returns the path of a car's MJCF file. `model` is either a name in the models folder ("prius"
-/// stands for models/prius/prius.xml) or a path, which is absolute or relative to `base`. If no
-/// such file exists, throws InputError, which lists the known names.
+/// Returns the path of a car's MJCF file. The argument `model` is either a name in the models
+/// folder ("prius" stands for models/prius/prius.xml) or a path, which is absolute or relative to
+/// `base`. If no such file exists, throws InputError, which lists the known names.
 std::filesystem::path FindModel(const std::string& model, const std::filesystem::path& base);
 
 /// Whether FindModel interprets `model` as a path and not as the name of a model.
 bool IsModelPath(const std::string& model);
 
-/// File name of the car's composed MJCF in a run folder. This file is written if the scenario
-/// specifies the car by the path of a file.
+/// File name of the car's composed MJCF in a run folder. The run folder contains the composed MJCF
+/// if the scenario specifies the car by the path of a file.
 inline constexpr const char* kVehicleXml = "vehicle.xml";
 
 /// Returns the names of all models that FindModel knows, sorted.
@@ -65,8 +66,8 @@ std::vector<std::string> ModelNames();
 /// ../share/trackbed relative to the program's folder, if that folder contains models; (3) the data
 /// of the installed package, for a program that links the package; (4) the source tree, for
 /// programs in Trackbed's build. A program that was linked to the installed static libraries
-/// without CMake finds only the folders (1) and (2). Throws InputError if none of the four folders
-/// applies.
+/// without CMake finds only the data folder of TRACKBED_DATA or ../share/trackbed. Throws
+/// InputError if the program finds no data folder.
 std::filesystem::path DataFolder();
 
 /// Reads a car's MJCF file, resolves its includes, collects the asset files, and sets the
@@ -77,8 +78,8 @@ std::filesystem::path DataFolder();
 /// are checked before MuJoCo reads the files. Meshes must be .obj or binary .stl files, textures
 /// must be .png files, and height fields must be .png files or files in MuJoCo's binary format. No
 /// asset may be larger than 64 MB. Images may have at most 8192 x 8192 pixels, and height fields at
-/// most 4096 x 4096 samples. Skins that are read from files are rejected. Composing a composed
-/// model again with the same options does not change the model.
+/// most 4096 x 4096 samples. ComposeScene rejects skins that MuJoCo would read from files.
+/// ComposeScene does not change a model that it has already composed with the same options.
 ///
 /// Errors: throws InputError, with file and line, if the XML is invalid, if a file is missing, or
 /// if a file or asset violates the rules above.
@@ -88,8 +89,8 @@ Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& op
 /// element; returns 0 if the line is unknown.
 int LineInCarFile(const Scene& scene, int line);
 
-/// Writes the scene to `file`, and the scene's assets to the folder of `file`, which must exist. An
-/// existing `file` is replaced. Existing assets are not replaced; if a file with the name of an
+/// Writes the scene to `file`, and the scene's assets to the folder of `file`, which must exist.
+/// WriteScene replaces an existing `file`, but no existing assets; if a file with the name of an
 /// asset has different content, WriteScene throws RunError.
 void WriteScene(const Scene& scene, const std::filesystem::path& file);
 

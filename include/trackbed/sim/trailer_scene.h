@@ -11,8 +11,8 @@ namespace trackbed {
 /// hitch_pitch and hitch_roll) together act as a ball joint. Wheels, tyres, spring travel and
 /// damping follow from the car's rear axle. Unsprung masses are in proportion to the masses of
 /// trailer and car; the spring deflection at rest is 0.35 wheel radii, and the damping ratio 0.3. A
-/// car without springs gets a trailer without springs. The wheels have neither brakes nor bearing
-/// friction. The numbers of the trailer are in the <custom> numeric `trailer`.
+/// car without springs gets a trailer without springs. The trailer's wheels have neither brakes nor
+/// bearing friction. The numbers of the trailer are in the <custom> numeric `trailer`.
 ///
 /// Throws InputError if the car has no steered front wheels, if the car already has a trailer, or
 /// if the trailer's yaw inertia is less than that of the trailer's wheels.

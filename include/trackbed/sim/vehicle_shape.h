@@ -62,7 +62,7 @@ struct VehicleShape {
 /// Reads the bodies of the vehicle in a scene, and those geoms of the vehicle that MuJoCo's viewer
 /// draws. MuJoCo's viewer draws the geoms of groups 0 to 2 that are not completely transparent, in
 /// the colors of their materials. Obstacles are omitted. A mesh with more than 20 000 triangles is
-/// replaced by its bounding box. `name` is the name of the scene in messages.
+/// replaced by its bounding box. Messages use `name` as the name of the scene.
 ///
 /// ReadVehicleShape throws the same errors and has the same cost as CompileScene.
 VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name);

@@ -16,8 +16,8 @@
 namespace trackbed {
 
 /// Searches a study for a failing run on all threads of the machine, and keeps the records in
-/// memory. `overrides` have the form key=value, as on the command line. Throws InputError, which
-/// lists every problem of the study's file.
+/// memory. The `overrides` have the form key=value, as on the command line. Throws InputError,
+/// which lists every problem of the study's file.
 FalsifyResult FalsifyStudy(const std::filesystem::path& file,
                            const std::vector<Override>& overrides = {});
 

@@ -41,8 +41,9 @@ class ClosedSplineBasis {
   std::size_t count_;
 };
 
-/// Evaluates a spline or its derivative of `order` 0 to 2. The value is the sum over j of c_j
-/// B_j^(order)(t), where B_j are the basis functions and c_j is row j of the matrix `coefficients`.
+/// Evaluates a spline or its derivative of `order` 0 to 2. The value of the spline is the sum over
+/// j of c_j B_j^(order)(t), where B_j are the basis functions and c_j is row j of the matrix
+/// `coefficients`.
 Eigen::RowVectorXd Evaluate(const ClosedSplineBasis::Local& at, const Eigen::MatrixXd& coefficients,
                             std::size_t order);
 

@@ -59,11 +59,12 @@ class Track {
   static constexpr std::size_t kMinPoints = 8;
   static constexpr std::size_t kMaxPoints = 20000;
 
-  /// Makes a track from points in the order of driving. The first point is at the start line and is
-  /// not repeated at the end. `smoothing` is the wavelength of the smoothing [m], > 0; by default,
-  /// four times the mean distance between neighboring points. Throws PreconditionError if there are
-  /// too few or too many points, a number is not finite, a width is not positive, or two
-  /// neighboring points coincide. The cost is 5 us per point.
+  /// Makes a track from points in the order of driving. The first point of the track is at the
+  /// start line and is not repeated at the end. The argument `smoothing` is the wavelength of the
+  /// smoothing [m], > 0; by default, four times the mean distance between neighboring points.
+  /// Throws PreconditionError if there are too few or too many points, a number is not finite, a
+  /// width is not positive, or two neighboring points coincide. The constructor takes 5 us per
+  /// point.
   explicit Track(std::vector<TrackPoint> points, std::optional<double> smoothing = {});
 
   [[nodiscard]] const std::vector<TrackPoint>& points() const { return points_; }
@@ -80,20 +81,20 @@ class Track {
   [[nodiscard]] PathPoint At(double s) const;
   /// Returns the edges at a station, interpolated linearly between the surveyed points.
   [[nodiscard]] TrackEdges EdgesAt(double s) const;
-  /// Returns the station of a surveyed point.
+  /// Returns the station of the surveyed point with index `point`.
   [[nodiscard]] double StationOf(std::size_t point) const { return stations_[point]; }
 
   /// Returns the track coordinates of a point, relative to the nearest part of the center line. If
   /// `near` [m] is set, searches only at stations within 30 m of `near`, or within a tenth of the
-  /// lap if that is less. The returned station is in [0, length). The cost is that of Path::Project
-  /// over the searched part of the center line.
+  /// lap if that is less. The station of the returned place is in [0, length). The run time is that
+  /// of Path::Project over the searched part of the center line.
   [[nodiscard]] TrackPlace Locate(const Vec2& point, std::optional<double> near = {}) const;
 
   /// Returns a car's state in the Frenet frame of the center line, at the nearest part of the
   /// center line whose direction is within pi/2 of the car's heading. Where the track crosses
   /// itself, Locate may choose another part of the center line. Returns nullopt if no part of the
   /// center line has a direction within pi/2 of the heading, or if the frame is undefined, as in
-  /// trackbed::ToFrenet. The cost is 0.2 us per meter of the track.
+  /// trackbed::ToFrenet. A call takes 0.2 us per meter of the track.
   [[nodiscard]] std::optional<FrenetState> ToFrenet(const MotionState& motion) const;
 
   /// Returns the left edge as points whose stations are at most kEdgeSpacing apart.
@@ -134,22 +135,22 @@ struct TrackFold {
   std::size_t point = 0;  ///< Index of the surveyed point before the tightest place of the bend.
   double radius = 0.0;    ///< Radius of the center line at the tightest place of the bend [m].
   /// Distance from the center line to the inner edge at the tightest place of the bend [m]. The
-  /// distance exceeds 95 % of the radius unless `turn` is set.
+  /// distance `width` exceeds 95 % of the radius in every fold for which `turn` is not set.
   double width = 0.0;
   /// Lower bound on the angle by which the center line turns within a quarter of the mean distance
-  /// between neighboring points [rad]. Only FindFold(points, smoothing) sets this member.
+  /// between neighboring points [rad]. Only FindFold(points, smoothing) sets the member `turn`.
   double turn = 0.0;
 };
 
 /// Finds the first fold of a track; returns nullopt if the track has no fold.
 std::optional<TrackFold> FindFold(const Track& track);
 
-/// Finds the first clear fold in the points of a track, before a Track is made from the points. In
-/// a clear fold, the inner edge is beyond the center of curvature. A fold is also clear if the
-/// center line turns by more than half a circle within a quarter of the mean distance between
-/// neighboring points. A single wrong number in a file can cause a clear fold, and computing a
-/// Track from such points would take a long time. Throws the same errors as the constructor of
-/// Track. The cost is 5 us per point.
+/// Finds the first clear fold in the points of a track, before a Track is made from the points. A
+/// fold is clear if the inner edge of the track is beyond the bend's center of curvature. A fold is
+/// also clear if the center line turns by more than half a circle within a quarter of the mean
+/// distance between neighboring points. A single wrong number in a file can cause a clear fold, and
+/// computing a Track from such points would take a long time. Throws the same errors as the
+/// constructor of Track. FindFold takes 5 us per point.
 std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
                                   std::optional<double> smoothing);
 

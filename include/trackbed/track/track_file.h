@@ -22,9 +22,9 @@ struct TrackFile {
   /// Differences from the file, with line numbers: narrowed edges, a repeated first point, and the
   /// columns if their names are not those of TUM.
   std::vector<std::string> notes;
-  /// Wavelength with which the same track can be read again from the points of `track` [m]. Set if
-  /// the reader has chosen a wavelength or has narrowed an edge; nullopt: TrackReading::smoothing
-  /// applies.
+  /// Wavelength with which the same track can be read again from the points of `track` [m]. The
+  /// wavelength is set if the reader has chosen a wavelength or has narrowed an edge of the track;
+  /// nullopt: TrackReading::smoothing applies.
   std::optional<double> chosen_smoothing{};
 };
 
@@ -50,26 +50,27 @@ struct TrackFile {
 /// 95 % of the bend's radius, but must keep at least half of its width in the file.
 ///
 /// Throws InputError, which lists up to twenty problems with file and line, including the problems
-/// that ReadCsvTable finds. A point is a problem if its position is beyond 1e7 m, or if a width is
-/// not above 0 or exceeds 1000 m. A point that coincides with the previous point is also a problem,
-/// and so is a point at which the center line turns by more than 150 degrees. The track as a whole
-/// has a problem if a lap is longer than 200 km, or if there are fewer than Track::kMinPoints or
-/// more than Track::kMaxPoints points. A file of more than 16 MB is a problem. An edge that would
-/// have to be narrowed to less than half of its width is also a problem. Throws RunError if the
-/// file cannot be read.
+/// that ReadCsvTable finds. ReadTrackFile reports points with a coordinate beyond 1e7 m, and widths
+/// that are not above 0 or exceed 1000 m. ReadTrackFile also reports points that coincide with the
+/// previous point, and points at which the center line turns by more than 150 degrees.
+/// ReadTrackFile reports a problem of the whole track if a lap is longer than 200 km, or if there
+/// are fewer than Track::kMinPoints or more than Track::kMaxPoints points. ReadTrackFile reports
+/// files of more than 16 MB. ReadTrackFile also reports edges that would have to be narrowed to
+/// less than half of their width. Throws RunError if the file cannot be read.
 TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& reading = {});
 
 /// The points of a track file, each with its line in the file.
 struct TrackFilePoints {
   std::vector<TrackPoint> points;
   std::vector<int> lines;
-  bool is_log = false;  ///< Whether the file has no columns of widths.
+  bool is_log = false;  ///< Whether the track file has no columns of widths.
 };
 
 /// Reads the points of a track file whose line may be open. Throws the same errors as ReadTrackFile
-/// about single rows and the size of the file, but does not check the shape of the line. Without
-/// columns of widths, the file may be the log of a drive. In a log, rows nearer than `log_spacing`
-/// [m] to the previous point are skipped, and the road is 2 `log_half_width` [m] wide.
+/// about single rows and the size of the file, but does not check the shape of the line. A track
+/// file without columns of widths may be the log of a drive. In a log, rows nearer than
+/// `log_spacing` [m] to the previous point are skipped, and the road is 2 `log_half_width` [m]
+/// wide.
 TrackFilePoints ReadTrackPoints(const std::filesystem::path& file, double log_spacing,
                                 double log_half_width);
 

@@ -75,9 +75,9 @@ struct AccelerationRange {
 class GgvDiagram {
  public:
   /// Throws InternalError unless `sections` has one section for every combination of its speeds and
-  /// friction factors. All sections must have the same number of values, at least two. All values
-  /// must be finite, with braking <= driving. Throws InternalError unless all masses are positive
-  /// and all forces are nonnegative.
+  /// friction factors. All sections must have the same number of force limits, at least two. All
+  /// force limits must be finite, with braking <= driving. Throws InternalError unless all masses
+  /// are positive and all forces are nonnegative.
   GgvDiagram(const LongitudinalForces& forces, std::vector<GgvSection> sections);
 
   [[nodiscard]] const LongitudinalForces& forces() const { return forces_; }
@@ -90,13 +90,13 @@ class GgvDiagram {
   [[nodiscard]] double MaxLateral(const GgvPoint& point) const;
 
   /// Returns the range of the longitudinal force f_x that the tyres allow at the lateral force f_y
-  /// of `point`. If f_y exceeds the largest lateral force, f_y is replaced by the largest lateral
-  /// force. The limits of the motor and the brakes are ignored. Cost: below 0.1 us.
+  /// of `point`. A lateral force f_y beyond the largest possible one is clamped. TyresAt ignores
+  /// the limits of the motor and the brakes. Cost: below 0.1 us.
   [[nodiscard]] TyreRange TyresAt(const GgvPoint& point) const;
 
   /// Returns the range of the acceleration along the road [m/s^2] at the lateral force of `point`.
-  /// Only the fraction `share` of the forces of tyres, motor and brakes is used; the drag and
-  /// `slope` are subtracted. `slope` is the component of gravity along the road [m/s^2], positive
+  /// The forces of tyres, motor and brakes are multiplied by `share`; the drag and `slope` are
+  /// subtracted. The argument `slope` is the component of gravity along the road [m/s^2], positive
   /// uphill.
   [[nodiscard]] AccelerationRange AccelerationsAt(const GgvPoint& point, double share = 1.0,
                                                   double slope = 0.0) const;
@@ -106,7 +106,7 @@ class GgvDiagram {
   [[nodiscard]] double DriveForce(double speed) const;
 
  private:
-  /// The sections between which a point lies, with their interpolation weights.
+  /// The sections between which an operating point lies, with their interpolation weights.
   struct Weights {
     std::array<const GgvSection*, 4> section{};
     std::array<double, 4> weight{};

@@ -37,7 +37,7 @@ struct GripModel {
   double cg_height = 0.0;    ///< Height h of the center of gravity [m].
   double drag_height = 0.0;  ///< Height z_D of the center of pressure, at which the drag acts [m].
   double steering_limit = 0.0;    ///< Largest steering angle [rad]; 0: neglect steering angles.
-  std::array<GripAxle, 2> axles;  ///< Front axle, followed by the rear axle.
+  std::array<GripAxle, 2> axles;  ///< The front axle, then the rear axle.
 };
 
 /// Computes the g-g-v diagram of a car on roads with the friction factors `roads`.
@@ -61,11 +61,11 @@ struct GripModel {
 /// In a turn with f_y on a level road, the front wheels have the steering angle delta = atan(L
 /// f_y/v^2) + s_f - s_r, with the slip angles s_f and s_r of the axles, at most `steering_limit`.
 /// The forces of the front wheels act along and across the wheels, and the outer wheel has more
-/// lateral force than the inner one. The direction and the unequal size of these forces reduce the
-/// moment that turns the car. The largest f_y is therefore smaller in tight turns: for a Prius by 5
-/// % at a radius of 17 m. At each speed, the reduction by tight turns is computed only for the
-/// largest f_y. At the same fraction of the largest f_y, the diagram has the f_x of a car with
-/// straight wheels.
+/// lateral force than the inner one. The direction and the unequal size of the front wheels' forces
+/// reduce the moment that turns the car. The largest lateral force f_y is therefore smaller in
+/// tight turns: for a Prius by 5 % at a radius of 17 m. At each speed, the reduction of f_y in
+/// tight turns is computed only for the largest f_y. At the same fraction of the largest f_y, the
+/// diagram has the f_x of a car with straight wheels.
 ///
 /// The longitudinal force f_x is the sum of the forces along the wheels minus the cornering drag.
 /// The cornering drag is f_y times the mean slip angle of the axles, where each axle is weighted by
@@ -83,10 +83,10 @@ GgvDiagram ComputeGgv(const GripModel& car, const std::vector<double>& roads);
 /// one point of the diagram, for comparisons of the model with a measured or simulated car.
 double MaxLateralForce(const GripModel& car, double road, double longitudinal);
 
-/// Makes a g-g-v diagram for a vehicle with unknown axles. The diagram has an ellipse for each of
-/// the friction factors `roads`, and no drag. The half axes of the ellipse are MaxAcceleration,
-/// MaxDeceleration and MaxLateralAcceleration. Throws PreconditionError if a half axis of the
-/// ellipse is 0.
+/// Makes a g-g-v diagram for a vehicle with unknown axles. The g-g-v diagram has an ellipse for
+/// each of the friction factors `roads`, and no drag. The half axes of each ellipse are
+/// MaxAcceleration, MaxDeceleration and MaxLateralAcceleration. Throws PreconditionError if a half
+/// axis of the ellipse is 0.
 GgvDiagram FrictionGgv(const VehicleParams& vehicle, const std::vector<double>& roads);
 
 }  // namespace trackbed

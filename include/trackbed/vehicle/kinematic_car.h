@@ -29,8 +29,8 @@ struct KinematicState {
 /// errors, for any duration and acceleration. While the steering angle changes, the position error
 /// is that of a fourth-order integrator: below 1e-10 m for steps up to 20 ms at 3 m/s. A step is
 /// split at the time when the steering reaches its target, and at the time when the car comes to
-/// rest. The result therefore does not depend on the step size. The kinematic car has no slip, roll
-/// or forces, and its acceleration follows the command exactly.
+/// rest. Because steps are split at these times, the result does not depend on the step size. The
+/// kinematic car has no slip, roll or forces, and its acceleration follows the command exactly.
 class KinematicCar {
  public:
   KinematicCar(const VehicleParams& params, ReferencePoint reference, const KinematicState& start);
@@ -44,9 +44,10 @@ class KinematicCar {
 
   [[nodiscard]] const KinematicState& state() const { return state_; }
 
-  /// Returns the full state of the vehicle. The returned pose and speed are those of the rear axle,
-  /// for either reference point. The returned accelerations are those at the end of the last step.
-  /// The returned `time` is the total duration of all steps.
+  /// Returns the full state of the vehicle. The pose and speed in the returned state are those of
+  /// the rear axle, for either reference point. The accelerations in the returned state are those
+  /// at the end of the last step. The member `time` of the returned state is the total duration of
+  /// all steps.
   [[nodiscard]] VehicleState FullState() const;
 
  private:

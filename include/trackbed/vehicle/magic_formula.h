@@ -20,9 +20,9 @@
 /// factor G is a cosine function of the slip in the other direction, with the coefficients r_*.
 ///
 /// A friction factor `road` of the road multiplies mu_x, mu_y, S_vx and S_vy. For the factors G and
-/// S_vyk, the slips kappa + S_hx and alpha + S_hy are divided by `road`. The divisor is larger than
-/// `road` if kappa or alpha would otherwise be enlarged beyond full sliding, |kappa| = 1 or |alpha|
-/// = pi/2. Up to full sliding,
+/// S_vyk, the slips kappa + S_hx and alpha + S_hy are divided by `road`. The slips are divided by
+/// more than `road` if kappa or alpha would otherwise exceed full sliding, |kappa| = 1 or |alpha| =
+/// pi/2. Up to full sliding,
 ///   F(road, kappa, alpha) = road F(1, (kappa + S_hx)/road - S_hx, (alpha + S_hy)/road - S_hy),
 /// as in the similarity method (Pacejka 2012, section 4.2). A tyre therefore uses the same fraction
 /// of the friction ellipse on every road.
@@ -42,9 +42,9 @@ struct MagicFormula {
   double p_dx2 = 0.0;  ///< Change of the friction coefficient mu_x with the load.
   double p_dx3 = 0.0;  ///< Change of the friction coefficient mu_x with the camber.
   double p_ex1 = 0.0;  ///< Curvature factor E of the formula; values above 1 count as 1.
-  double p_ex2 = 0.0;  ///< Change of E with the load; E is at most 1.
-  double p_ex3 = 0.0;  ///< Change of E with the square of the load change.
-  double p_ex4 = 0.0;  ///< Change of E with the sign of the slip ratio.
+  double p_ex2 = 0.0;  ///< Change of the curvature factor E with the load; E is at most 1.
+  double p_ex3 = 0.0;  ///< Change of the curvature factor E with the square of the load change.
+  double p_ex4 = 0.0;  ///< Change of the curvature factor E with the sign of the slip ratio.
   double p_kx1 = 0.0;  ///< Longitudinal slip stiffness divided by the load, > 0.
   double p_kx2 = 0.0;  ///< Change of the slip stiffness with the load.
   double p_kx3 = 0.0;  ///< Exponential change of the slip stiffness with the load.
@@ -64,23 +64,24 @@ struct MagicFormula {
   double p_dy2 = 0.0;  ///< Change of the friction coefficient mu_y with the load.
   double p_dy3 = 0.0;  ///< Change of the friction coefficient mu_y with the camber.
   double p_ey1 = 0.0;  ///< Curvature factor E of the formula; values above 1 count as 1.
-  double p_ey2 = 0.0;  ///< Change of E with the load; E is at most 1.
-  double p_ey3 = 0.0;  ///< Change of E with the sign of the slip angle.
-  double p_ey4 = 0.0;  ///< Change of E with the camber and the sign of the slip angle.
-  double p_ey5 = 0.0;  ///< Change of E with the square of the camber.
+  double p_ey2 = 0.0;  ///< Change of the curvature factor E with the load; E is at most 1.
+  double p_ey3 = 0.0;  ///< Change of the curvature factor E with the sign of the slip angle.
+  double p_ey4 = 0.0;  ///< Change of the curvature factor E with camber and sign of the slip angle.
+  double p_ey5 = 0.0;  ///< Change of the curvature factor E with the square of the camber.
   double p_ky1 = 0.0;  ///< Cornering stiffness divided by the load, < 0.
   /// Load at which the cornering stiffness is largest, divided by F_z0. If p_ky2 is 0, the
   /// cornering stiffness is proportional to the load.
   double p_ky2 = 0.0;
   double p_ky3 = 0.0;  ///< Change of the cornering stiffness with |gamma|.
-  double p_ky4 = 2.0;  ///< Factor that replaces the 2 in sin(2 atan(...)) of K_y, > 0.
+  double p_ky4 = 2.0;  ///< Factor that replaces the 2 in the formula of K_y, > 0.
   double p_ky5 = 0.0;  ///< Change of p_ky2 with the square of the camber.
   double p_ky6 = 0.0;  ///< Camber stiffness divided by the load, in version 6.1.
   double p_ky7 = 0.0;  ///< Change of the camber stiffness with the load.
-  double p_hy1 = 0.0;  ///< Horizontal shift of F_y (see `version`).
+  double p_hy1 = 0.0;  ///< Horizontal shift S_hy of F_y; its sign depends on `version`.
   double p_hy2 = 0.0;
   double p_hy3 = 0.0;  ///< Horizontal shift of F_y in proportion to the camber; not in version 6.1.
-  double p_vy1 = 0.0;  ///< Vertical shift of F_y divided by the load (see `version`).
+  double p_vy1 = 0.0;  ///< Vertical shift of F_y divided by the load; its sign depends on
+                       ///< `version`.
   double p_vy2 = 0.0;
   double p_vy3 = 0.0;  ///< Vertical shift of F_y in proportion to the camber.
   double p_vy4 = 0.0;
@@ -128,8 +129,8 @@ struct TyreSlip {
   double ratio = 0.0;   ///< Slip ratio kappa.
   double angle = 0.0;   ///< Slip angle alpha [rad].
   double camber = 0.0;  ///< Camber gamma of the wheel [rad], clamped to +-camber_max.
-  /// Factor on the horizontal and vertical shifts, from -1 to 1. The factor is needed because the
-  /// shifts change sign with the rolling direction and vanish at standstill.
+  /// Factor on the horizontal and vertical shifts, from -1 to 1. This factor makes the shifts
+  /// change sign with the rolling direction and vanish at standstill.
   double shift = 1.0;
 };
 
@@ -155,8 +156,8 @@ TyreForce EvaluateTyreForce(const MagicFormula& tyre, double load, double road,
 
 /// Returns the fraction of the friction ellipse that `force` uses, hypot(F_x/D_x, F_y/D_y) with D =
 /// mu F_z. The friction factor of the road is `road` > 0, and the camber is `camber` [rad]. The
-/// fraction is 0 for a tyre without load (F_z <= 0). For a sliding tyre, the fraction is about 1.
-/// The fraction of a tyre with r_* coefficients may exceed 1 (EvaluateTyreForce).
+/// used fraction is 0 for a tyre without load (F_z <= 0). For a sliding tyre, the used fraction is
+/// about 1. The used fraction of a tyre with r_* coefficients may exceed 1 (EvaluateTyreForce).
 double FrictionUse(const MagicFormula& tyre, double load, double road, double camber,
                    const TyreForce& force);
 

@@ -16,11 +16,12 @@ enum class VehicleKind {
   kDifferential,
 };
 
-/// The forces on one axle of a vehicle with the acceleration `a` on a flat road. A fixed fraction
-/// of the brake force or motor force acts on the axle. The axle exerts the force m `force` a on the
-/// road (corrected for the inertia of its wheels), where m is the vehicle's mass. The axle carries
-/// the load m (g `weight` + `transfer` a). The axle slides when its force exceeds the friction
-/// coefficient mu times its load:
+/// The forces on one axle of a vehicle with the acceleration or deceleration `a` on a flat road. A
+/// fixed fraction of the brake force or motor force acts on the axle. At the acceleration a, the
+/// axle exerts the force m `force` a on the road (corrected for the inertia of its wheels), where m
+/// is the vehicle's mass. At the acceleration a, the axle carries the load m (g `weight` +
+/// `transfer` a). The axle slides when its force exceeds the friction coefficient mu times its
+/// load:
 ///   a > mu g weight/(force - mu transfer), or never if the denominator is not positive.
 struct AxleGrip {
   double weight = 0.0;  ///< Fraction of the vehicle's weight that the axle carries at rest [1].
@@ -42,8 +43,8 @@ struct AccelerationLimit {
   /// friction allow [m/s^2], >= 0. The friction limit is computed with the axle loads of a steady
   /// acceleration. After a sudden command, the body of the car may overshoot in pitch and
   /// temporarily unload the rear axle further. In MuJoCo, no wheel of the Prius slides at the
-  /// computed limit. The rear wheels of the BMW do not slide in MuJoCo up to 95 % of the computed
-  /// limit. Gravity is assumed to be 9.81 m/s^2.
+  /// computed friction limit. In MuJoCo, the rear wheels of the BMW do not slide up to 95 % of the
+  /// computed friction limit. Gravity is assumed to be 9.81 m/s^2.
   [[nodiscard]] double At(double friction) const;
 };
 
@@ -61,7 +62,8 @@ struct AccelerationLimit {
 /// tan(delta)/L means
 ///   tan(delta) = (v_R - v_L)/v,  v = (v_R + v_L)/2.
 /// A vehicle with differential drive is thus a unicycle with the yaw rate (v_R - v_L)/b. All code
-/// that uses the steering angle of the bicycle model works for both kinds of vehicles.
+/// that uses the steering angle of the bicycle model works for cars and for vehicles with
+/// differential drive.
 struct VehicleParams {
   std::string name;
   VehicleKind kind = VehicleKind::kSteered;
@@ -73,7 +75,7 @@ struct VehicleParams {
   double track_front = 0.0;
   double track_rear = 0.0;    ///< Track of the rear axle [m].
   double wheel_radius = 0.0;  ///< Radius of the wheels [m].
-  double mass = 0.0;          ///< Mass [kg].
+  double mass = 0.0;          ///< Mass of the vehicle [kg].
   /// Yaw inertia of the whole car about its center of gravity [kg m^2].
   double yaw_inertia = 0.0;
   /// Cornering stiffness of an axle at its static load, for both tyres together [N/rad]. The
@@ -94,13 +96,13 @@ struct VehicleParams {
   /// Distance from the rear axle to the rear end of the footprint [m].
   double rear_overhang = 0.0;
 
-  // The following limits are for driving straight ahead on a flat road with the friction factor 1;
-  // 0 if unknown or unlimited.
+  // The following limits are for driving straight ahead on a flat road with the friction factor 1.
+  // A limit of 0 is unknown, or the vehicle has no such limit.
 
-  /// Friction coefficient mu: the largest force of a tyre divided by its load. The value is the
-  /// minimum over all tyres at their static loads. For a car with tyre coefficients, the value is
-  /// the smaller one of the values for the two tyre models (contacts and Magic Formula), because a
-  /// plan must suit both tyre models.
+  /// Friction coefficient mu: the largest force of a tyre divided by its load. The friction
+  /// coefficient is the minimum over all tyres at their static loads. A car with tyre coefficients
+  /// has two tyre models, contacts and Magic Formula. The smaller one of their friction
+  /// coefficients is used, because a plan must suit both tyre models.
   double friction_longitudinal = 0.0;  ///< Longitudinal friction coefficient mu_x [1].
   double friction_lateral = 0.0;       ///< Lateral friction coefficient mu_y [1].
   /// Limit of the car's deceleration by braking, without the help of drag and rolling resistance.
@@ -147,7 +149,7 @@ double SteeringForCurvature(const VehicleParams& params, double curvature);
 double CurvatureForSteering(const VehicleParams& params, double steering);
 
 /// Returns the angle [rad] at which the actuator comes to rest after the command changes from 0 to
-/// `command` [rad]. The returned angle is the value of the steering response's curve, reduced by
+/// `command` [rad]. The angle at rest is the value of the steering response's curve, reduced by
 /// half the backlash and clamped to the steering limit.
 double RestingSteering(const VehicleParams& params, double command);
 
@@ -167,9 +169,9 @@ FrontAngles AckermannAngles(const VehicleParams& params, double steering);
 FrontAngles AckermannSlopes(const VehicleParams& params, double steering);
 
 /// Returns the steering angle of the bicycle model [rad] for given angles of the two front wheels;
-/// the inverse of AckermannAngles. The result is the mean of the two bicycle angles that correspond
-/// to the left and to the right wheel. This mean is well conditioned around zero, where a mean of
-/// cotangents would convert a slight toe angle to full lock.
+/// the inverse of AckermannAngles. The returned angle is the mean of the two bicycle angles that
+/// correspond to the left and to the right wheel. The mean of bicycle angles is well conditioned
+/// around zero, where a mean of cotangents would convert a slight toe angle to full lock.
 double BicycleAngle(const VehicleParams& params, const FrontAngles& front);
 
 /// Speeds of the two wheels of the rear axle, or of the two driven wheels of a differential drive

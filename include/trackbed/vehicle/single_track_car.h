@@ -42,12 +42,12 @@ SingleTrackState RollingWithoutSlip(const VehicleParams& params, const Kinematic
 /// v/u and r/u are integrated by the Radau IIA method of fifth order, in substeps of at most 2 ms.
 /// When the speed u passes through zero, v and r decay infinitely fast, but the ratios v/u and r/u
 /// have a finite limit. Because v/u and r/u have a limit, the model needs no blending or switching
-/// at low speed. A slow single-track car moves as the kinematic car except for terms of O(u^2) and
-/// O(u'). A step is split at the time when the steering reaches its target, and at the time when
-/// the car comes to rest. Changing the step size changes the result by less than 1e-9 m and 1e-9
-/// rad over seconds of driving. The model is not meant for braking that is much harder than tyres
-/// allow (about 50 m/s^2). The single-track model has linear tyres without a friction limit, and no
-/// wheel loads, roll, wind or grades.
+/// at low speed. At a low speed u, the single-track car moves as the kinematic car, with errors of
+/// the order u^2 and of the order of the acceleration u'. A step is split at the time when the
+/// steering reaches its target, and at the time when the car comes to rest. Changing the step size
+/// changes the result by less than 1e-9 m and 1e-9 rad over seconds of driving. The model is not
+/// meant for braking that is much harder than tyres allow (about 50 m/s^2). The single-track model
+/// has linear tyres without a friction limit, and no wheel loads, roll, wind or grades.
 ///
 /// Throws InternalError unless mass, yaw inertia and both cornering stiffnesses are above zero.
 /// Cost: about 2 us of computing time per 2 ms of simulated time.
@@ -68,9 +68,9 @@ class SingleTrackCar {
 
   [[nodiscard]] const SingleTrackState& state() const { return state_; }
 
-  /// Returns the full state of the vehicle. The returned accelerations are those at the end of the
-  /// last step, and `time` is the total duration of all steps. The returned state has no wheel
-  /// forces, because the model only has axle forces.
+  /// Returns the full state of the vehicle. The accelerations in the returned state are those at
+  /// the end of the last step, and the state's `time` is the total duration of all steps. The
+  /// returned state has no wheel forces, because the model only has axle forces.
   [[nodiscard]] VehicleState FullState() const;
 
  private:

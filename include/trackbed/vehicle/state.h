@@ -21,8 +21,8 @@ struct WheelState {
   /// Slip ratio of the tyre, equal to (Omega R - v_x)/|v_x|; positive when driving.
   double slip_ratio = 0.0;
   /// Fraction of the friction ellipse that the force along the road uses, >= 0; 0 without load.
-  /// Equal to hypot(F_x/(mu_x F_z), F_y/(mu_y F_z)) with the friction coefficients of the tyre on
-  /// the road under it.
+  /// The used fraction is hypot(F_x/(mu_x F_z), F_y/(mu_y F_z)), with the tyre's friction
+  /// coefficients mu_x and mu_y on the road below it.
   double friction_use = 0.0;
 };
 

@@ -58,9 +58,9 @@ SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double s
 
 /// Returns the turn of a car whose axles follow the brush model (Pacejka 2012, ch. 3). The
 /// stiffness and the friction force of an axle are proportional to its load, which changes with the
-/// acceleration. The road scales the friction force, but not the stiffness. Lateral forces of more
-/// than 0.95 of the friction force cause no more slip. If the friction or the axle loads are
-/// unknown, the result is that of SteadyTurnOn.
+/// acceleration. The road's friction factor scales the friction force of an axle, but not its
+/// stiffness. Lateral forces of more than 0.95 of the friction force cause no more slip. If the
+/// friction or the axle loads are unknown, the result is that of SteadyTurnOn.
 TurnOperation BrushTurnOn(const VehicleParams& vehicle, const TurnMotion& motion);
 
 /// Motion of a car in a bend whose curvature and speed change.
@@ -68,7 +68,7 @@ struct BendMotion {
   double curvature = 0.0;     ///< Curvature kappa of the path [1/m].
   double sharpness = 0.0;     ///< Derivative of kappa by the station [1/m^2].
   double speed = 0.0;         ///< Signed speed u of the car [m/s].
-  double acceleration = 0.0;  ///< Rate of change of abs(u) [m/s^2].
+  double acceleration = 0.0;  ///< Rate of change of the speed abs(u) [m/s^2].
   double road = 1.0;          ///< Factor of the road on the tyres' friction [1], > 0.
 };
 
@@ -76,10 +76,10 @@ struct BendMotion {
 /// load transfer of the acceleration.
 double SteeringInBend(const VehicleParams& vehicle, const BendMotion& motion);
 
-/// Derivatives of SteeringInBend at constant speed.
+/// Derivatives of SteeringInBend, the steering angle delta of a turn at constant speed.
 struct SteeringSlopes {
-  double by_curvature = 0.0;  ///< Derivative by the curvature [rad m].
-  double by_speed = 0.0;      ///< Derivative by the magnitude of the speed [rad s/m].
+  double by_curvature = 0.0;  ///< Derivative of delta by the curvature [rad m].
+  double by_speed = 0.0;      ///< Derivative of delta by the speed abs(u) [rad s/m].
 };
 SteeringSlopes SteeringSlopesInBend(const VehicleParams& vehicle, const BendMotion& motion);
 

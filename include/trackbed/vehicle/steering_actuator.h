@@ -16,7 +16,7 @@ struct SteeringMove {
   double start = 0.0;      ///< Initial angle [rad].
   double end = 0.0;        ///< Final angle [rad].
   double rate = 0.0;       ///< Signed steering rate during the ramp [rad/s].
-  double ramp_time = 0.0;  ///< Duration for which the angle changes [s].
+  double ramp_time = 0.0;  ///< Duration of the change of the steering angle [s].
 
   /// Returns the exact steering angle [rad] after `time` [s].
   [[nodiscard]] double At(double time) const {

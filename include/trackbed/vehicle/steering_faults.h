@@ -10,7 +10,7 @@ namespace trackbed {
 ///   u_1(t) = factor u(t), for a steering ratio that differs from the controller's ratio
 ///   u_2(t) = u_1(t - delay), for a transport delay, as on a bus
 ///   u_3(t) with |u_3 - u_2| <= b/2, for the backlash b; changes only at the edges of the play.
-/// If the factor is 1, slow changes of the command pass unchanged except for the backlash.
+/// If `factor` is 1, slow changes of the commanded angle pass unchanged except for the backlash.
 struct SteeringFaults {
   /// Ratio of the road-wheel angle to the commanded angle, > 0.
   double factor = 1.0;

@@ -21,7 +21,7 @@ class MonotoneCurve {
   explicit MonotoneCurve(const std::vector<Vec2>& points);
 
   /// Returns the value of the curve at x, which is exact at the given points. Throws
-  /// PreconditionError if x is not finite. Cost: O(log n) for n points.
+  /// PreconditionError if x is not finite. Cost: O(log n) for a curve through n points.
   [[nodiscard]] double At(double x) const;
 
  private:
@@ -39,7 +39,7 @@ class MonotoneCurve {
 /// All angles are steering angles of the bicycle model [rad], positive to the left.
 struct SteeringResponse {
   /// Points (command, angle) [rad] of the MonotoneCurve from the command to the steady angle. If
-  /// `curve` has no points, the angle equals the command.
+  /// `curve` has no points, the steady angle equals the command.
   std::vector<Vec2> curve{};
   double dead_time = 0.0;      ///< Dead time of the actuator [s], >= 0.
   double time_constant = 0.0;  ///< Time constant of the actuator's first-order lag [s], >= 0.
@@ -71,10 +71,10 @@ class SteeringFilter {
  private:
   std::optional<MonotoneCurve> curve_;
   double decay_;                    // Factor by which the first-order lag decays in a timestep.
-  double half_backlash_;            // Half of the backlash [rad].
+  double half_backlash_;            // Half of the steering's backlash [rad].
   std::vector<double> delay_line_;  // Ring buffer.
   std::size_t oldest_ = 0;
-  // Fraction of the timestep during which the previous delayed command still applies.
+  // Fraction of a timestep during which the previous delayed command still applies.
   double dead_time_fraction_ = 0.0;
   double arrived_;  // Delayed command of the previous timestep.
   double lagged_;

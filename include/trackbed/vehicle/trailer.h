@@ -22,17 +22,17 @@ struct TrailerOptions {
   std::optional<double> hitch{};         ///< Distance b of the hitch behind the rear axle [m].
   std::optional<double> hitch_height{};  ///< Height of the hitch above the ground [m].
   std::optional<double> tongue{};        ///< Distance l from the hitch to the trailer's axle [m].
-  std::optional<double> track{};         ///< Distance between the wheels [m].
-  std::optional<double> length{};        ///< Length of the body, without the drawbar [m].
-  std::optional<double> width{};         ///< Width of the body [m].
-  std::optional<double> height{};        ///< Height of the body's top above the ground [m].
-  /// Distance of the middle of the body ahead of the trailer's axle [m].
+  std::optional<double> track{};         ///< Distance between the trailer's wheels [m].
+  std::optional<double> length{};        ///< Length of the trailer's body, without drawbar [m].
+  std::optional<double> width{};         ///< Width of the trailer's body [m].
+  std::optional<double> height{};        ///< Height of the trailer's top above the ground [m].
+  /// Distance of the middle of the trailer's body ahead of the trailer's axle [m].
   std::optional<double> body_ahead{};
-  std::optional<double> mass{};         ///< Mass with wheels [kg].
-  std::optional<double> yaw_inertia{};  ///< Yaw inertia about the center of gravity [kg m^2].
-  std::optional<double> cg_ahead{};   ///< Distance of the center of gravity ahead of the axle [m].
-  std::optional<double> cg_height{};  ///< Height of the center of gravity [m].
-  std::optional<double> wheel_radius{};  ///< Radius of the wheels [m].
+  std::optional<double> mass{};          ///< Mass with wheels [kg].
+  std::optional<double> yaw_inertia{};   ///< Yaw inertia about the trailer's CG [kg m^2].
+  std::optional<double> cg_ahead{};      ///< Distance of the trailer's CG ahead of its axle [m].
+  std::optional<double> cg_height{};     ///< Height of the trailer's CG above the ground [m].
+  std::optional<double> wheel_radius{};  ///< Radius of the trailer's wheels [m].
 };
 
 /// The parameters of a trailer, all given; TrailerOptions describes them.
@@ -54,7 +54,7 @@ struct TrailerParams {
   /// Share of the trailer's weight that rests on the hitch of a car on level ground [1]; negative
   /// if the trailer lifts the hitch.
   [[nodiscard]] double nose_share() const { return cg_ahead / tongue; }
-  /// Distance from the hitch back to the front of the body [m].
+  /// Distance from the hitch back to the front of the trailer's body [m].
   [[nodiscard]] double body_front() const { return tongue - body_ahead - 0.5 * length; }
 };
 
@@ -72,7 +72,7 @@ TrailerParams TrailerFromNumbers(const std::array<double, 13>& numbers);
 ///
 /// Throws InputError, with the key below vehicle.trailer and the allowed values, if the hitch is
 /// not behind the car, or if the body reaches ahead of the hitch. Also throws InputError if the
-/// center of gravity is not between the hitch and its mirror image behind the axle.
+/// trailer's center of gravity is at least as far from the axle as the hitch.
 TrailerParams MakeTrailer(const TrailerOptions& options, const VehicleParams& car);
 
 /// State of a trailer relative to the car.
@@ -105,7 +105,7 @@ double RollingHitchRate(const TrailerParams& trailer, double angle, double speed
 /// Returns the hitch angle after the car's rear axle has moved by `distance` [m], negative in
 /// reverse, on a path of constant curvature. The wheels do not slip. The solution is exact except
 /// for rounding errors: u = tan(theta/2) satisfies a Riccati equation with constant coefficients.
-/// The returned angle is continuous with `angle` as long as it changes by less than pi.
+/// The returned hitch angle is continuous with `angle` if the hitch angle changes by less than pi.
 double RolledHitchAngle(const TrailerParams& trailer, double angle, double curvature,
                         double distance);
 

@@ -22,8 +22,8 @@ inline constexpr std::size_t kMaxTyreFileEntries = 10000;
 /// the left side of the car; a tyre on the right side is its mirror image.
 struct TyreFile {
   MagicFormula tyre;  ///< Coefficients with the scale factors and the pressure of the file applied.
-  std::optional<double> vertical_stiffness;  ///< [N/m], > 0.
-  std::optional<double> vertical_damping;    ///< [N s/m], >= 0.
+  std::optional<double> vertical_stiffness;  ///< Vertical stiffness [N/m], > 0.
+  std::optional<double> vertical_damping;    ///< Vertical damping [N s/m], >= 0.
   /// Notes for users on how the file was read, including the ignored entries.
   std::vector<std::string> notes;
 };
@@ -31,18 +31,18 @@ struct TyreFile {
 /// Reads a tyre property file of PAC2002, MF5.0 to MF5.2 or MF6.0 to MF6.2.
 ///
 /// In steady slip, pure or combined and with camber, EvaluateTyreForce returns the forces F_x and
-/// F_y of the file. The forces agree for loads at which the friction coefficients and the slip
-/// stiffness per load are at least a tenth of those at the nominal load. The file's relaxation
-/// lengths apply at the nominal load; a file of MF6.1 specifies the relaxation lengths by the
-/// stiffnesses of the carcass. These properties are ignored: aligning and overturning moments, turn
-/// slip, the loaded radius, and the changes of relaxation and rolling resistance with load and
-/// speed. The notes list each ignored section and each ignored entry, except entries without effect
-/// (an ordinary number 0, a scale factor 1).
+/// F_y of the file. The forces agree with the file's equations at all loads where the friction
+/// coefficients and the slip stiffness per load are at least a tenth of their nominal values. The
+/// file's relaxation lengths apply at the nominal load; a file of MF6.1 specifies the relaxation
+/// lengths by the stiffnesses of the carcass. These properties are ignored: aligning and
+/// overturning moments, turn slip, the loaded radius, and the changes of relaxation and rolling
+/// resistance with load and speed. The notes list each ignored section and each ignored entry,
+/// except entries without effect (an ordinary number 0, a scale factor 1).
 ///
 /// A file has lines `[SECTION]` and `KEY = value`. A value is a number or a text in quotes; an
-/// empty value counts as missing. Comments begin with `$` or `!`. Case does not matter. Lines that
-/// begin with `{` and rows of numbers are tables, which are ignored. Lengths, forces, times and
-/// angles are converted from the units of the file.
+/// empty value counts as missing. Comments begin with `$` or `!`. Upper and lower case are
+/// equivalent. Lines that begin with `{` and rows of numbers are tables, which are ignored.
+/// Lengths, forces, times and angles are converted from the units of the file.
 ///
 /// Errors: throws InputError, with line and key, if the text is malformed, if the file is not of a
 /// supported version, or if the file exceeds kMaxTyreFileBytes or kMaxTyreFileEntries. Also throws
@@ -50,14 +50,14 @@ struct TyreFile {
 /// Throws RunError if the file cannot be read.
 TyreFile ReadTyreFile(const std::filesystem::path& file);
 
-/// Reads a tyre property file like ReadTyreFile, but from the text of the file. Messages use `name`
-/// as the name of the file.
+/// Reads a tyre property file like ReadTyreFile, but from the text of the file. Error messages use
+/// `name` as the name of the file.
 TyreFile ParseTyreFile(std::string_view text, const std::string& name);
 
 /// Returns the numbers of the <custom> section of a car's file that describe the tyres `front` and
-/// `rear` of the two axles (SceneOptions::tyre_numbers). A number that both axles share has its
-/// plain name; other numbers have the suffixes _front and _rear. The vertical stiffness and damping
-/// are the means of both axles.
+/// `rear` of the two axles (SceneOptions::tyre_numbers). If both axles have the same number, its
+/// name has no suffix; other numbers have the suffixes _front and _rear. The vertical stiffness and
+/// damping are the means of both axles.
 std::vector<std::pair<std::string, double>> TyreNumbers(const TyreFile& front,
                                                         const TyreFile& rear);
 

@@ -26,7 +26,8 @@ struct WatchOptions {
   bool paused = false;
 };
 
-/// Callbacks of WatchRun, which are called in the thread of the caller. Each callback may be empty.
+/// Callbacks of WatchRun, which WatchRun calls in the thread of its caller. Each callback may be an
+/// empty std::function.
 struct WatchHooks {
   /// Called as soon as browsers can reach the server at `url`.
   std::function<void(const std::string& url)> serving{};
@@ -54,9 +55,9 @@ std::optional<double> ParseSpeed(std::string_view text);
 /// same machine cannot read or control the run (src/watch/server.h explains the limits of this
 /// protection). The server has no encryption and no password: anybody who can reach the address can
 /// see and control the run. Throws InputError if the address or the scenario is invalid. Throws
-/// RunError if the port is in use or the run folder cannot be written. Exceptions of the hooks are
-/// rethrown. The cost is that of RunScenario, plus about 0.3 kB of memory per control period for
-/// the log as text.
+/// RunError if the port is in use or the run folder cannot be written. WatchRun rethrows exceptions
+/// of the hooks. WatchRun needs the computing time and memory of RunScenario, plus about 0.3 kB of
+/// memory per control period for the log as text.
 RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFolder& folder,
                    const WatchOptions& options, const WatchHooks& hooks);
 

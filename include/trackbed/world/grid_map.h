@@ -38,18 +38,18 @@ struct GridMap {
 
 /// A rectangle of cells in a map.
 struct CellRectangle {
-  int column = 0;  ///< Column of the rectangle's first cell.
-  int row = 0;     ///< Row of the rectangle's first cell.
+  int column = 0;  ///< Column of the rectangle's left cells.
+  int row = 0;     ///< Row of the rectangle's bottom cells.
   int columns = 0;
   int rows = 0;
 
   bool operator==(const CellRectangle&) const = default;
 };
 
-/// Returns rectangles that cover exactly the blocked cells, without overlap. The function uses a
-/// greedy method. At the first blocked cell in row order that is not yet covered, it places the
+/// Returns rectangles that cover exactly the blocked cells, without overlap. The greedy method
+/// visits the cells row by row. At each blocked cell that is not yet covered, the method places the
 /// larger of two rectangles: the widest possible one and the highest possible one. The number of
-/// rectangles is small but not always minimal. Cost: O(cells).
+/// rectangles is small but not always minimal. The run time is proportional to the number of cells.
 std::vector<CellRectangle> MergeCells(const GridMap& map, UnknownCells unknown);
 
 }  // namespace trackbed

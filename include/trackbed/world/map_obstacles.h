@@ -39,15 +39,16 @@ struct MapSpec {
   /// scale.
   std::optional<double> cell{};
   /// Pose of the map: the position of the outer corner of the bottom left cell, and the direction
-  /// of the rows. The default is the pose in the map file, or 0 if the file contains no pose.
+  /// of the rows. The default pose of the map is the pose in the map file, or 0 if the file
+  /// contains no pose.
   std::optional<double> x{};    ///< Coordinate x of the map's corner [m].
   std::optional<double> y{};    ///< Coordinate y of the map's corner [m].
   std::optional<double> yaw{};  ///< Direction of the map's rows [rad].
   UnknownCells unknown = UnknownCells::kFree;
   double height = 1.0;  ///< Height of the walls [m], > 0.
 
-  // The walls of the map, which copies of the world share. The walls are not a key of the scenario
-  // file.
+  // The walls of the map, which copies of the world share. The walls are computed from the map's
+  // file, so the scenario file has no key for them.
   std::shared_ptr<const MapObstacles> data{};
 };
 

@@ -51,7 +51,7 @@ struct Ground {
   std::vector<Bump> bumps{};
   std::vector<Superelevation> side_slopes{};
   /// Terrain that replaces the plane with its bumps and superelevations; null: no terrain. Copies
-  /// of a world share the terrain.
+  /// of a world share its terrain.
   std::shared_ptr<const Terrain> terrain{};
 };
 
@@ -70,8 +70,8 @@ double Rise(const Superelevation& side_slope, const Vec2& point_W);
 OrientedBox Extent(const Bump& bump);
 OrientedBox Extent(const Superelevation& side_slope);
 
-/// Returns the height z of the ground at a point [m]. The height is continuous. The cost is
-/// proportional to the number of bumps and superelevations.
+/// Returns the height z of the ground at a point [m]. The ground's height is continuous. The run
+/// time is proportional to the number of bumps and superelevations.
 double GroundHeight(const Ground& ground, const Vec2& point_W);
 
 /// Returns the slopes dz/dx and dz/dy of the ground. Where the slope jumps (at the long sides of a

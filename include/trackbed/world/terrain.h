@@ -30,10 +30,10 @@ class Terrain {
   static constexpr int kCells = static_cast<int>(kBlock / kCell);
 
   struct Size {
-    Vec2 low{0.0, 0.0};  ///< Corner of the rectangle with the smallest x and y [m].
+    Vec2 low{0.0, 0.0};  ///< Corner of the terrain's rectangle with the smallest x and y [m].
     int columns = 1;     ///< Number of blocks along x, > 0.
     int rows = 1;        ///< Number of blocks along y, > 0.
-    double base = 0.0;   ///< Height of the ground outside of the rectangle [m].
+    double base = 0.0;   ///< Height of the ground outside of the terrain's rectangle [m].
 
     /// Return the number of control heights along x and along y. Each corner of a coarse cell has a
     /// control height.
@@ -47,8 +47,8 @@ class Terrain {
   };
 
   /// Makes a terrain from the control heights `coarse` [m], in rows along x. Control heights within
-  /// two cells of the rectangle's border are replaced by `base`. Throws InternalError unless the
-  /// number of heights matches `size`.
+  /// two cells of the terrain's border are replaced by the height `base` of the surroundings.
+  /// Throws InternalError unless the number of heights matches `size`.
   Terrain(const Size& size, std::vector<double> coarse);
 
   /// Sets the fine height differences of a block, at the corners of the block's cells and one cell
@@ -60,8 +60,8 @@ class Terrain {
   [[nodiscard]] const Size& size() const { return size_; }
   [[nodiscard]] bool IsRefined(int column, int row) const;
 
-  /// Returns the height and slope of the ground at any point. Outside of the rectangle, and for
-  /// points that are not finite, the height is `base`. The cost is about 0.1 us.
+  /// Returns the height and slope of the ground at any point. Outside of the terrain's rectangle,
+  /// and for points that are not finite, the height is `base`. A call takes about 0.1 us.
   [[nodiscard]] Point At(const Vec2& point_W) const;
 
  private:

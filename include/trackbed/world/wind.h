@@ -10,10 +10,10 @@
 namespace trackbed {
 
 enum class GustShape {
-  /// The strength is (1 - cos(2 pi t / T))/2: the strength rises from 0 to 1 at half of the
-  /// duration T, then falls back to 0.
+  /// Cosine gust: the strength is (1 - cos(2 pi t / T))/2, which is 0 at both ends of the duration
+  /// T and 1 in the middle.
   kOneMinusCosine,
-  kStep,  ///< The strength is 1 over the whole duration.
+  kStep,  ///< Step gust: the strength is 1 over the whole duration.
 };
 
 /// A gust of wind, everywhere or in one area.
@@ -37,7 +37,7 @@ struct Wind {
 /// Returns the strength of a gust at `time`, as a fraction of the gust's peak velocity in [0, 1].
 double GustStrength(const Gust& gust, double time);
 
-/// Returns the velocity of the air at a point and time [m/s]. The cost is proportional to the
+/// Returns the velocity of the air at a point and time [m/s]. The run time is proportional to the
 /// number of gusts.
 Vec2 WindAt(const Wind& wind, const Vec2& point_W, double time);
 

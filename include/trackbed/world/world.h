@@ -36,10 +36,12 @@ struct Obstacle {
   Vec2 velocity = Vec2::Zero();
   /// Poses through which the box moves, with increasing times; empty, or at least two. The box
   /// moves from each pose to the next at a constant velocity and a constant yaw rate, and turns by
-  /// less than pi. Before the first and after the last pose, the box keeps the velocity of the
-  /// adjacent piece and does not rotate. The center of `footprint` is the pose at time 0.
+  /// less than pi. Before its first and after its last pose, the box keeps the velocity of the
+  /// adjacent motion between two poses and does not rotate. The center of `footprint` is the pose
+  /// at time 0.
   std::vector<TimedPose> motion{};
-  /// Time after which the obstacle is gone: 1000 km away [s]. Default: never.
+  /// Time after which the obstacle no longer exists [s]; its box is then moved 1000 km away.
+  /// Default: never.
   std::optional<double> until{};
 
   [[nodiscard]] bool moves() const { return !motion.empty() || until || velocity != Vec2::Zero(); }
@@ -56,16 +58,16 @@ struct RoadLook {
 struct RoadNetworkSpec {
   /// Name of the OpenDRIVE file, relative to the scenario file.
   std::string file;
-  /// Content of the file; null if the file has not been read.
+  /// Content of the OpenDRIVE file; null if the file has not been read.
   std::shared_ptr<const OpenDriveFile> data{};
 };
 
 /// The world in which a car drives: road, ground, wind and obstacles.
 struct World {
-  /// Factor by which the tyres' friction coefficient is multiplied, for both tyre models.
+  /// Factor of the world's roads on the tyres' friction coefficient, for both tyre models.
   double friction = 1.0;
-  /// Areas with different friction coefficients. Where areas overlap, the last area in the list
-  /// applies.
+  /// Areas whose friction factor differs from `friction`. Where friction patches overlap, the last
+  /// patch in the list applies.
   std::vector<FrictionPatch> friction_patches{};
   Ground ground{};
   Wind wind{};
@@ -84,10 +86,10 @@ bool HasObstacles(const World& world);
 /// Returns the walls of the world's map; empty if the world has no map.
 const std::vector<OrientedBox>& MapWalls(const World& world);
 
-/// Returns the road's factor on the tyres' friction coefficient at a point. The returned factor is
-/// that of the last patch in the list that contains the point, or `friction` if no patch contains
-/// the point. The cost is proportional to the number of patches. Throws PreconditionError if the
-/// point is not finite.
+/// Returns the road's factor on the tyres' friction coefficient at a point. RoadFactor returns the
+/// factor of the last friction patch in the list that contains the point, or `friction` if no patch
+/// contains the point. The run time is proportional to the number of friction patches. Throws
+/// PreconditionError if the point is not finite.
 double RoadFactor(const World& world, const Vec2& point_W);
 
 /// Returns the same factor as RoadFactor above, for a given `friction` and given `patches`.
@@ -106,11 +108,12 @@ OrientedBox FootprintAt(const VehicleParams& vehicle, const Pose2& pose);
 struct ObstacleMotion {
   /// Displacement from the center of the obstacle's footprint at time 0, and rotation since then.
   Pose2 displacement;
-  Vec2 velocity = Vec2::Zero();  ///< Velocity in the world [m/s].
+  Vec2 velocity = Vec2::Zero();  ///< Velocity of the obstacle in the world [m/s].
   double yaw_rate = 0.0;         ///< Yaw rate [rad/s].
 };
 
-/// Returns the motion of an obstacle at `time` [s]. The cost is logarithmic in the number of poses.
+/// Returns the motion of an obstacle at `time` [s]. The run time is logarithmic in the number of
+/// the obstacle's poses.
 ObstacleMotion MotionAt(const Obstacle& obstacle, double time);
 
 /// Returns the footprint of an obstacle at `time` [s].
@@ -122,8 +125,8 @@ bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& footprint
 
 /// Returns the shortest distance from the car's footprint to any obstacle or wall at `time` [m].
 /// Returns 0 if the car touches or overlaps an obstacle or wall, which counts as a collision on
-/// every plant. Returns nullopt if the world has no obstacles. The cost is proportional to the
-/// number of obstacles and nearby walls.
+/// every plant. Returns nullopt if the world has no obstacles. The run time of Clearance is
+/// proportional to the number of obstacles and nearby walls.
 std::optional<double> Clearance(const World& world, const VehicleParams& vehicle, const Pose2& pose,
                                 double time);
 
@@ -144,13 +147,13 @@ struct ClosestApproach {
 /// the samples the car moves on a straight line and turns at a constant rate, by far less than a
 /// full turn. The motion of obstacles between the samples is included.
 ///
-/// Guarantees: every contact deeper than 1 mm is detected. The returned clearance exceeds the true
-/// minimum by at most 5 mm or a hundredth of the clearance. If the car and the obstacles are
-/// further apart than they move between the samples, the cost is negligible. Otherwise, the
-/// function calls Clearance() several times, at most 10^5 times. For a motion over kilometers, 10^5
-/// calls of Clearance() may not suffice. The search for the minimum then ends early, and the later
-/// part of the motion is not searched. Throws InternalError if the world has no obstacles. Throws
-/// PreconditionError if a sample is not finite.
+/// Guarantees: every contact deeper than 1 mm is detected. The returned minimum clearance exceeds
+/// the true minimum by at most 5 mm or a hundredth of the clearance. If the car and the obstacles
+/// are further apart than they move between the samples, the run time is negligible. For a car
+/// closer to obstacles, the function calls Clearance() several times, at most 10^5 times. For a
+/// motion over kilometers, 10^5 calls of Clearance() may not suffice. After 10^5 calls, the search
+/// for the minimum ends, and the later part of the motion is not searched. Throws InternalError if
+/// the world has no obstacles. Throws PreconditionError if a sample is not finite.
 ClosestApproach ApproachBetween(const World& world, const VehicleParams& vehicle,
                                 const ClearanceSample& from, const ClearanceSample& to);
 

@@ -72,19 +72,19 @@ bool IsInTheWay(const VehicleParams& vehicle, const Path& path, double station,
 /// not given, the plan is unchanged before the new stretch. On a stretch that `bezier` has
 /// replaced, the car's footprint keeps at least the distance SD from every known obstacle (checked
 /// every 0.05 m). On a stretch that `bezier` has replaced, the steering angle is within the car's
-/// limit. The steering rate at the planned speed is within the fraction
-/// `max_steering_rate_fraction` of the car's limit. The curvature is continuous at both ends of the
-/// new stretch; at its start, the curvature matches the old plan or the car's actual steering. The
-/// planner `listing` guarantees neither clearance nor steerability. With `listing`, a note of the
-/// plan states the clearance of the curve, and by how much the curve exceeds the limits of the
-/// steering. The local planners consider only obstacles that are closer to the plan than SD, and
-/// assume that these obstacles stand still. MakeFeasible slows down or rejects a new plan that
-/// exceeds the car's limits; plans of `listing` stay unchanged. If the new plan is rejected, the
-/// result is a plan that stops before the first obstacle. If the car is already driving, the
-/// stopping plan may brake harder than the grip of the road allows, with a note in the plan. Throws
-/// InternalError if an option is out of range. Computing time of `bezier`: 0.1 to 0.3 s per
-/// replaced stretch, some seconds if there is no solution. Computing time of `listing`: a
-/// millisecond.
+/// limit. On a stretch that `bezier` has replaced, the steering rate at the planned speed is within
+/// the fraction `max_steering_rate_fraction` of the car's limit. The curvature is continuous at
+/// both ends of the new stretch; at its start, the curvature matches the old plan or the car's
+/// actual steering. The planner `listing` guarantees neither clearance nor steerability. With
+/// `listing`, a note of the plan states the clearance of the curve, and by how much the curve
+/// exceeds the limits of the steering. The local planners consider only obstacles that are closer
+/// to the plan than SD, and assume that these obstacles stand still. MakeFeasible slows down or
+/// rejects a new plan that exceeds the car's limits; plans of `listing` stay unchanged. If the new
+/// plan is rejected, the result is a plan that stops before the first obstacle. If the car is
+/// already driving, the stopping plan may brake harder than the grip of the road allows, with a
+/// note in the plan. Throws InternalError if an option is out of range. Computing time of `bezier`:
+/// 0.1 to 0.3 s per replaced stretch, some seconds if there is no solution. Computing time of
+/// `listing`: a millisecond.
 FeasiblePlan PlanAround(const AvoidanceRequest& request, const AvoiderOptions& options);
 
 }  // namespace trackbed

@@ -14,11 +14,11 @@ namespace trackbed {
 /// parameters.
 struct LiteralTurn {
   /// If true, samples the arc from the angle theta_turn_dec upwards in steps of 0.01 rad, and
-  /// places the obstacle on the nearest sample. In general, none of these samples lies at the end
-  /// angle theta_turn. Therefore, the sampled arc starts up to 0.01 rad late, and the safe point
-  /// lies up to 0.01 rad before the obstacle. Swept angles are pi/2 less than the angles of the
-  /// listing, so that the sampled arc starts at the point A only if theta_turn is pi/2. If false,
-  /// samples the whole arc and places the obstacle exactly.
+  /// places the obstacle on the nearest sample. In general, none of the arc's samples lies at the
+  /// end angle theta_turn, so the sampled arc starts up to 0.01 rad late. The safe point lies up to
+  /// 0.01 rad before the obstacle. The swept angles are pi/2 minus the angles of the listing, so
+  /// the sampled arc starts at the point A only if theta_turn is pi/2. If false, samples the whole
+  /// arc and places the obstacle exactly.
   bool grid = false;
   /// If true, reproduces defect L9 of the listing: shifts the control point P_5 of a right turn
   /// along x by cos(pi/2 - theta_turn_dec) meters.

@@ -18,7 +18,7 @@
 ///
 /// The maneuver frame M has its origin at the start of the maneuver, its x axis along the heading
 /// at the start, and its y axis to the left. The turn's arc begins at the distance S ahead of the
-/// origin.
+/// origin. Symbols of the geometry:
 ///   r_1    radius of the turn [m];  sg = +1 for a left turn, -1 for a right one
 ///   S      = r_1 + v_a t_d: length of the straights before and after the arc [m]
 ///   C      = (S, sg r_1): center of the arc;  A, E first and last point of the arc
@@ -99,10 +99,11 @@ TurnLayout LayOutTurn(const TurnManeuver& maneuver, const VehicleParams& vehicle
 /// Computes the control points P_0 to P_7 of the curve in the frame M; the status of `layout` must
 /// be kOk. The argument `final_y` [m] is q_final.y, the y coordinate of P_3.
 ///
-/// The control points P_0 to P_2 lie on the straight before the turn. P_2 lies at the arc's start A
-/// if the obstacle is past the arc's middle, else at two thirds of the straight. The control point
-/// P_3 has the x coordinate of A, and P_4 is the safe point. The control points P_5 to P_7 lie on
-/// the tangent at the arc's end E, at the distances 0, S/2 and S from E.
+/// The control points P_0 to P_2 lie on the straight before the turn. The control point P_2 lies at
+/// the arc's start A if the obstacle is past the arc's middle, else at two thirds of the straight
+/// before the turn. The control point P_3 has the x coordinate of A, and P_4 is the safe point. The
+/// control points P_5 to P_7 lie on the tangent at the arc's end E, at the distances 0, S/2 and S
+/// from E.
 std::array<Vec2, 8> ControlPoints(const TurnManeuver& maneuver, const TurnLayout& layout,
                                   const VehicleParams& vehicle, double final_y);
 
@@ -121,11 +122,11 @@ struct LiteralTree {
 /// draws floor(S/2) samples in the box between the start and the obstacle's center. For passing on
 /// the outer side, the box is mirrored at the x axis. The coordinates of the samples are rounded
 /// down to whole meters. A new node lies at most 1 m from the nearest node, toward the sample. The
-/// new node is accepted if the whole line from the nearest node to the sample crosses no side of
-/// the obstacle. The parent of a new node is the node within 10 m through which the path to the new
-/// node is shortest; existing nodes never change their parents. The search ignores the car's width
-/// and never reaches its goal, because the goal lies outside the sampled box. LiteralRrtStar serves
-/// only for comparison; use PlanRrtStar to find paths.
+/// search accepts a new node if the whole line from the nearest node to the sample crosses no side
+/// of the obstacle. The parent of a new node is the node within 10 m through which the path to the
+/// new node is shortest; existing nodes never change their parents. The search ignores the car's
+/// width and never reaches its goal, because the goal lies outside the sampled box. LiteralRrtStar
+/// serves only for comparison; use PlanRrtStar to find paths.
 LiteralTree LiteralRrtStar(const TurnManeuver& maneuver, const TurnLayout& layout,
                            std::uint64_t seed);
 
@@ -168,7 +169,7 @@ struct ManeuverRun {
 /// Simulates driving along a curve at constant speed, with 501 samples. Computing time: 0.15 ms.
 /// The test point of the listing's safety check is two samples before the first sample with s >= n
 /// length/6 - 2 m. The listing's safety check compares only one test point with one corner of the
-/// obstacle, and can pass even if the car comes close to the obstacle elsewhere. The function
+/// obstacle, and can pass even if the car comes close to the obstacle elsewhere. SimulateManeuver
 /// therefore also computes the smallest clearance along the whole curve. The result `steerable`
 /// covers the curve between its ends, but not how the wheels reach the steering angle at the
 /// curve's start. A curve that has no tangent direction at a sample is not steerable.

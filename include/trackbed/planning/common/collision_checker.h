@@ -17,9 +17,9 @@ class CollisionChecker {
   /// Upper bound of the result of farthest(), which applies to long cars [m].
   static constexpr double kMaxClearance = 4.0;
 
-  /// Fraction of its distance from a box at the start that a car must keep while it leaves the box.
-  /// A car that turns away from a wall beside it cannot keep the whole distance: its rear swings
-  /// toward the wall.
+  /// A car that starts near a box must keep this fraction of its start distance while it leaves the
+  /// box. A car that turns away from a wall beside it cannot keep the whole distance: its rear
+  /// swings toward the wall.
   static constexpr double kShareOfStart = 0.5;
 
   /// `distance` [m], >= 0, is the required distance of the footprint from every box. Throws
@@ -29,7 +29,7 @@ class CollisionChecker {
 
   /// Same as the constructor without `start`, but for a car that may leave the pose `start`. If a
   /// box is nearer than `distance` to the footprint at `start`, the car need only keep the fraction
-  /// kShareOfStart of this smaller distance from the box. The pose `start` is free unless a box
+  /// kShareOfStart of its distance at `start` from the box. The pose `start` is free unless a box
   /// overlaps the footprint at `start`.
   CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance,
                    const Pose2& start);
@@ -50,10 +50,10 @@ class CollisionChecker {
   [[nodiscard]] double farthest() const { return farthest_; }
 
   /// Returns the clearance of the footprint from the nearest box minus the required distance [m].
-  /// The returned value is exact. The value is negative if the footprint is too near to a box, and
-  /// never exceeds `at_most` and farthest(). Throws PreconditionError if the pose is not finite.
-  /// Computing time: a few ns for each nearby box, about 50 ns for each box that may be the nearest
-  /// one.
+  /// The returned clearance is exact. The clearance is negative if the footprint is too near to a
+  /// box, and never exceeds `at_most` and farthest(). Throws PreconditionError if the pose is not
+  /// finite. Computing time: a few ns for each nearby box, about 50 ns for each box that may be the
+  /// nearest one.
   [[nodiscard]] double Clearance(const Pose2& pose,
                                  double at_most = std::numeric_limits<double>::infinity()) const;
 
@@ -61,10 +61,10 @@ class CollisionChecker {
 
   /// Returns the first tested station at which the car is too near to a box; nullopt if the car is
   /// clear at all tested stations. The search advances along the path by the distance that is free
-  /// according to the clearance. Each step is at least 2 cm long (for a car shorter than 1 m, a
-  /// fiftieth of its length). Between two tested stations, the clearance may therefore be negative,
-  /// by at most half of the smallest step times the motion of the footprint's fastest corner per
-  /// meter of path.
+  /// according to the clearance. Each step of the search is at least 2 cm long (for a car shorter
+  /// than 1 m, a fiftieth of its length). Between two tested stations, the clearance may be
+  /// negative, by at most half of the smallest step times the motion of the footprint's fastest
+  /// corner per meter of path.
   [[nodiscard]] std::optional<double> FirstBlocked(const Path& path) const;
 
   /// Returns whether the car is clear of all boxes along an arc or a line, tested as in

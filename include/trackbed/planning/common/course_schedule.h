@@ -17,8 +17,8 @@ double SharpestCurvature(const Segment& segment);
 /// angle atan(L kappa) as a function of the driven distance. At a step of curvature, the steering
 /// angle follows a ramp computed by RampsOfSteps (curvature_steps.h), for a car that drives at
 /// `speed` [m/s], or more slowly within `caps`. The car stops at changes of direction and at the
-/// stations `stops`. Where the car stops, the steering changes within the last micrometer before
-/// the stop.
+/// stations `stops`. Where the car stops, the scheduled steering angle changes within the last
+/// micrometer before the stop.
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                                 double speed, const std::vector<SpeedCap>& caps = {},
                                 const std::vector<double>& stops = {});

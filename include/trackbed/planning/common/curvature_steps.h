@@ -10,8 +10,8 @@
 ///
 /// At a joint between two segments, the curvature steps by dkappa [1/m] and the steering angle by
 /// ddelta [rad]. The distance that the car drives while its wheels turn is S = v
-/// |ddelta|/omega_delta [m]. If the wheels begin to turn S/2 before the joint, the car ends with
-/// the heading of the path. The lateral offset of the car from the path is |dkappa| S^2/24 [m].
+/// |ddelta|/omega_delta [m]. If the wheels begin to turn at the distance S/2 before the joint, the
+/// car ends with the heading of the path, and with the lateral offset |dkappa| S^2/24 [m].
 namespace trackbed {
 
 /// Largest permitted lateral offset from the path due to a step of curvature [m].
@@ -36,8 +36,8 @@ struct SteeringRamp {
 /// The car is assumed to drive at `speed` [m/s], or more slowly within `caps`. Each ramp is as long
 /// as the wheels need at the car's speed, but covers at most half of each adjacent piece, so that
 /// ramps never overlap. If a ramp is shortened to half of a piece, the car drives more slowly on
-/// the ramp. Changes of direction and the stations `stops` have no ramp, because the wheels turn
-/// there while the car stands.
+/// the ramp. Changes of direction and the stations `stops` have no ramp, because the car stands
+/// while its wheels turn.
 std::vector<SteeringRamp> RampsOfSteps(const VehicleParams& vehicle,
                                        const std::vector<Segment>& segments, double speed,
                                        const std::vector<SpeedCap>& caps = {},
@@ -49,7 +49,7 @@ struct StepSpeeds {
   /// if the adjacent pieces are short, but never less than the minimum speed.
   std::vector<SpeedCap> caps;
   /// Stations [m] of the joints between pieces that are too short for a ramp at the minimum speed.
-  /// The car stops at each of these joints and turns its wheels at rest.
+  /// At each station in `stops`, the car stops and turns its wheels at rest.
   std::vector<double> stops;
 };
 

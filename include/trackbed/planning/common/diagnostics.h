@@ -33,8 +33,8 @@ class DiagnosticsVisitor {
  public:
   virtual ~DiagnosticsVisitor() = default;
 
-  /// Returns whether the visitor wants all fields, as for plan.json. If false, `Visit` should visit
-  /// only a summary, without points, histories and values derived from other fields.
+  /// Returns whether the visitor wants all fields, as for plan.json. For other visitors, `Visit`
+  /// should visit only a summary, without points, histories and values derived from other fields.
   [[nodiscard]] virtual bool full() const = 0;
 
   /// Visits a number. A number that is not finite becomes null in plan.json.
@@ -108,7 +108,8 @@ class MethodDiagnostics {
     return std::any_cast<Struct>(&value_);
   }
 
-  /// Returns the contained struct. Throws InternalError if its type is not `Struct`.
+  /// Returns the contained struct. Throws InternalError if the type of the contained struct is not
+  /// `Struct`.
   template <typename Struct>
   [[nodiscard]] const Struct& Get() const {
     TRACKBED_CHECK(GetIf<Struct>() != nullptr, "diagnostics of another method: {}",

@@ -42,10 +42,10 @@ namespace trackbed {
 /// The change that would bring a plan back within a limit.
 enum class Remedy {
   kNone,        ///< Neither lower speeds nor smaller accelerations bring the plan within the limit.
-  kLowerSpeed,  ///< Lower speeds on the same path.
-  kGentlerBraking,  ///< A smaller deceleration.
-  kGentlerDriving,  ///< A smaller acceleration.
-  kGentlerBends,    ///< Lower speeds in bends, and smaller accelerations.
+  kLowerSpeed,  ///< The car must drive more slowly on the same path.
+  kGentlerBraking,  ///< A smaller deceleration is needed.
+  kGentlerDriving,  ///< A smaller acceleration is needed.
+  kGentlerBends,    ///< Lower speeds in bends and smaller accelerations are needed.
 };
 
 /// A limit of the car that a plan exceeds.
@@ -71,8 +71,8 @@ std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request);
 /// How much MakeFeasible finds out about the cause of a refusal.
 enum class Refusal {
   kBrief,  ///< Lists the exceeded limits.
-  /// If the car starts too fast, also finds the highest feasible start speed. With kExplained, a
-  /// refusal takes up to ten times as long.
+  /// Also finds the highest feasible start speed if the car starts too fast. A refusal with
+  /// kExplained takes up to ten times as long as with kBrief.
   kExplained,
 };
 
@@ -115,7 +115,7 @@ PlanRequest RequestOn(const RoadConditions& road, const VehicleParams& vehicle,
 
 /// Same as MakeFeasible, but for a plan that continues another plan: a rerouted plan, or a plan
 /// made during the run. A continuing plan begins at or near the car (replan.h, avoidance.h). The
-/// feasibility test uses the start of the continuing plan instead of the mission's start.
+/// feasibility test of a continuing plan uses the start of this plan, not the mission's start.
 FeasiblePlan MakeFeasibleFromHere(Plan plan, const PlanRequest& request);
 
 /// Computes the plan's speeds, for closed-loop and open-loop runs, from the plan's path, speed caps

@@ -32,18 +32,18 @@ struct WaypointChoice {
   std::optional<double> start_yaw;
 };
 
-/// A path that misses a point by at most this share of the car's width counts as passing the point.
+/// A path passes a point if the path misses the point by at most this fraction of the car's width.
 inline constexpr double kUnnoticedShareOfWidth = 0.25;
 
 /// Leaves out waypoints that are too close to each other for the curves of their corners. Keeps the
-/// first and the last point. Keeps the direction of the first leg, unless
+/// first and the last point of the polyline. Keeps the direction of the first leg, unless
 /// WaypointChoice::keeps_first_direction is false. A waypoint may be left out if it lies within
-/// `max_gap` of the leg that replaces it or of the first leg. Any other point may be left out if it
-/// lies on the leg that replaces it or on the first leg. Returns the polyline with the fewest
-/// corners that the car cannot drive at `min_speed`. If several polylines have equally few
-/// undrivable corners, returns the one with the most points. If several polylines also have equally
-/// many points, returns the polyline nearest to the points left out. Cost: O(n w^2) for n points,
-/// of which at most w = 50 are left out in a row.
+/// `max_gap` of the leg that replaces it or of the first leg. A point that is not a waypoint may be
+/// left out if it lies on the leg that replaces it or on the first leg. Returns the polyline with
+/// the fewest corners that the car cannot drive at `min_speed`. If several polylines have equally
+/// few undrivable corners, returns the one with the most points. Among polylines with equally many
+/// undrivable corners and points, returns the polyline nearest to the points left out. Cost: O(n
+/// w^2) for n points, of which at most w = 50 are left out in a row.
 std::vector<Vec2> LeaveOutCloseWaypoints(const VehicleParams& vehicle,
                                          const std::vector<Vec2>& polyline,
                                          const CornerLimits& limits);

@@ -24,8 +24,8 @@ LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond);
 
 /// Returns polylines that leave the start in the direction of the car's heading, the shortest
 /// first. On the first leg of each polyline, a rolling car can stop. Some of the polylines also
-/// make one or two quarter turns, because the first waypoint may be behind the car. Each turn has
-/// room for the car's smallest radius.
+/// make one or two quarter turns, because the first waypoint may be behind the car. Each turn of a
+/// polyline has room for the car's smallest turning radius.
 std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request);
 
 }  // namespace trackbed

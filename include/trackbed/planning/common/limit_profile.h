@@ -16,8 +16,8 @@
 ///   f_x = A a + z_s G/A,   f_y = (A^2 v^2 kappa + z_l G)/(N A),   f_n = (G - z_l v^2 kappa)/N
 /// as tyre forces (ggv_diagram.h), in addition to the drag.
 ///
-/// The model is steady-state: it neglects the car's yaw acceleration, slip and steering angles. In
-/// this model, wheel loads follow the accelerations instantly, and there is no wind.
+/// The model is steady-state: it neglects the car's yaw acceleration, slip and steering angles. The
+/// model assumes that wheel loads follow the accelerations instantly, and that there is no wind.
 namespace trackbed {
 
 /// The quantities that limit the car's speed at a station of the path.
@@ -37,15 +37,16 @@ struct LimitStation {
 struct LimitOptions {
   double share = 1.0;  ///< Usable fraction of the forces of tyres, motor and brakes, in (0, 1].
   double jerk = 0.0;   ///< Largest jerk |da/dt| of the car [m/s^3]; 0: not limited.
-  /// Largest speed of the car [m/s]. If 0, the car's top speed applies, and must be known.
+  /// Largest speed of the car [m/s]. If `speed` is 0, the car's top speed applies, and must be
+  /// known.
   double speed = 0.0;
 };
 
 /// A place at which the car cannot brake in time, and arrives faster than its limit allows.
 struct LimitExcess {
-  double s = 0.0;        ///< Station of the place [m].
+  double s = 0.0;        ///< Station at which the car is too fast [m].
   double speed = 0.0;    ///< Speed at which the car arrives after the hardest braking [m/s].
-  double allowed = 0.0;  ///< Speed that the limit allows at the place [m/s].
+  double allowed = 0.0;  ///< Speed that the limit allows at the station [m/s].
 };
 
 /// Speeds at the stations of a path, and the driving time. Between stations, the squared speed v^2
@@ -66,10 +67,10 @@ struct LimitSpeeds {
 /// possible at any station except the first. Longer intervals between stations make the result
 /// slightly slower, because the smaller one of the accelerations at both ends applies to the whole
 /// interval. The car drives at full force in an interval in which drag or a slope exceeds the
-/// motor's force. With a jerk limit, the second differences of v^2 meet this limit exactly, and the
-/// accelerations meet the g-g-v diagram with a tolerance of 0.1 m/s^2. A car that starts faster
-/// than the g-g-v diagram allows brakes as hard as possible, without a jerk limit. At the first
-/// station, the acceleration may jump.
+/// motor's force. The second differences of v^2 meet a jerk limit exactly, and the accelerations
+/// meet the g-g-v diagram with a tolerance of 0.1 m/s^2. A car that starts faster than the g-g-v
+/// diagram allows brakes as hard as possible, without a jerk limit. At the first station, the
+/// acceleration may jump.
 ///
 /// The function does not check whether the car can steer fast enough at the resulting speeds; speed
 /// caps (LimitStation::cap) can ensure that. Throws PreconditionError if a number is not finite, if

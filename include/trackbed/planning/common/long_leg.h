@@ -11,7 +11,7 @@ namespace trackbed {
 
 /// The part of a path between two successive waypoints.
 struct LongLeg {
-  std::size_t to = 0;     ///< Index in the route of the waypoint at the part's end, >= 1.
+  std::size_t to = 0;     ///< Index of the waypoint at which this leg ends, >= 1.
   double length = 0.0;    ///< Length of the path between the waypoints [m].
   double straight = 0.0;  ///< Distance between the waypoints [m].
 };

@@ -12,8 +12,8 @@
 /// Computes the steering that a path demands from a car, for each short piece of the path.
 ///
 /// The steering angle delta(kappa, v) is that of the car on its tyres in a steady turn with the
-/// path's curvature kappa and the speed v (SteeringInBend). Along the path, delta changes with the
-/// curvature and with the speed.
+/// path's curvature kappa and the speed v (SteeringInBend). Along the path, the steering angle
+/// delta changes with the curvature and with the speed.
 namespace trackbed {
 
 /// Curvature of a path at a station.
@@ -38,7 +38,7 @@ struct PathPiece {
 /// Speed of a car on a piece of a path.
 struct PieceSpeed {
   double speed = 0.0;         ///< Magnitude of the speed v [m/s], >= 0.
-  double acceleration = 0.0;  ///< Rate of change of v [m/s^2].
+  double acceleration = 0.0;  ///< Rate of change of the speed v [m/s^2].
   int direction = 1;          ///< Direction of travel, 1 or -1.
   double road = 1.0;          ///< Factor of the road on the tyres' friction [1], > 0.
 };
@@ -53,10 +53,11 @@ double SteeringRateOn(const VehicleParams& vehicle, std::span<const Bend> bends,
                       const PieceSpeed& speed);
 
 /// Returns a speed of at most `at.speed` with which the car needs at most the steering rate `rate`
-/// [rad/s] in all of the `bends`. Returns infinity if the car needs no higher steering rate than
-/// `rate` at `at.speed`. For a car that understeers, the result is the largest of these speeds, to
-/// nine digits, because the steering rate increases with the speed. Takes the acceleration of the
-/// car and the friction of the road from `at`. A rate of 0 means no limit.
+/// [rad/s] in all of the `bends`. Returns infinity if the steering rate that the car needs at
+/// `at.speed` is at most `rate`. For an understeering car, the required steering rate increases
+/// with the speed, so the result is the largest possible speed, to nine digits. The argument `at`
+/// also contains the acceleration of the car and the friction of the road. A `rate` of 0 means that
+/// the steering rate is not limited.
 double SpeedForSteeringRate(const VehicleParams& vehicle, std::span<const Bend> bends, double rate,
                             const PieceSpeed& at);
 

@@ -37,7 +37,7 @@ struct TrackLaps {
 struct PlannedLaps {
   std::shared_ptr<const Track> track{};  ///< Track of the plan; null if the plan is not on a track.
   /// Stations at which the plan crosses the start line [m]; there is one more crossing than laps.
-  /// The first of these stations is 0 if the plan begins on or beyond the start line. In a plan
+  /// The first crossing has the station 0 if the plan begins on or beyond the start line. In a plan
   /// made during a run, crossings of the start line behind the car have negative stations.
   std::vector<double> lines{};
 };
@@ -57,7 +57,7 @@ struct Gate {
 
 /// A place at which a plan keeps the car at rest.
 struct PlannedWait {
-  double s = 0.0;         ///< Station [m]: 0, a cusp of the path or one of Plan::stops.
+  double s = 0.0;         ///< Station of the wait [m]: 0, a cusp of the path or one of Plan::stops.
   double duration = 0.0;  ///< Time from coming to rest to starting again [s], > 0.
 };
 
@@ -93,8 +93,8 @@ struct PlanRequest {
   /// `clock`. If `clock` is empty, time limits are ignored.
   std::function<double()> clock{};
   /// Maximum number of random samples that the planner may draw for all search trees together
-  /// (PlanDiagnostics::samples), whatever its options say. The maximum number of samples bounds the
-  /// computing time, which is about 12 us per sample.
+  /// (PlanDiagnostics::samples), whatever the planner's options say. The maximum number of samples
+  /// bounds the computing time, which is about 12 us per sample.
   long max_samples = kMaxSamples;
   double friction = 1.0;  ///< Friction of the road, as a factor on the tyres' friction coefficient.
   /// Patches of the road that have a different friction.
@@ -104,22 +104,22 @@ struct PlanRequest {
   LaneMission lanes{};   ///< Route over the lanes of roads, for planners that follow lanes.
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
   /// Largest allowed distance of the path from each waypoint after the first [m], >= 0; nullopt: no
-  /// bound. Planners that round corners use smaller radii, or drive past the waypoint and turn
-  /// around behind it. MakePlan rejects plans that exceed the bound (kWaypointMissed), except for
-  /// partial plans.
+  /// bound. To stay within `max_waypoint_miss`, planners that round corners use smaller radii, or
+  /// turn around behind the waypoint. MakePlan rejects a plan that passes a waypoint farther away
+  /// (kWaypointMissed), unless the plan is partial.
   std::optional<double> max_waypoint_miss{};
-  /// The car's limits, if the planned speeds should be as high as these limits allow. If nullopt,
-  /// the planned speeds follow `speed`.
+  /// The car's limits, if the planned speeds should be as high as these limits allow. If `limits`
+  /// is nullopt, the planned speeds follow the mission's `speed`.
   std::optional<SpeedAtLimit> limits{};
 };
 
 /// Conditions of the road that limit a plan, and the policy for plans that exceed the car's limits.
 struct RoadConditions {
-  double friction = 1.0;                          ///< Same as PlanRequest::friction.
-  std::vector<FrictionPatch> friction_patches{};  ///< Same as PlanRequest::friction_patches.
-  Ground ground{};                                ///< Same as PlanRequest::ground.
+  double friction = 1.0;                          ///< Friction of the road (PlanRequest::friction).
+  std::vector<FrictionPatch> friction_patches{};  ///< Patches of other friction (PlanRequest).
+  Ground ground{};                                ///< Ground under the road (PlanRequest::ground).
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
-  std::optional<SpeedAtLimit> limits{};  ///< Same as PlanRequest::limits.
+  std::optional<SpeedAtLimit> limits{};  ///< The car's limits (PlanRequest::limits).
 };
 
 /// The output of a planner: path, speeds, steering and diagnostics. If the status is not kOk, the
@@ -132,13 +132,13 @@ struct Plan {
   SteeringSchedule schedule;
   /// Speeds for open-loop runs; the profile ends at the station at which the run stops.
   SpeedProfile schedule_speed;
-  std::vector<SpeedCap> caps;  ///< Sections of the path on which the car drives at a lower speed.
+  std::vector<SpeedCap> caps;  ///< Speed limits on sections of the path.
   /// Stations at which the car stops to turn its wheels, in addition to the path's cusps [m].
   std::vector<double> stops;
   /// Places at which the car waits, in the order of their stations; at all other stops, the car
   /// starts again as soon as its wheels have turned.
   std::vector<PlannedWait> waits{};
-  /// Waypoints of the request, whose first is the start of the route; empty if the mission has no
+  /// Waypoints of the request, beginning with the start of the route; empty if the mission has no
   /// waypoints.
   std::vector<Vec2> waypoints;
   /// Pose at which the mission ends; the path also ends at this pose unless the path is blocked or
@@ -154,9 +154,9 @@ struct Plan {
   /// Remarks for the user, for example that the plan was slowed down.
   std::vector<std::string> notes;
   PlanDiagnostics diagnostics;  ///< Describes how the plan was found, for plan.json.
-  /// Whether the path interpolates samples of a motion, at most 0.1 m apart. For such a path, the
-  /// steering schedule has the steering rate of the motion; the path itself may need a higher
-  /// steering rate between the samples.
+  /// Whether the path interpolates samples of a motion, at most 0.1 m apart. The steering schedule
+  /// of a sampled path has the steering rate of the motion. Between the samples, the path itself
+  /// may need a higher steering rate.
   bool sampled = false;
   PlannedLaps laps;  ///< Laps of a plan on a track.
   /// Roads whose lanes the plan follows; null if the plan does not follow lanes.

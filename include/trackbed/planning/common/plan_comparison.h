@@ -14,8 +14,8 @@ namespace trackbed {
 /// [m]; infinity if there is no path.
 [[nodiscard]] double ExtraLength(const Plan& plan, const PlanRequest& request);
 
-/// Returns whether the path is longer than the straight lines from the start through the waypoints
-/// by the car's smallest turning radius or more. A refused plan counts as a detour.
+/// Returns whether the planned path is longer than the straight lines through the waypoints by the
+/// car's smallest turning radius or more. A refused plan counts as a detour.
 [[nodiscard]] bool IsDetour(const Plan& plan, const PlanRequest& request);
 
 /// Returns whether `plan` is shorter than `best` by the car's smallest turning radius or more, and
@@ -23,8 +23,9 @@ namespace trackbed {
 [[nodiscard]] bool IsShorterAndNotSlower(const Plan& plan, const Plan& best,
                                          const VehicleParams& car);
 
-/// Adds a note to a detour of a rolling car if `plan` makes a path for a car at rest that is
-/// shorter and not slower. The note states the lengths of both paths. Calls `plan` at most once.
+/// Adds a note to `detour`, the plan of a rolling car, if a car at rest could take a path that is
+/// shorter and not slower. The note states the lengths of both paths. The function `plan` plans the
+/// path of the car at rest, and is called at most once.
 void NoteDetourOfRollingStart(const PlanRequest& request, Plan& detour,
                               const std::function<Plan(const PlanRequest&)>& plan);
 

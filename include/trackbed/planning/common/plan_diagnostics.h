@@ -19,7 +19,7 @@ struct PlannedWait;
 /// turn, the outer side is the opposite side. On a straight, the inner side is the left side.
 enum class PassingSide { kInner, kOuter };
 
-/// Returns "inner" or "outer".
+/// Returns the name of a passing side: "inner" or "outer".
 const char* ToString(PassingSide passing_side);
 
 /// A stretch of the path that a local planner replaced to pass an obstacle.

@@ -27,7 +27,7 @@ std::vector<IsolatedTurn> Moved(const std::vector<IsolatedTurn>& turns, Stations
 
 /// Returns the segments of a path between two stations. The path is extended straight before its
 /// start and beyond its end, so that a car that was pushed beyond an end still has a path. Returns
-/// an empty list if no segment remains.
+/// an empty list if no segment lies between the stations.
 std::vector<Segment> SegmentsBetween(const Path& path, Stations within);
 
 template <typename T>
@@ -41,9 +41,9 @@ std::vector<SpeedCap> CapsOf(const Plan& plan);
 
 /// Returns the part of a plan beyond `station`, for a car that is at `station` with `start_speed`
 /// [m/s]. The stations of the returned plan count from `station`. The diagnostics of turns are
-/// copied to the returned plan unchanged. If the plan has speeds at the car's limit, these speeds
-/// are kept. If the car is slower than planned, the car first accelerates to these speeds with the
-/// acceleration in `speed`.
+/// copied to the returned plan unchanged. Speeds that were planned at the car's limit are kept. A
+/// car that is slower than planned first accelerates to the planned speeds with the acceleration in
+/// `speed`.
 Plan RemainingPlan(const Plan& plan, double station, double start_speed, const SpeedLimits& speed);
 
 }  // namespace trackbed

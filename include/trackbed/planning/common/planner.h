@@ -25,8 +25,8 @@ struct PlannedStart {
 /// The part of a mission that determines how a given route begins.
 struct RouteStart {
   Pose2 pose;            ///< Pose of the car at the start.
-  TrackLaps on_track{};  ///< Same as PlanRequest::on_track.
-  LaneMission lanes{};   ///< Same as PlanRequest::lanes.
+  TrackLaps on_track{};  ///< Track and laps to drive (PlanRequest::on_track).
+  LaneMission lanes{};   ///< Route over lanes (PlanRequest::lanes).
 };
 
 /// An additional table about a plan, written into the run folder.
@@ -55,8 +55,8 @@ struct PlannerEntry {
   bool has_headings = false;  ///< Whether the planner meets PlanRequest::headings at the waypoints.
   bool has_gates = false;     ///< Whether the planned paths pass through gates (Plan::gates).
   bool goes_backwards = false;  ///< Whether the planned paths may contain reverse segments.
-  /// Whether scenarios bound the distance of the planned path from the waypoints
-  /// (PlanRequest::max_waypoint_miss) by the car's length, unless they set another bound.
+  /// Whether the car's length is the default bound on the distance of the planned path from the
+  /// waypoints (PlanRequest::max_waypoint_miss).
   bool bounds_waypoint_miss = false;
   /// Whether the planner searches for a path around obstacles within a limited budget.
   bool searches = false;
@@ -65,34 +65,36 @@ struct PlannerEntry {
   bool has_ties = false;
   /// Whether the planner is random, so that its plan depends on PlanRequest::seed.
   bool is_random = false;
-  /// Returns whether a plan made with the given options may contain reverse segments. If this
-  /// function is null, `goes_backwards` applies.
+  /// Returns whether a plan made with the given options may contain reverse segments. If
+  /// `may_go_backwards` is null, `goes_backwards` applies to all options.
   bool (*may_go_backwards)(const PlannerOptions& options) = nullptr;
-  /// Returns whether a plan made with the given options may be partial (Plan::partial). If this
-  /// function is null, no plan may be partial.
+  /// Returns whether a plan made with the given options may be partial (Plan::partial). If
+  /// `may_be_partial` is null, no plan may be partial.
   bool (*may_be_partial)(const PlannerOptions& options) = nullptr;
 
-  // Rules that the planner's options must meet. OnOptions adapts functions that take the planner's
-  // own options struct.
+  // Rules that the planner's options must meet. OnOptions adapts a function of the planner's own
+  // options struct to PlannerOptions.
 
   /// Checks rules that relate the values of several options of the planner.
   std::vector<OptionProblem> (*check)(const PlannerOptions& options,
                                       const CouldReadKey& could_read) = nullptr;
   /// Checks further rules for the options if the planner plans detours (plan.replan.detour).
   std::vector<OptionProblem> (*check_detour)(const PlannerOptions& options) = nullptr;
-  /// Default options of the planner when it plans detours. If nullopt, `defaults` also applies to
-  /// detours.
+  /// Default options of the planner when it plans detours. If `detour_defaults` is nullopt, detours
+  /// use `defaults`.
   std::optional<PlannerOptions> detour_defaults{};
-  /// Returns the steering angle of the bicycle model on straights [rad]; if this function is null,
-  /// the angle is 0. The scenario key of this angle is `neutral_steering`.
+  /// Returns the steering angle of the bicycle model on straights [rad]; if `neutral_steering` is
+  /// null, the angle is 0. Scenarios set the steering angle on straights by the key
+  /// `neutral_steering`.
   double (*neutral_steering)(const PlannerOptions& options) = nullptr;
-  /// Returns the state of the car in which plans begin. If this function is null or returns
-  /// nullopt, plans begin in the mission's start state.
+  /// Returns the state of the car in which plans begin. If `start` is null or returns nullopt,
+  /// plans begin in the mission's start state.
   std::optional<PlannedStart> (*start)(const PlannerOptions& options) = nullptr;
   /// Returns the curvature with which the mission's route begins [1/m], positive to the left. If
-  /// the mission does not set the start steering, the wheels start at the steering angle of this
-  /// curvature. Only planners that follow a given route have this function; the paths of other
-  /// planners begin with PlanRequest::start_steering. Returns nullopt if the route is not known.
+  /// the mission does not set the start steering, the wheels start at the steering angle that
+  /// matches the route's first curvature. Only planners that follow a given route define
+  /// `start_curvature`; the paths of other planners begin with PlanRequest::start_steering. The
+  /// function `start_curvature` returns nullopt if the route is not known.
   std::optional<double> (*start_curvature)(const PlannerOptions& options,
                                            const RouteStart& route) = nullptr;
 
@@ -103,12 +105,12 @@ struct PlannerEntry {
   /// Returns the options' input files in the form in which the run folder stores them.
   std::vector<InputFile> (*input_files)(const PlannerOptions& options) = nullptr;
   std::vector<std::string> input_names{};  ///< All file names that `input_files` may return.
-  /// Changes the options so that the options name the files that `input_files` returns.
+  /// Replaces the file names in the options by the names of the files that `input_files` returns.
   void (*resolve)(PlannerOptions& options) = nullptr;
-  /// Returns the places in the contents of the files [m].
+  /// Returns the coordinates of all places in the contents of the input files [m].
   std::vector<Vec2> (*places)(const PlannerOptions& options) = nullptr;
-  /// Moves all places in the contents of the files by a vector [m]. A planner that stores places
-  /// needs this function for scenarios with a local origin.
+  /// Moves all places in the contents of the input files by a vector [m]. A planner that stores
+  /// places needs `translate` for scenarios with a local origin.
   void (*translate)(PlannerOptions& options, const Vec2& by) = nullptr;
   std::vector<PlannerTable> tables{};  ///< Additional tables that are written for each plan.
 };

@@ -10,7 +10,7 @@ struct Plan;
 enum class InfeasiblePolicy {
   kSlowDown,  ///< Slow the plan down if lower speeds meet the limits, else reject the plan.
   kRefuse,    ///< Reject the plan.
-  kAllow,     ///< Drive the plan unchanged.
+  kAllow,     ///< Drive the plan unchanged, beyond the car's limits.
 };
 
 /// The options of any planner. The type of the contained options struct identifies the planner.

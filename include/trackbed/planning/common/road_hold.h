@@ -21,8 +21,8 @@ class RoadHold {
 
   /// Returns the largest lateral acceleration v^2 |kappa| [m/s^2] at a station with the given
   /// signed curvature [1/m]: mu_y g cos(theta), minus gravity's pull. For curvature 0, returns the
-  /// smaller value of a left and a right bend. Returns 0 if the limit is unknown, or if gravity
-  /// exceeds the grip.
+  /// smaller value of a left and a right bend. Returns 0 if the lateral limit is unknown, or if
+  /// gravity exceeds the grip.
   [[nodiscard]] double Lateral(const Path& path, double s, double curvature) const;
 
   /// Returns the largest deceleration of the car at a station [m/s^2]; 0 if the limit is unknown,
@@ -48,8 +48,8 @@ class RoadHold {
   [[nodiscard]] Combined Both(const Path& path, double s, double along, double across) const;
 
   /// Returns the largest lateral acceleration v^2 |kappa| [m/s^2] at a station with the given
-  /// signed curvature, while the car accelerates with `along` [m/s^2]. The result is negative if
-  /// gravity and `along` together exceed the grip, and infinite if the limit is unknown.
+  /// signed curvature, while the car accelerates with `along` [m/s^2]. The returned acceleration is
+  /// negative if gravity and `along` together exceed the grip, and infinite if the grip is unknown.
   [[nodiscard]] double LateralBeside(const Path& path, double s, double curvature,
                                      double along) const;
 
@@ -62,7 +62,7 @@ class RoadHold {
 
   /// Returns gravity's pull along the path, across the path or in both directions together,
   /// whichever is closest to the pull that the car can hold. If gravity's pull exceeds the pull
-  /// that the car can hold, the car slides. Returns {0, 0} on flat ground.
+  /// that the car can hold, the car slides. On flat ground, returns a pull and a hold of 0.
   [[nodiscard]] Pull Slope(const Path& path, double s) const;
 
   /// Returns the factor on the tyres' friction force at a station: the friction factor of the road
@@ -96,8 +96,9 @@ class RoadHold {
 
   /// Computes grip and required accelerations at a station; `side` has the sign of the curvature.
   [[nodiscard]] Demand DemandAt(const Path& path, double s, double along, double side) const;
-  /// Returns the acceleration `along` the path [m/s^2], limited by the friction ellipse, of which
-  /// gravity's pull across the path uses a part. `road` is the factor on the tyres' friction.
+  /// Limits the acceleration `along` the path [m/s^2] to the part of the friction ellipse that
+  /// gravity's pull across the path leaves. The argument `road` is the road's factor on the tyres'
+  /// friction.
   [[nodiscard]] double BesideSlope(double along, double road, const Tilt& tilt) const;
   [[nodiscard]] double Factor(const Pose2& pose) const;
   [[nodiscard]] Tilt TiltAt(const PathPoint& at) const;
@@ -106,8 +107,8 @@ class RoadHold {
   bool flat_;
 };
 
-/// The smallest value of each limit of RoadHold over a part of a path, sampled every 0.1 m. A value
-/// is 0 if the limit is unknown, or if gravity exceeds the grip.
+/// The smallest value of each limit of RoadHold over a part of a path, sampled every 0.1 m. The
+/// smallest value of a limit is 0 if the limit is unknown, or if gravity exceeds the grip.
 struct RoadHoldLimits {
   /// Smallest value of the lateral acceleration limit along the part of the path, for bends to
   /// either side [m/s^2].

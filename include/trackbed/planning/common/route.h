@@ -16,8 +16,8 @@ namespace trackbed {
 /// Returns the poses at the stops of a route: the car's start pose, then the pose at every waypoint
 /// except the first. If the request has no headings, the heading at the goal is the direction of
 /// the last leg. The heading at any other waypoint is the direction of the circle through this
-/// waypoint, the preceding stop and the next stop. On this circle, the car turns more on the longer
-/// leg.
+/// waypoint, the preceding stop and the next stop. On the circle through three stops, the heading
+/// changes more along the longer leg.
 std::vector<Pose2> PlannedStops(const PlanRequest& request);
 
 namespace route {
@@ -30,8 +30,9 @@ Plan Refused(PlanStatus status, std::string reason);
 Plan CheckRoute(const PlanRequest& request);
 
 /// Same as CheckRoute, for a planner that meets the headings at the waypoints. If the request has
-/// headings, a leg needs no length: between two headings at one point, the car turns in place. With
-/// headings, a leg is only invalid if its two poses are equal, except for rounding errors.
+/// headings, both ends of a leg may be at the same point, where the car turns from one heading to
+/// the other. With headings, a leg is only invalid if its two poses are equal, except for rounding
+/// errors.
 Plan CheckPoses(const PlanRequest& request);
 
 /// Returns a rejected plan if the requested turning radius is too small for the car.
@@ -39,26 +40,26 @@ Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radi
 
 /// Returns the checker for plans that keep `safe_distance` [m] from the obstacles of the request.
 /// An obstacle may be nearer than `safe_distance` to the car at its start. The plan may come closer
-/// to this obstacle, but only to half of the initial distance.
+/// to an obstacle that is too near at the start, but only to half of the initial distance.
 CollisionChecker CheckerFromStart(const PlanRequest& request, double safe_distance);
 
-/// Returns the waypoints after the first at which the car may be clear of obstacles.
+/// Returns the waypoints, except the first waypoint, at which the car may be clear of obstacles.
 std::vector<Vec2> GoalsOutsideObstacles(const PlanRequest& request, const CollisionChecker& clear);
 
-/// Describes the obstacle nearest to the car's footprint at `pose`, for people: its center, its
+/// Describes the obstacle nearest to the car's footprint at `pose`, for users: its center, its
 /// distance from the footprint or the depth of the overlap, and the required `distance` [m]. The
 /// list of obstacles must not be empty.
 std::string NearestObstacle(const VehicleParams& vehicle, const Pose2& pose,
                             const std::vector<OrientedBox>& obstacles, double distance);
 
-/// Describes the first difference between the start of the plan and the car's start state for
-/// people: in position, heading or, for a rolling car, steering. Returns an empty text if
-/// MakeFeasible accepts the start.
+/// Describes, for users, the first difference between the plan's start and the car's start state:
+/// in position, heading or, for a rolling car, steering. Returns an empty text if MakeFeasible
+/// accepts the start.
 std::string WrongStart(const Plan& plan, const PlanRequest& request);
 
 /// Returns the rejected plan for the waypoint `index`, at which the car cannot be clear of
-/// obstacles at any heading. The plan's reason names the obstacle, and a safe distance that fits or
-/// how far to move the waypoint.
+/// obstacles at any heading. The plan's reason names the obstacle and a remedy: a safe distance
+/// that fits, or how far to move the waypoint.
 Plan GoalBlocked(const PlanRequest& request, std::size_t index, double safe_distance);
 
 /// Returns a rejected plan if an obstacle of the request overlaps the car's footprint at the start.

@@ -24,7 +24,7 @@ struct SpeedAtLimit {
 
 /// Diagnostics of planned speeds at the car's limit, for plan.json.
 struct LimitProfileFindings {
-  double share = 0.0;  ///< Value of LimitProfileOptions::share.
+  double share = 0.0;  ///< Usable fraction of the car's limits (LimitProfileOptions::share).
   /// Predicted driving time from start to goal [s]; infinite if the car stops on the way.
   double predicted_time = 0.0;
   /// Lowest speed at which the car changes from braking to accelerating [m/s]; 0 if it never does.
@@ -49,9 +49,9 @@ std::vector<LimitStation> StationsAlong(const Path& path, const Stations& part,
                                         const std::vector<SpeedCap>& caps);
 
 /// Sets the plan's speeds, for closed-loop and open-loop runs, to the highest speeds within
-/// `request.limits` and `caps`. The planned speed is 0 at each cusp and stop of the plan. The
-/// function also adds diagnostics and a note to the plan. If the car starts too fast, returns the
-/// place at which the car exceeds the limit.
+/// `request.limits` and `caps`. The planned speed is 0 at each cusp and stop of the plan.
+/// SetSpeedsAtLimit also adds diagnostics and a note to the plan. If the car starts too fast,
+/// returns the place at which the car exceeds the limit.
 std::optional<LimitExcess> SetSpeedsAtLimit(Plan& plan, const PlanRequest& request,
                                             const std::vector<SpeedCap>& caps);
 

@@ -10,8 +10,8 @@
 namespace trackbed {
 
 /// With constant accelerations, the car accelerates to the mission's speed with the acceleration in
-/// control.speed, and brakes with the deceleration in control.speed. The planned speed is lower
-/// where the car could not follow the plan otherwise (feasibility.h).
+/// control.speed, and brakes with the deceleration in control.speed. Where the car could not follow
+/// the plan at the profile's speeds, MakeFeasible lowers the planned speed (feasibility.h).
 struct ConstantAccelerationOptions {};
 void Visit(KeyVisitor& keys, ConstantAccelerationOptions& options);
 

@@ -25,7 +25,8 @@ struct TurnError {
 };
 
 /// Compares the motion of a car from pose `X_W_from` to pose `X_W_middle` with the course of the
-/// path from the station `turn.from` to `turn.middle`. Returns the deviation of the car.
+/// path from the station `turn.from` to `turn.middle`. Returns the car's deviation from the path in
+/// heading and lateral position.
 TurnError ErrorInTurn(const Path& path, const IsolatedTurn& turn, const Pose2& X_W_from,
                       const Pose2& X_W_middle);
 

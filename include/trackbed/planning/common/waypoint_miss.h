@@ -11,7 +11,8 @@
 ///
 /// The distance of a path from a waypoint is the smallest distance between the waypoint and the
 /// path, which is the path of the rear axle. The order in which the path passes the waypoints does
-/// not matter. The first waypoint is the start of the route and does not count.
+/// not matter. The first waypoint is the start of the route, so its distance from the path is not
+/// measured.
 namespace trackbed {
 
 /// The distance of a path from one waypoint.

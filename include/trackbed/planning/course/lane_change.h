@@ -12,7 +12,7 @@
 /// Plans the double lane changes of ISO 3888, which lead through three gates of cones.
 ///
 /// The table shows lengths (upper rows) and widths (lower rows) of the course's sections, with w
-/// the car's width without mirrors. Sections 2 and 4 have no cones:
+/// the car's width without mirrors. Sections 2 and 4 have no cones.
 ///
 ///   section       1             2     3             4     5
 ///   ISO 3888-1    15 m          30    25 m          25    30 m          (2018, table 1; its
@@ -46,8 +46,9 @@ struct LaneChangePlannerOptions {
   double leave = 0.0;
   double join = 0.0;
   /// Distance of the car's front behind the beginning of section 1 at which the driver releases the
-  /// throttle [m], >= 0. Beyond this place, the car coasts, and the run ends when the whole car has
-  /// passed the last gate. If nullopt, the car keeps its speed through the course.
+  /// throttle [m], >= 0. Beyond the release point, the car coasts, and the run ends when the whole
+  /// car has passed the last gate. If `release` is nullopt, the car keeps its speed through the
+  /// course.
   std::optional<double> release{};
 };
 void Visit(KeyVisitor& keys, LaneChangePlannerOptions& options);
@@ -68,8 +69,8 @@ std::optional<double> ReleaseStation(const LaneChangePlannerOptions& options,
 
 /// Computes the path from `start` along the middle lines of the gates. The transition to a gate
 /// with the lateral offset h is the curve y = h (10 u^3 - 15 u^4 + 6 u^5), with u from 0 to 1 along
-/// the transition. The curvature of this curve is continuous, 0 at both ends and at most 5.77
-/// h/length^2. The transition is approximated by arcs that are at most 0.1 m long. Between
+/// the transition. The curvature of the transition curve is continuous, 0 at both ends and at most
+/// 5.77 h/length^2. The transition is approximated by arcs that are at most 0.1 m long. Between
 /// neighboring arcs, the curvature steps by less than 6 m h/length^3. The path ends at the distance
 /// `lead_out` plus `stop` behind the last gate.
 std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
@@ -79,8 +80,8 @@ std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
 /// Returns the margin of a drive to each gate [m]. The margin is the smallest distance from a
 /// corner of the car's footprint to an edge of the gate, while the corner was between the gate's
 /// ends. The margin is negative if a corner was outside of the gate, and infinite if no corner
-/// reached the gate. The function assumes that the car moves straight between the given poses of
-/// its rear axle.
+/// reached the gate. GateMargins assumes that the car moves straight between the given poses of its
+/// rear axle.
 std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehicleParams& vehicle,
                                 const std::vector<Pose2>& poses);
 

@@ -14,8 +14,8 @@
 /// omega.
 ///
 /// A turn consists of a clothoid from the present curvature to 1/r, an arc of the radius r, and a
-/// clothoid to the curvature 0. All turns to one side that begin in the same state end, with the
-/// curvature 0, on one circle of radius R > r. Turns are joined by straights, or directly where two
+/// clothoid to the curvature 0. All turns to one side from the same state end on one circle of
+/// radius R > r, where the curvature is 0. Turns are joined by straights, or directly where two
 /// circles of radius R touch. A turn that is too short for the curvature 1/r has two clothoids with
 /// a smaller peak curvature.
 namespace trackbed {
@@ -33,12 +33,12 @@ struct CurveLimits {
 };
 
 /// The circle on which all turns to one side end if they begin in the same state of curvature 0.
-/// Lengths are in units of r.
+/// The lengths of the circle are in units of the smallest radius r.
 struct TurnCircle {
   double sharpness = 1.0;  ///< Largest sharpness, sigma r^2.
   double least = 0.0;      ///< Deflection of a clothoid between the curvatures 0 and 1/r [rad].
-  double along = 0.0;      ///< Distance of the center from the start, along its heading.
-  double across = 1.0;     ///< Distance of the center from the start, across its heading.
+  double along = 0.0;      ///< Distance of the center from the start, along the start's heading.
+  double across = 1.0;     ///< Distance of the center from the start, across the start's heading.
 };
 
 /// The curves of continuous curvature between two states, for given limits.
@@ -46,9 +46,10 @@ struct TurnCircle {
 /// Guarantees, for distances up to 1e3 r: the curve starts with the pose and curvature of the state
 /// `from`. The curve ends within 1e-9 m and 1e-9 rad of the state `to`. The curvature never exceeds
 /// 1/r, and the sharpness never exceeds sigma, except for rounding errors. For mirrored states, the
-/// result is the mirrored curve. The lengths are at least those of Dubins and Reeds-Shepp curves of
-/// radius r, and approach these lengths as sigma grows. The curve is the shortest among the tested
-/// families of words. The result is not always the shortest possible curve of continuous curvature.
+/// result is the mirrored curve. The curves are at least as long as Dubins and Reeds-Shepp curves
+/// of radius r, and approach the lengths of these curves as sigma grows. The curve is the shortest
+/// among the tested families of words, but not always the shortest possible curve of continuous
+/// curvature.
 ///
 /// All functions throw PreconditionError if a pose is not finite, or if the magnitude of a
 /// curvature is above 1/r by more than rounding errors.
@@ -76,11 +77,11 @@ class ContinuousCurves {
   /// Returns the shortest word for a car that drives forwards and backwards, and whose curvature
   /// may step at a cusp, where the car stands (HC-Reeds-Shepp). If the curve has a cusp right at
   /// its start or end, and the state there has the full curvature 1/r, the curvature steps at this
-  /// state. The curve is never longer than the curve that ReedsShepp returns. If no word with steps
-  /// is shorter, both curves are equal.
+  /// state. The curve is never longer than the curve that ReedsShepp returns. If no word with
+  /// curvature steps is shorter, HybridReedsShepp returns the same curve as ReedsShepp.
   [[nodiscard]] ShortestCurve HybridReedsShepp(const CurveState& from, const CurveState& to) const;
-  /// Returns only the words whose curvature steps at all cusps. ReedsSheppWords returns the words
-  /// without steps.
+  /// Returns only the Reeds-Shepp words whose curvature steps at all cusps. ReedsSheppWords returns
+  /// the words without curvature steps.
   [[nodiscard]] std::vector<ShortestCurve> HybridReedsSheppWords(const CurveState& from,
                                                                  const CurveState& to) const;
 

@@ -15,15 +15,16 @@ enum class CurveCurvature {
   /// The curvature is continuous, except at cusps, if the car can drive such a path; otherwise, the
   /// curvature steps. A note of the plan says why the curvature steps.
   kAuto,
-  kSteps,       ///< Steps between straights and arcs, at a speed that the steering can follow.
-  kContinuous,  ///< Continuous curvature (continuous_curvature.h).
-  kCuspSteps,   ///< Continuous except at cusps, where the car turns its wheels at rest.
+  /// The curvature steps between straights and arcs; the car is slow enough for its steering.
+  kSteps,
+  kContinuous,  ///< The curvature is continuous (continuous_curvature.h).
+  kCuspSteps,   ///< The curvature only steps at cusps, where the car turns its wheels at rest.
 };
 
 /// Quantity that a planner of curves of continuous curvature minimizes.
 enum class CurveObjective {
-  kLength,  ///< The length of the path, at the speed of the mission.
-  kTime,    ///< The driving time; the car may drive more slowly on sharper turns.
+  kLength,  ///< Length of the path, which the car drives at the mission's speed.
+  kTime,    ///< Driving time; the car may drive more slowly on sharper turns.
 };
 
 /// Options of the planner `dubins`, which joins the stops of a route by Dubins curves (dubins.h).

@@ -19,7 +19,7 @@ namespace trackbed {
 enum class Bend : signed char { kRight = -1, kNone = 0, kLeft = 1 };
 
 /// The clothoids before and after the arc of a turn. The curvature changes at the rate `sharpness`
-/// from `first` to `peak` before the arc, and from `peak` to `last` after it.
+/// from `first` to `peak` before the arc, and from `peak` to `last` after the arc.
 struct CurveRamps {
   double first = 0.0;      ///< Curvature at the start of the turn [1/r].
   double peak = 0.0;       ///< Curvature of the arc of the turn [1/r].
@@ -46,7 +46,7 @@ struct ShortestCurve {
 
 /// Returns the word that describes a curve. Each piece with a length other than 0 adds L, S or R to
 /// the word, followed by + for forwards or - for backwards. A turn whose arc is driven against the
-/// direction of its ramps adds one letter for each ramp and one for the arc.
+/// direction of its ramps adds one letter to the word for each ramp, and one letter for the arc.
 std::string CurveWord(const ShortestCurve& curve);
 
 /// Converts the pieces of a curve to segments of a path, and leaves out segments shorter than 1e-12

@@ -21,17 +21,17 @@
 /// wheels (listing F.1 of the dissertation).
 ///
 /// Symbols, for the turn at waypoint w between the legs q_in and q_out (unit vectors):
-///   phi  interior angle between the legs [rad]: pi for straight on, 0 for a U-turn
-///   h    heading change [rad], pi - phi, signed: positive to the left
-///   r    radius of the rear axle's arc [m]
-///   K    tangent length r/tan(phi/2) [m], from the waypoint to either end of the arc, eq. (C.11)
-///   q_S  the shorter one of the two legs [m]
-///   d_0  neutral steering: the wheels' angle between turns [rad]
-///   delta  steering angle on the arc [rad], sgn(h) atan(L/r)
-///   S_delta  distance that the car rolls while its wheels turn from d_0 to delta [m],
-///            v |delta - d_0|/omega_delta
-///   D_{2k-1}, D_2k  distances at which the wheels begin to turn into and out of turn k [m]
-///   D_end  distance at which the car stops [m]
+///   Angle phi: interior angle between the legs [rad]; pi for straight on, 0 for a U-turn.
+///   Angle h: heading change [rad], pi - phi, signed, positive to the left.
+///   Radius r: radius of the rear axle's arc [m].
+///   Length K: tangent length r/tan(phi/2) [m], from the waypoint to each arc end, eq. (C.11).
+///   Length q_S: length of the shorter one of the two legs [m].
+///   Angle d_0: neutral steering [rad], the wheels' angle between turns.
+///   Angle delta: steering angle on the arc [rad], sgn(h) atan(L/r).
+///   Length S_delta: distance that the car rolls while its wheels turn from d_0 to delta [m],
+///     v |delta - d_0|/omega_delta.
+///   Distances D_{2k-1} and D_2k: where the wheels begin to turn into and out of turn k [m].
+///   Distance D_end: where the car stops [m].
 namespace trackbed {
 
 /// The constraint on the radius of each turn.
@@ -64,15 +64,15 @@ enum class RadiusObjective {
   kLargest,
   /// Chooses radii by the two passes of listing F.1 (Skackauskas, dissertation). The first pass
   /// simulates a run with the smallest radii. For each turn, the first pass yields the time t and
-  /// the heading change dpsi of an interval. The interval begins when the wheels turn back at the
-  /// end of the previous turn. The interval ends when the wheels turn back at the end of the turn
-  /// itself. The second pass is a search that minimizes (psi'(r) t - dpsi)^2, where psi'(r) is the
-  /// yaw rate on the radius r. The time t includes the straight before the turn; therefore, the
-  /// optimum for the first turn always lies on the constraint.
+  /// the heading change dpsi of an interval of the run. The interval begins when the wheels turn
+  /// back at the end of the previous turn. The interval ends when the wheels turn back at the end
+  /// of the turn itself. The second pass is a search that minimizes (psi'(r) t - dpsi)^2, where
+  /// psi'(r) is the yaw rate on the radius r. Because the time t includes the straight before the
+  /// turn, the first turn's optimal radius is always at a bound.
   kLiteral,
-  /// Same as kLiteral, but t and dpsi cover only the turn itself, from D_{2k-1} to D_2k. With
-  /// kTurnLocal, the chosen radius is the radius that the rate-limited car actually drove in the
-  /// first run.
+  /// Same as kLiteral, but the time t and the heading change dpsi cover only the turn itself, from
+  /// D_{2k-1} to D_2k. With kTurnLocal, the chosen radius is the radius that the rate-limited car
+  /// actually drove in the first run.
   kTurnLocal,
   /// Optimizes all radii and the distances D_{2k-1}, D_2k and D_end together (the complete eq.
   /// (C.20)). The objective J (DrivenWeights) penalizes the distance between the simulated car and
@@ -99,8 +99,8 @@ struct FilletOptions {
   /// radius L/tan(d_0) between turns.
   double neutral_steering = 0.0;
   /// Upper bound of the radii that the search considers [m]. The default of 154 m is taken from
-  /// listing F.1 and corresponds to a steering angle of one degree. Radii above this bound are only
-  /// used in turns of less than a degree for which no smaller radius meets eq. (C.40).
+  /// listing F.1 and corresponds to a steering angle of one degree. Radii above `max_radius` are
+  /// only used in turns of less than a degree for which no smaller radius meets eq. (C.40).
   double max_radius = 154.0;
   InfeasibleTurnPolicy without_room = InfeasibleTurnPolicy::kSlowDown;
   double min_speed = 0.5;  ///< Lowest speed of the car in a turn [m/s].
@@ -112,14 +112,14 @@ struct FilletOptions {
   ReferencePoint reference = ReferencePoint::kRearAxle;
   DrivenWeights weights;  ///< Weights of the objective kDriven.
   /// Largest allowed distance of each arc from its waypoint [m]; infinite: no bound. The planner
-  /// `fillet` takes this bound from PlanRequest::max_waypoint_miss.
+  /// `fillet` sets the bound from PlanRequest::max_waypoint_miss.
   double max_waypoint_miss = std::numeric_limits<double>::infinity();
 };
 void Visit(KeyVisitor& keys, FilletOptions& options);
 
 /// The constraint or option that determines a radius.
 enum class ActiveConstraint {
-  kGiven,  ///< The radius is given (FilletOptions::radius).
+  kGiven,  ///< The radius is set by FilletOptions::radius.
   /// No constraint determines the radius, because the objective has an optimum inside the bounds.
   kNone,
   kMinRadius,     ///< The radius is the smallest possible one, at the car's largest steering angle.
@@ -200,18 +200,18 @@ inline constexpr std::size_t kMinFilletWaypoints = 2;
 /// Plans a path along a route of N >= 2 waypoints. The car drives at `speed` [m/s], and more slowly
 /// in turns that require a lower speed. A waypoint at which the route continues straight is no
 /// turn. If a turn has no room, the route leaves out waypoints, but still passes them within a
-/// quarter of the car's width and FilletOptions::max_waypoint_miss. All remaining turns must have
-/// room. The argument `seed` initializes the random numbers of the search.
+/// quarter of the car's width and FilletOptions::max_waypoint_miss. Every turn at a remaining
+/// waypoint must have room. The argument `seed` initializes the random numbers of the search.
 ///
 /// Guarantees: the path is continuous in position and heading to 1e-9, starts at the first waypoint
 /// along the first leg and ends at the last waypoint. Every radius meets the constraint of its
 /// turn: with kLargest, except for rounding errors; with a search, with a tolerance of 1e-9 m on
 /// the leg. For a mirrored or moved route, the result is the mirrored or moved plan, within the
-/// tolerance of the search. The curvature of the path jumps at both ends of each arc. The steering
-/// schedule therefore begins to turn the wheels half a ramp before the arc. The planner ignores
-/// obstacles and heading changes below 1e-9 rad. Computing time with kLargest: tens of
-/// microseconds. A search takes about 0.2 us per evaluation and turn, plus NLopt's own time; the
-/// search of kDriven takes 20 us per evaluation.
+/// tolerance of the search. Because the curvature of the path jumps at both ends of each arc, the
+/// steering schedule begins to turn the wheels half a ramp earlier. The planner ignores obstacles
+/// and heading changes below 1e-9 rad. Computing time with kLargest: tens of microseconds. A search
+/// takes about 0.2 us per evaluation and turn, plus NLopt's own time; the search of kDriven takes
+/// 20 us per evaluation.
 FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& waypoints,
                        double speed, const FilletOptions& options, std::uint64_t seed = 0);
 

@@ -24,7 +24,7 @@ void Visit(DiagnosticsVisitor& out, const FilletTurnFindings& own);
 /// turn that overlaps the replaced stretch.
 void ReplaceStretch(FilletTurnFindings& own, const Stations& replaced, double shift);
 
-/// Diagnostics of a plan or of its failure, stored in PlanDiagnostics::planner.
+/// Diagnostics of a fillet plan or of its failure, stored in PlanDiagnostics::planner.
 struct FilletDiagnostics {
   std::optional<int> failed_waypoint;  ///< Index of the waypoint at which planning failed.
   double neutral_steering = 0.0;       ///< Neutral steering angle d_0 between turns [rad].
@@ -37,7 +37,7 @@ struct FilletDiagnostics {
 void Visit(DiagnosticsVisitor& out, const FilletDiagnostics& own);
 
 /// Extracts the radii [m] from the variables `x` of a search over all turns together (kDriven). The
-/// argument `x` is the result of such a search, or an entry of the search's history.
+/// argument `x` is the result of the search over all turns, or an entry of that search's history.
 std::vector<double> DrivenRadii(const std::vector<double>& x);
 
 /// Returns the planner `fillet`.

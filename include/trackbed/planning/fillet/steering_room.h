@@ -30,7 +30,7 @@ double RoomiestRadius(const VehicleParams& vehicle, double speed, double interio
                       double neutral, RadiusInterval bounds);
 
 /// Returns the least part of a leg that eq. (C.40) reserves for a turn at `speed`, over all radii
-/// within `bounds` [m]. The wheels are straight between turns.
+/// within `bounds` [m]. LeastSteeringRoom assumes that the wheels are straight between turns.
 double LeastSteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
                          RadiusInterval bounds);
 

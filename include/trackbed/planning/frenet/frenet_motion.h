@@ -52,8 +52,8 @@ struct TrajectoryPoint {
 
 /// Samples a motion at the ends of its pieces and evenly between these ends, at most `time_step`
 /// [s] and about `spacing` [m] apart. The driven distance is integrated with an error of fourth
-/// order. Returns nullopt if the Frenet frame is undefined (see FromFrenet), or if d is a function
-/// of time while the car does not move forward.
+/// order. Returns nullopt if the Frenet frame is undefined (see FromFrenet), or if the offset d is
+/// a function of time while the car does not move forward.
 std::optional<std::vector<TrajectoryPoint>> SampleMotion(const Path& path,
                                                          const FrenetMotion& motion,
                                                          double time_step, double spacing);

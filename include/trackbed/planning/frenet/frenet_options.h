@@ -47,9 +47,9 @@ struct RoadWidths {
   double right = std::numeric_limits<double>::infinity();
 };
 
-/// The independent variable of the offset d. If the offset d is a function of time, the car must
-/// move during the whole motion. If the offset d is a function of the station, the car may also
-/// start or stop.
+/// The variable on which the offset d depends: time or station. If the offset d is a function of
+/// time, the car must move during the whole motion. If the offset d is a function of the station,
+/// the car may also start or stop.
 enum class LateralMotion {
   /// The offset is a function of the station if the motion begins or ends slower than `low_speed`,
   /// else a function of time.
@@ -76,10 +76,10 @@ struct FrenetOptions {
   LateralMotion lateral = LateralMotion::kAuto;
   /// Speed below which LateralMotion::kAuto makes d a function of the station [m/s].
   double low_speed = 2.0;
-  /// Time for which a motion must stay clear of obstacles [s]. If a motion ends earlier, the car is
-  /// assumed to continue at the final offset and speed of the motion. Without a horizon, cheap
-  /// short motions would approach an obstacle until it is too late for a longer motion that passes
-  /// the obstacle.
+  /// Time for which a motion must stay clear of obstacles [s]. After the end of a shorter motion,
+  /// the car is assumed to continue at the final offset and speed of the motion. Without a horizon,
+  /// cheap short motions would approach an obstacle until it is too late for a longer motion that
+  /// passes the obstacle.
   double horizon = 8.0;
   int budget = 10000;  ///< Maximum number of candidate motions to check, >= 0.
 };
@@ -93,8 +93,8 @@ struct LatticeOptions {
   /// Offsets d_k of the lattice's nodes [m].
   std::vector<double> end_offsets{0.0, 0.5,  -0.5, 1.0,  -1.0, 1.5, -1.5,
                                   2.0, -2.0, 2.5,  -2.5, 3.0,  -3.0};
-  /// Speeds v_m of the lattice's nodes, as factors on the goal's speed. For the goal StopAt, these
-  /// values are factors on the speed limit.
+  /// Speeds v_m of the lattice's nodes, as factors on the goal's speed. For the goal StopAt, the
+  /// speeds v_m are factors on the speed limit.
   std::vector<double> speed_factors{1.0, 0.75, 0.5};
   int budget = 100000;  ///< Maximum number of lattice edges to check, >= 0.
 };

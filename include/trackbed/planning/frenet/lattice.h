@@ -26,14 +26,14 @@ namespace trackbed {
 /// node.
 ///
 /// Guarantees: the guarantees of PlanFrenet also hold for PlanLattice, with edges in place of
-/// candidates. Every edge of the resulting path was checked for the time at which the car drives
-/// the edge. With one layer, the result is the cheapest of PlanFrenet's candidates with the same
-/// end states and durations. With more layers, the result costs at most as much as the cheapest
-/// single edge to the last layer. If no obstacle moves, the result is optimal among all paths
-/// through the lattice. With moving obstacles, the result is optimal among the paths on which the
-/// part up to each node is the cheapest path to this node. Throws the same exceptions as
-/// PlanFrenet. Computing time: 3 ms with the default options. The planner computes the costs of
-/// O((layers x offsets x speeds)^2) edges, and checks edges in order of cost.
+/// candidates. Every edge of the resulting path is checked against the obstacles at the time at
+/// which the car drives the edge. With one layer, the result is the cheapest of PlanFrenet's
+/// candidates with the same end states and durations. With more layers, the result costs at most as
+/// much as the cheapest single edge to the last layer. If no obstacle moves, the result is optimal
+/// among all paths through the lattice. With moving obstacles, the result is optimal among the
+/// paths on which the part up to each node is the cheapest path to this node. Throws the same
+/// exceptions as PlanFrenet. Computing time: 3 ms with the default options. The planner computes
+/// the costs of O((layers x offsets x speeds)^2) edges, and checks edges in order of cost.
 FrenetPlan PlanLattice(const Path& reference, const FrenetRequest& request,
                        const LatticeOptions& options);
 

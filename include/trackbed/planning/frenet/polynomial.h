@@ -29,7 +29,7 @@ struct LineMotion {
 /// integral of the squared jerk is smallest.
 Polynomial QuinticBetween(const LineMotion& from, const LineMotion& to, double duration);
 
-/// Same as QuinticBetween, but the end position is free. The function ignores the position of the
+/// Same as QuinticBetween, but the end position is free. QuarticBetween ignores the position of the
 /// state `to`.
 Polynomial QuarticBetween(const LineMotion& from, const LineMotion& to, double duration);
 

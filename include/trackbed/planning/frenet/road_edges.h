@@ -35,11 +35,12 @@ class RoadEdges {
 };
 
 /// Returns how far the car's footprint reaches beyond the edges of the road [m]; negative if the
-/// footprint is within the edges. The function tests five points on each long side of the
-/// footprint, from corner to corner. In the test of the footprint, the path is approximated by its
-/// circle of curvature at the rear axle. The error of this approximation is at most c l^3/6, where
-/// c is the sharpness dkappa/ds of the path and l the length of the car. The result is infinite if
-/// the footprint reaches the center of the circle of curvature. Computing time: 0.3 us.
+/// footprint is within the edges. ReachBeyond tests five points on each long side of the footprint,
+/// from corner to corner. In the test of the footprint, the path is approximated by its circle of
+/// curvature at the rear axle. The error of approximating the path by a circle is at most c l^3/6,
+/// where c is the sharpness dkappa/ds of the path and l the length of the car. The returned reach
+/// is infinite if the footprint reaches the center of the circle of curvature. Computing time: 0.3
+/// us.
 double ReachBeyond(const RoadEdges& edges, const VehicleParams& vehicle, const PathPoint& at,
                    const FrenetState& frenet);
 

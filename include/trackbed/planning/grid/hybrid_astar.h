@@ -29,19 +29,20 @@
 /// Steps are as long as the larger of 1.5 cells and one heading cell times r, so that no step of
 /// curvature 1/r shares a cell with a straight step. If the search with the requested cells finds
 /// no path, other searches follow with a fixed series of cell sizes, from the start and from the
-/// goal. The series depends only on r and on the problem. Therefore, a request for finer cells or
-/// headings loses no path that the series finds.
+/// goal. The series of cell sizes depends only on r and on the problem. A search with finer cells
+/// or headings therefore still finds every path that the series finds.
 ///
 /// With clothoids (CurveCurvature::kContinuous and kCuspSteps), the curvature of the path is
-/// continuous. The state of the search includes the curvature. Each step is an arc of the present
-/// curvature, or a clothoid to the next of the five curvatures. Each clothoid is as long as the
-/// steering needs at one of a few speeds, from the speed v of the mission down to the lowest speed.
-/// The last curve, which ends at the goal, is a curve of continuous curvature
-/// (continuous_curvature.h) for one of these speeds. The cost of a stretch on which the car drives
-/// at w < v is multiplied by v/w. Each change of speed and each turn of the wheels at rest adds the
-/// distance that the car would drive at v in the lost time. If the search finds the first path
-/// after n expansions, it ends at the latest after n + 1500 further expansions. Because of this
-/// limit, the cost may be above `weight` times the optimum.
+/// continuous. The state of the search includes the curvature. Each step of a search with clothoids
+/// is an arc of the present curvature, or a clothoid to the next of the five curvatures 0, +-1/(2r)
+/// and +-1/r. Each clothoid is as long as the steering needs at one of a few speeds, from the speed
+/// v of the mission down to the lowest speed. The last curve, which ends at the goal, is a curve of
+/// continuous curvature (continuous_curvature.h) for one of the clothoids' speeds. Where the car
+/// drives at a speed w below the mission's speed v, the cost is multiplied by v/w. Each change of
+/// speed and each turn of the wheels at rest adds a cost: the distance that the car would drive at
+/// the speed v in the lost time. If the search finds the first path after n expansions, the search
+/// ends after at most n + 1500 further expansions. Because the number of further expansions is
+/// limited, the cost of the path may exceed `weight` times the optimum.
 namespace trackbed {
 
 struct HybridAStarOptions {
@@ -61,8 +62,8 @@ struct HybridAStarOptions {
   double margin = 10.0;    ///< Margin of the search area around start, goal and obstacles [m].
   double min_speed = 0.3;  ///< Lowest speed of the car at a step of curvature [m/s].
   int budget = 200000;     ///< Maximum number of poses that all searches may expand, >= 0.
-  /// How the curvature may change. With kAuto, the planner searches with kCuspSteps, and with
-  /// kSteps if the car cannot drive such a path; SearchHybridAStar searches with kSteps.
+  /// How the curvature of the path may change. With kAuto, the planner searches with kCuspSteps,
+  /// and with kSteps if the car cannot drive such a path; SearchHybridAStar searches with kSteps.
   CurveCurvature curvature = CurveCurvature::kAuto;
   /// Largest lateral acceleration on paths of continuous curvature [m/s^2], > 0; at most half of
   /// the tyres' grip applies anyway.
@@ -84,7 +85,7 @@ struct ClothoidDrive {
   double start_speed = 0.0;           ///< Speed at the start, forwards [m/s], >= 0.
   double start_curvature = 0.0;       ///< Curvature of the path at the start [1/m].
   bool rests_at_start = false;        ///< Whether the car may turn its wheels at rest at the start.
-  bool rests_at_goal = false;         ///< Whether the wheels need not be straight at the goal.
+  bool rests_at_goal = false;         ///< Whether the car may turn its wheels at rest at the goal.
 };
 
 struct HybridAStarProblem {
@@ -93,8 +94,9 @@ struct HybridAStarProblem {
   std::vector<OrientedBox> obstacles{};
   /// Whether the car rolls forwards at the start, so that the path cannot begin backwards.
   bool rolls = false;
-  /// How the car drives the last curve; gentler arcs then replace short arcs of this curve
-  /// (drivable_curve.h). If empty, the last curve is a shortest curve.
+  /// How the car drives the last curve of the path. If `drive` is set, gentler arcs replace short
+  /// arcs of the last curve (drivable_curve.h). If `drive` is empty, the last curve is a shortest
+  /// curve.
   std::optional<CurveDrive> drive{};
   ClothoidDrive clothoids{};  ///< How the car drives a path of continuous curvature.
 };
@@ -118,16 +120,16 @@ struct HybridAStarResult {
 /// exceeds 1/r. With clothoids, the last or first part is a curve of continuous curvature. A path
 /// with clothoids begins with the curvature `start_curvature` and ends with straight wheels. With
 /// kContinuous, the curvature has no steps. With kCuspSteps, the curvature may only step at cusps,
-/// and at the start or goal if the car rests there. The car's footprint is clear of all obstacles
-/// (CollisionChecker). The same input always yields the same result. The path is not globally
-/// optimal, because the search keeps only one pose per cell, and because the path must contain a
-/// Reeds-Shepp or Dubins curve. If the budget is used up, the function returns the best path found
-/// so far. Half of the budget is reserved for the series of resolutions, unless the search at the
-/// requested resolution finds a path with the other half. The status is kNoPath if obstacles
-/// enclose the start or the goal, or if there is no path with steps of 0.016 r. Before they return
-/// kNoPath, the searches have expanded all poses around the start or around the goal. Throws
-/// InternalError if an option is out of range. Computing time: about 10 us per expanded pose, 100
-/// us with clothoids.
+/// and at the start or goal if the car rests there. On the whole path, the car's footprint is clear
+/// of all obstacles (CollisionChecker). The same input always yields the same result. The path is
+/// not globally optimal, because the search keeps only one pose per cell, and because the path must
+/// contain a Reeds-Shepp or Dubins curve. If the budget is used up, the function returns the best
+/// path found so far. Half of the budget is reserved for the series of resolutions, unless the
+/// search at the requested resolution finds a path with the other half. The status is kNoPath if
+/// obstacles enclose the start or the goal, or if there is no path with steps of 0.016 r. The
+/// searches return kNoPath only after they have expanded all poses around the start or around the
+/// goal. Throws InternalError if an option is out of range. Computing time: about 10 us per
+/// expanded pose, 100 us with clothoids.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 

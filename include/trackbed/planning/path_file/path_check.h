@@ -56,7 +56,7 @@ struct PathCheckOptions {
 };
 
 /// Returns the lateral acceleration g T/(2 h) [m/s^2] at which a rigid car lifts its inner wheels.
-/// In this formula, T is the track width and h the height of the center of gravity [m]. A car with
+/// In g T/(2 h), T is the track width and h the height of the center of gravity [m]. A car with
 /// springs rolls, and therefore lifts its inner wheels at a lateral acceleration that is lower by a
 /// tenth or more.
 double RollOverAcceleration(double track, double cg_height);

@@ -33,7 +33,7 @@ struct PathFileOptions {
   double ahead = 0.0;
   PathFitOptions fit;
   PathSpeeds speeds = PathSpeeds::kMission;
-  /// Remarks on the contents of the file from reading it, one per line.
+  /// Remarks of the reader on the contents of the path file, one per line.
   std::optional<std::string> notes;
   /// File of lanes to draw (ReadLanesCsv); nullopt: the lanes of `file`, if it has any.
   std::optional<std::string> lanes;
@@ -49,7 +49,7 @@ struct PathFileDiagnostics {
   std::size_t repeated_points = 0;
   PathFit fit = PathFit::kSpline;
   double deviation = 0.0;  ///< Largest deviation of the file's points from the fitted path [m].
-  double deviation_station = 0.0;  ///< Station of the largest deviation [m].
+  double deviation_station = 0.0;  ///< Station at which `deviation` occurs [m].
   /// Largest distance of the fitted spline from the straight lines between the points [m].
   double bulge = 0.0;
   /// Approximate station at which the spline has the distance `bulge` [m].
@@ -70,8 +70,8 @@ PathFileDiagnostics DiagnosticsOf(const FittedPath& fitted);
 std::string Describe(const FittedPath& fitted);
 
 /// Returns the remedy, as the end of a message, if the path turns back on itself
-/// (FittedPath::reversals). `noise_key` is the text that names the option against noisy points; the
-/// message adds a value for this option.
+/// (FittedPath::reversals). The text `noise_key` names the option against noisy points; the remedy
+/// adds a value for that option.
 std::string ReversalRemedy(const FittedPath& fitted, const std::string& noise_key);
 
 /// Returns the planner `path_file`. The plan follows the path in PathFileOptions from its first

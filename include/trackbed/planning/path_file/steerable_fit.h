@@ -15,9 +15,9 @@ struct SteerableFit {
 };
 
 /// Fits the path again, with bounded curvature, if its curvature exceeds the largest curvature that
-/// the car can steer. The curve of FitPath, for example, exceeds the curvature of an arc near the
-/// joint of arc and line. Keeps the pose at the start. Returns nullopt if the car can steer the
-/// given path. Also returns nullopt if the car can steer no path within
+/// the car can steer. For example, FitPath's curve through the points of an arc and a line exceeds
+/// the arc's curvature near the joint. The new fit keeps the pose at the start. Returns nullopt if
+/// the car can steer the given path. Also returns nullopt if the car can steer no path within
 /// PathFitOptions::max_deviation from the points. The planner `path_file` and the verb `check-path`
 /// use the returned path instead of the given path.
 std::optional<SteerableFit> FitWithinSteering(const FittedPath& fitted,

@@ -10,7 +10,7 @@
 ///
 /// Symbols: d(s) is the offset of the line from the track's center line at the station s [m]; kappa
 /// is the curvature of the line, and l the length along the line; b is half of the car's width plus
-/// the margin [m].
+/// the margin [m]. The line solves this problem:
 ///
 ///   minimize  integral of kappa^2 dl   subject to  right(s) + b <= d(s) <= left(s) - b
 ///
@@ -30,8 +30,8 @@ struct MinimumCurvatureLine {
   std::string refused;  ///< Reason why no line was found; else empty.
   TrackLine line;
   int iterations = 0;  ///< Number of quadratic programs that were solved.
-  /// Upper limit of b [m]: lines exist only for smaller b. The limit is half of the smallest
-  /// distance between the bounds, plus b.
+  /// Upper limit of the distance b [m]: lines exist only for smaller b. The limit is b plus half of
+  /// the smallest distance between the bounds of the offset.
   double room = 0.0;
 };
 
@@ -43,7 +43,7 @@ struct MinimumCurvatureLine {
 /// m. The last step changed the integral of kappa^2 by a fraction of less than 1e-6. The problem is
 /// not convex, so that the line is only a local minimum. The car's rear axle follows the line. In a
 /// bend of radius r, a front corner of the car is therefore farther out than the car's side at the
-/// rear axle, by about l_f^2/(2 r). In this formula, l_f is the distance from the rear axle to the
+/// rear axle, by about l_f^2/(2 r). In l_f^2/(2 r), l_f is the distance from the rear axle to the
 /// car's front [m]. Throws RunError if the program was built without IPOPT. Computing time: 0.6 s
 /// per kilometer of track, for track points 5 m apart.
 MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside);

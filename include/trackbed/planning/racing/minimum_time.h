@@ -12,18 +12,19 @@
 ///
 /// Symbols: d(s) is the offset of the line from the track's center line at the station s [m], a
 /// spline with the coefficients c; b is half of the car's width plus the margin [m]; T is the lap
-/// time [s] on the line at the highest possible speeds (LimitSpeedsAround).
+/// time [s] on the line at the highest possible speeds (LimitSpeedsAround). The line solves this
+/// problem:
 ///
 ///   minimize T(c)   subject to   right(s) + b <= d(s) <= left(s) - b,   |kappa| <= kappa_max
 ///
 /// The solver is a trust-region method that starts at the line of least curvature. Each step
 /// linearizes three quantities about the last line and its speeds: the curvature of the line, the
-/// length of the line, and the boundary of the g-g-v diagram. The step then solves a quadratic
-/// program for changes of c and of the speeds at all stations. LimitSpeedsAround computes the
-/// speeds of the new line, and the new line is kept only if it is faster. Casanova 2000 and Christ
-/// et al. 2021 solve the same problem, but for vehicle models in place of the point mass with a
-/// g-g-v diagram used here. The speeds are not unknowns of the problem, because LimitSpeedsAround
-/// computes the speeds of any line.
+/// length of the line, and the boundary of the g-g-v diagram. Each step then solves a quadratic
+/// program for changes of the coefficients c and of the speeds at all stations. LimitSpeedsAround
+/// computes the speeds of the new line, and the new line is kept only if it is faster. Casanova
+/// 2000 and Christ et al. 2021 solve the same problem, but for vehicle models in place of the point
+/// mass with a g-g-v diagram used here. The speeds are not unknowns of the problem, because
+/// LimitSpeedsAround computes the speeds of any line.
 namespace trackbed {
 
 /// The limits on a car's speed during a lap, on a level road with uniform friction.
@@ -31,8 +32,8 @@ struct LapLimits {
   GgvDiagram diagram;
   LimitOptions options{};
   double road = 1.0;  ///< Friction of the road, as a factor on the tyres' friction [1], > 0.
-  /// The car, for computing steering angles in steady turns (SteeringInBend). With a steering rate
-  /// of 0, the steering rate is not limited.
+  /// The car, for computing steering angles in steady turns (SteeringInBend). If the vehicle's
+  /// limit of the steering rate is 0, the steering rate is not limited.
   VehicleParams vehicle{};
   /// Largest permitted curvature kappa_max of the line [1/m]; 0: no limit.
   double curvature_max = 0.0;
@@ -71,7 +72,7 @@ struct MinimumTimeLine {
   MinimumTimeEnd end = MinimumTimeEnd::kConverged;
   int iterations = 0;      ///< Number of quadratic programs that were solved.
   double last_gain = 0.0;  ///< Reduction of the lap time by the last accepted step [s].
-  /// MinimumCurvatureLine::room if the track is too narrow; else 0.
+  /// Upper limit of b if the track is too narrow (MinimumCurvatureLine::room) [m]; else 0.
   double room = 0.0;
   /// Largest curvature |kappa| of the gentlest line that was found [1/m], if this curvature is
   /// above kappa_max; else 0.
@@ -85,11 +86,11 @@ struct MinimumTimeLine {
 /// Guarantees: the lap time on the line (LapTime) is never longer than on the line of least
 /// curvature for the same b. At checked points, two or more per knot, the line keeps the distance b
 /// from the edges, to within 1e-6 m. On one machine, the same arguments always yield a
-/// bit-identical line. The problem is not convex, so that the line is only a local minimum. The
-/// function ignores slopes, banks and changes of friction along the track. Throws RunError if the
-/// program was built without IPOPT. Computing time: 5 to 20 quadratic programs, each 1.4 s per
-/// kilometer of track, for track points 5 m apart. If the line of least curvature is too tight for
-/// the car, about 5 quadratic programs of the size of those in FindMinimumCurvature are solved
+/// bit-identical line. The problem is not convex, so that the line is only a local minimum.
+/// FindMinimumTime ignores slopes, banks and changes of friction along the track. Throws RunError
+/// if the program was built without IPOPT. Computing time: 5 to 20 quadratic programs, each 1.4 s
+/// per kilometer of track, for track points 5 m apart. If the line of least curvature is too tight
+/// for the car, about 5 quadratic programs of the size of those in FindMinimumCurvature are solved
 /// first. A track that is too narrow or too tight is refused before any quadratic program for the
 /// lap time is solved.
 MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimits& limits,
@@ -106,7 +107,7 @@ struct MinimumTimeDiagnostics {
   double lap_time = 0.0;  ///< Lap time on the found line [s], see MinimumTimeLine::time.
   /// Lap time on the line of least curvature [s], see MinimumTimeLine::start_time.
   double minimum_curvature_lap_time = 0.0;
-  std::string end;  ///< Name of the value of MinimumTimeLine::end.
+  std::string end;  ///< Reason why the search ended, as ToString(MinimumTimeEnd) returns it.
   int iterations = 0;
 };
 void Visit(DiagnosticsVisitor& out, const MinimumTimeDiagnostics& own);

@@ -73,16 +73,16 @@ void Visit(DiagnosticsVisitor& out, const TrackPlanDiagnostics& own);
 /// polynomial of degree 5, which reduces the car's offset from the line to 0. The approach is at
 /// most half a lap long. Up to half a lap, the length of the approach is the largest of three
 /// values: the distance that the car drives in three seconds at the mission's speed, ten times the
-/// offset, and four wheelbases. If a car that starts rolling cannot steer fast enough on an
-/// approach of this length, the approach is longer.
+/// offset, and four wheelbases. If a car that starts rolling cannot steer fast enough on the
+/// approach, a longer approach is planned.
 ///
 /// Guarantees: the curvature of the path is continuous. The planned path ignores obstacles. The
 /// plan is rejected, with a reason, if there is no track, or if the car is off the track or faces
 /// across the track. Computing time: 50 us per meter of path.
 Plan FollowLine(const PlanRequest& request, const TrackLine& line);
 
-/// Returns the curvature of a path through the car's pose that keeps the offset and the angle that
-/// the car has from the center line [1/m]. The planners on tracks use StartCurvatureOnTrack as
+/// Returns the curvature [1/m] of a path that begins at the car's pose and keeps the car's offset
+/// and angle from the center line. The planners on tracks use StartCurvatureOnTrack as
 /// PlannerEntry::start_curvature. Returns nullopt if there is no track, or if the car does not face
 /// along the track.
 std::optional<double> StartCurvatureOnTrack(const PlannerOptions& options, const RouteStart& route);

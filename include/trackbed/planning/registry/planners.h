@@ -7,7 +7,7 @@
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/planner.h"
 
-/// The registry of all planners, to which programs can add their own.
+/// The registry of all planners, to which programs can add their own planners.
 namespace trackbed {
 
 /// Returns all registered planners; the built-in planners come first.
@@ -30,7 +30,8 @@ bool MayGoBackwards(const PlannerOptions& options);
 bool MayBePartial(const PlannerOptions& options);
 
 /// Returns the distance that plans with these options keep between car and obstacles, which is the
-/// value of the planner's key `safe_distance` [m]. Returns nullopt if the planner has no such key.
+/// value of the planner's key `safe_distance` [m]. Returns nullopt if the planner has no key
+/// `safe_distance`.
 std::optional<double> PlannerSafeDistance(const PlannerOptions& options);
 
 /// Makes a plan by the planner to which the options belong, and makes the plan feasible

@@ -34,8 +34,8 @@ const std::vector<AlongEntry>& AlongMethods();
 /// A route that is prepared for planning motions in the route's Frenet frame. The curvature of the
 /// prepared route changes no faster than the wheels can turn at the planned speeds
 /// (path/smooth_curvature.h). The prepared route is extended straight by `beyond` [m], so that
-/// motions may end beyond the route's end. On a track, the curvature of the route is not changed,
-/// because it is already continuous, and motions stay within the track's edges.
+/// motions may end beyond the route's end. On a track, the prepared route keeps the route's
+/// curvature, which is already continuous. Motions on a track stay within the track's edges.
 struct RouteFrame {
   Path path;
   double goal = 0.0;  ///< Station of the end of the route on `path` [m].
@@ -78,7 +78,7 @@ struct AlongPlan {
   /// Points of the motion, and of braking to a standstill after the motion. While braking, the car
   /// keeps the last offset of the motion or, on a track, may return to the route. Because the
   /// points include braking to a standstill, the car can stop safely even if no further motion is
-  /// found. The list is empty if no motion was found.
+  /// found. The list of points is empty if no motion was found.
   std::vector<TrajectoryPoint> points;
   bool to_goal = false;  ///< Whether the motion leads to the end of the route.
   bool passes = false;   ///< Whether the motion passes an obstacle in the way.
@@ -104,19 +104,19 @@ struct Leader {
   double front = 0.0;
 };
 
-/// Plans the next motion along the route. The function tries motions in this order: stop at the end
-/// of the route, if the end is near; continue at the speed V, past obstacles in the way; pull out
-/// next to a moving leader that is slower than V, at a lower speed, but at least the leader's
-/// speed; follow a moving leader; continue at a lower speed, if the lower speed lets the car pass
-/// the obstacle; stop behind a standing leader; continue for now, as fast as the free space allows.
-/// A motion at lower speed may have a lower cost than a motion that passes the obstacle. The
-/// function nevertheless tries to pass at the speed V first, because slowing down does not remove a
-/// standing obstacle.
+/// Plans the next motion along the route. PlanAlongRoute tries seven motions in a fixed order.
+/// Motion 1 stops at the end of the route, if the end is near. Motion 2 continues at the speed V,
+/// past obstacles in the way. Motion 3 pulls out next to a moving leader that is slower than V. The
+/// speed of motion 3 is lower than V, but at least the leader's speed. Motion 4 follows a moving
+/// leader. Motion 5 continues at a lower speed, if the lower speed lets the car pass the obstacle.
+/// Motion 6 stops behind a standing leader. Motion 7 continues for now, as fast as the free space
+/// allows. PlanAlongRoute tries to pass an obstacle at the speed V first, even if a slower motion
+/// costs less. The reason is that slowing down does not remove a standing obstacle.
 ///
-/// The car passes a moving leader only if it could finish passing at the speed V. The car must be
-/// able to get past the leader, return to the route and brake to a stop before the route's end,
-/// with all obstacles extrapolated at constant velocity. If the car follows its leader instead,
-/// AlongPlan::why states the reason.
+/// The car passes a moving leader only if it could finish passing at the speed V. After passing the
+/// leader, the car must be able to return to the route and brake to a stop before the route's end.
+/// This test extrapolates all obstacles at constant velocity. If the car follows its leader
+/// instead, AlongPlan::why states the reason.
 ///
 /// Guarantees: the motion has the guarantees of PlanFrenet or PlanLattice. During the braking after
 /// the motion, the car also meets the limits and keeps the safe distance, checked every 0.1 s. On a

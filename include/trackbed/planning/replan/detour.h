@@ -10,8 +10,8 @@
 #include "trackbed/planning/replan/replan_options.h"
 #include "trackbed/planning/sampling/comparator.h"
 
-/// Plans detours around obstacles with any planner that avoids obstacles. A detour leaves the plan
-/// that the car is driving before the obstacle that blocks it, and rejoins the route behind the
+/// Plans detours around obstacles with any planner that avoids obstacles. A detour leaves the car's
+/// current plan before the obstacle that blocks the plan, and rejoins the route behind the
 /// obstacle.
 namespace trackbed {
 
@@ -68,12 +68,13 @@ void Visit(DiagnosticsVisitor& out, const DetourFindings& own);
 /// path, and keeps the current path unless the best candidate has a lower score.
 ///
 /// Guarantees: the new route begins with a part of the driven path that is long enough for the
-/// steering to follow the new route. Beyond this part, the new route keeps the planner's safe
-/// distance from every obstacle. On the new route, the car reaches the speeds of the corners
-/// without braking harder than the limits allow. Throws InternalError if the planner does not avoid
-/// obstacles or may plan reverse segments. In each attempt, the planner plans up to 18 paths. If
-/// the first attempt finds no path, there are no other attempts. After kMaxDetourSamples random
-/// samples, the planner plans no further path, and the best candidate so far is used.
+/// steering to follow the new route. Beyond the part shared with the driven path, the new route
+/// keeps the planner's safe distance from every obstacle. On the new route, the car slows down for
+/// the corners without braking harder than the limits allow. Throws InternalError if the planner
+/// does not avoid obstacles or may plan reverse segments. In each attempt, the planner plans up to
+/// 18 paths. If the first attempt finds no path, there are no other attempts. After
+/// kMaxDetourSamples random samples, the planner plans no further path, and the best candidate so
+/// far is used.
 Detour PlanDetour(const DetourRequest& request, const PlannerOptions& planner,
                   const DetourChoice& choice);
 

@@ -21,7 +21,7 @@ struct PredictedConflict {
 };
 
 /// Predicts the first conflict with an obstacle for a car that drives the plan from `station` on,
-/// at the planned speeds and `offset` [m] to the left of the plan. The function tests for a
+/// at the planned speeds and `offset` [m] to the left of the plan. PredictConflict tests for a
 /// conflict every 0.1 s, and then finds the start of the conflict to 0.1 ms by bisection. Returns
 /// nullopt if there is no conflict within the time `look_ahead` [s].
 std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,

@@ -81,20 +81,22 @@ struct Replanned {
 };
 
 /// Replans at the present moment of a run. Keeps the current plan if this plan is clear of
-/// obstacles and leads to the goal. Otherwise, uses the first available option in this order: the
-/// rest of the route, if the route is clear and the car is back on the route; a motion that passes
-/// the obstacle; a detour that the comparator prefers; a motion that stops or continues for now;
-/// the current plan, if this plan is clear; braking.
+/// obstacles and leads to the goal. If the current plan is not kept, Replan uses the first
+/// available one of six options. Option 1 is the rest of the route, if the route is clear and the
+/// car is back on the route. Option 2 is a motion that passes the obstacle. Option 3 is a detour
+/// that the comparator prefers. Option 4 is a motion that stops or continues for now. Option 5 is
+/// the current plan, if this plan is clear. Option 6 is braking.
 ///
 /// Before a standing obstacle, the car brakes at the deceleration of the speed limits, and stops
-/// half a meter before the predicted conflict. If the distance is too short for this deceleration,
-/// the car brakes at once, at the constant deceleration that the stop requires, but at most
-/// `max_deceleration`. Before a moving obstacle, the car brakes at once, at the smallest
-/// deceleration that avoids the obstacle. The deceleration before a moving obstacle is one of eight
-/// values between the deceleration of the speed limits and the largest possible deceleration. If
-/// none of the eight values avoids the obstacle, the car brakes as hard as possible. The car never
-/// brakes harder than `max_deceleration`, even if `max_deceleration` is less than the deceleration
-/// of the speed limits.
+/// half a meter before the predicted conflict. If the distance to a standing obstacle is too short
+/// for the deceleration of the speed limits, the car brakes at once. The car's deceleration is then
+/// constant, as large as the stop requires, but at most `max_deceleration`. Before a moving
+/// obstacle, the car brakes at once, at the smallest deceleration that avoids the obstacle. The
+/// deceleration before a moving obstacle is one of eight values between the deceleration of the
+/// speed limits and the largest possible deceleration. If none of the eight decelerations avoids
+/// the obstacle, the car brakes as hard as possible. The car never brakes harder than
+/// `max_deceleration`, even if `max_deceleration` is less than the deceleration of the speed
+/// limits.
 ///
 /// MakeFeasible tests every new plan. A new route is slowed down where it exceeds the grip of the
 /// road; a motion that exceeds the grip is not used. A braking plan that MakeFeasible cannot make

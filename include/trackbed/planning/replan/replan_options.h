@@ -12,7 +12,8 @@
 namespace trackbed {
 
 /// Options of the method that finds motions along the route, which is PlanFrenet or PlanLattice.
-/// AlongSettings::safe_distance applies instead of the safe distance in these options.
+/// AlongSettings::safe_distance overrides the safe distance in the options of PlanFrenet and
+/// PlanLattice.
 using AlongOptions = std::variant<FrenetOptions, LatticeOptions>;
 
 struct AlongSettings {
@@ -36,8 +37,8 @@ void Visit(KeyVisitor& keys, DetourChoice& choice);
 
 struct ReplanOptions {
   double period = 0.5;  ///< Time between two checks of the current plan [s], > 0.
-  /// Settings for motions along the route. The look-ahead in these settings also applies when the
-  /// current plan is checked for conflicts.
+  /// Settings for motions along the route. The look-ahead `settings.look_ahead` also applies when
+  /// the current plan is checked for conflicts.
   AlongSettings settings;
   std::optional<AlongOptions> along;
   /// Options of the planner for detours, which must meet the requirements of PlanDetour.

@@ -23,9 +23,9 @@ struct PathScore {
 void Visit(DiagnosticsVisitor& out, const PathScore& score);
 
 /// Scores a path for a car at `position`, from the point of the path that is nearest to the car.
-/// The original code listing scores a path from the nearest corner instead, which may lie behind
-/// the car or far ahead. A path collides if it comes closer to an obstacle than `inflation`.
-/// Throws InternalError if the path has no points.
+/// The code listing of the wind-aware RRT scores a path from the nearest corner instead, which may
+/// lie behind the car or far ahead. A path collides if it comes closer to an obstacle than
+/// `inflation`. Throws InternalError if the path has no points.
 PathScore ScorePath(const std::vector<Vec2>& way, const Vec2& position,
                     const std::vector<OrientedBox>& obstacles, const Inflation& inflation,
                     const WindScoring& wind, const ComparatorOptions& options);

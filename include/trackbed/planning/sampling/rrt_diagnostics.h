@@ -25,7 +25,7 @@ struct RrtLeg {
 };
 void Visit(DiagnosticsVisitor& out, const RrtLeg& leg);
 
-/// Status and score of one of the trees through all waypoints.
+/// Status and score of one search tree that leads through all waypoints.
 struct RrtTreeFindings {
   PlanStatus status = PlanStatus::kOk;
   std::string reason;  ///< Reason why no path was found; empty if ok.

@@ -38,7 +38,7 @@ struct RrtPlannerOptions {
   double corner_cost = 5.0;  ///< Cost of a corner, as an additional path length [m], >= 0.
   double wind_weight = 1.0;  ///< Weight k_w of the wind relative to the path length, >= 0.
   /// Time limit for growing trees, measured by PlanRequest::clock [s], > 0; nullopt: no limit.
-  /// Smoothing and rounding take additional time.
+  /// Smoothing the path and rounding its corners take time beyond the time limit.
   std::optional<double> time_limit{};
   /// Whether partial paths are allowed. If nullopt, partial paths are allowed only with a time
   /// limit.

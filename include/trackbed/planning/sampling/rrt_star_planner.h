@@ -49,7 +49,7 @@ struct RrtStarLeg {
 };
 void Visit(DiagnosticsVisitor& out, const RrtStarLeg& leg);
 
-/// Status of one of the trees through all waypoints.
+/// Status of one search tree that leads through all waypoints.
 struct RrtStarTreeFindings {
   PlanStatus status = PlanStatus::kOk;
   std::string reason;  ///< Reason why no path was found; empty if ok.

@@ -45,13 +45,13 @@ struct SmoothingOptions {
 struct SmoothingResult {
   std::vector<Vec2> path;
   int sweeps = 0;          ///< Number of sweeps over all points, including the last sweep.
-  bool converged = false;  ///< Whether the last sweep moved the points by less than `tolerance`.
+  bool converged = false;  ///< Whether the moves of the last sweep add up to less than `tolerance`.
 };
 
 /// Smooths a path, point by point and coordinate by coordinate: y_i <- y_i + alpha (x_i - y_i) +
-/// beta (y_{i-1} + y_{i+1} - 2 y_i). A move of a point is accepted under two conditions. Both edges
-/// at the point are farther than `inflation` [m] from every obstacle, and the wind score of these
-/// edges does not decrease.
+/// beta (y_{i-1} + y_{i+1} - 2 y_i). SmoothPath only moves a point if both edges at the point stay
+/// farther than `inflation` [m] from every obstacle. The move must also not decrease the wind score
+/// of the two edges.
 ///
 /// Guarantees: the two ends of the path do not move, and a path that is free of obstacles stays
 /// free. Without obstacles and wind, the smoothed points converge to the solution of (alpha + 2
