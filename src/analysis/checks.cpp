@@ -13,9 +13,11 @@
 // Checks metrics, requirements and differences between runs for a verdict.
 // 1. Each function Check... compares one value with its bound, and returns a Check: the value, the
 //    bound, and whether the value meets the bound.
-// 2. A metric that a run does not have fails, with the reason or the most similar name.
+// 2. The check of a metric that the run does not have fails; its message has the reason or the most
+//    similar metric name.
 // 3. FailureMessage describes a failed Check: plant, value, bound, and the station and time of the
-//    value. Value and bound get as many digits as are needed to distinguish the two numbers.
+//    value. The message shows value and bound with as many digits as are needed to distinguish the
+//    two numbers.
 namespace trackbed {
 namespace {
 

@@ -18,10 +18,11 @@
 #include "trackbed/scenario/record.h"
 
 // Compares two runs at equal stations. Both traces are interpolated linearly at every station where
-// either run has a log row, within the stations that both runs cover. Gaps in the logs of recorded
-// runs are skipped. A difference is the value of the second run minus the value of the first run.
-// The rms difference comes from the exact integral of the squared, piecewise linear difference over
-// arc length. The maximum difference is the largest magnitude among the compared stations.
+// either run has a log row, within the stations that both runs cover. Stations in gaps of the logs
+// of recorded runs are not compared. A difference is the value of the second run minus the value of
+// the first run. The rms difference comes from the exact integral of the squared, piecewise linear
+// difference over arc length. The maximum difference is the largest magnitude among the compared
+// stations.
 namespace trackbed {
 namespace {
 
@@ -114,8 +115,9 @@ std::vector<RowDifference> DifferencesAtRows(const Trace& first, const Trace& se
   return all;
 }
 
-/// Computes the maximum and the rms of a quantity over arc length. The function `of` returns the
-/// value of the quantity in a row, as a vector. The quantity is assumed to be linear between rows.
+/// Computes the maximum and the rms of a quantity over arc length. The argument `of` is a function
+/// that returns the compared quantity of a row, as a vector. The compared quantity is assumed to be
+/// linear between rows.
 template <typename Of>
 Difference ComputeDifference(const std::vector<RowDifference>& rows, const Of& of) {
   Difference difference;
@@ -168,8 +170,8 @@ Trace MakeTrace(const RunLog& log, StationSource source) {
   for (const LogRow& row : log.rows) {
     const VehicleState& state = row.state;
     if (log.contact_time && state.time > *log.contact_time) {
-      // Stop here, because from this row on, an obstacle pushes the car and the controller no
-      // longer determines the motion.
+      // Ignore the rows after the contact, in which an obstacle pushes the car and the controller
+      // no longer determines the motion.
       break;
     }
     const bool projected = row.tracking && source == StationSource::kProjection;

@@ -67,8 +67,8 @@ double TotalSpeed(const LogRow& row) {
   return std::hypot(row.state.speed, row.state.lateral_speed);
 }
 
-/// Returns the length of the path of the center of gravity up to each row [m]. The path is straight
-/// between rows.
+/// Returns the length of the path of the center of gravity up to each row [m]. The path of the
+/// center of gravity is assumed to be straight between log rows.
 std::vector<double> DrivenOf(const RunLog& log, const VehicleParams& vehicle) {
   const auto center = [&](const LogRow& row) {
     return ToWorld(row.state.pose, {vehicle.cg_to_rear, 0.0});
@@ -96,7 +96,8 @@ void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
   // Commanded deceleration from which the car counts as braking; a car that holds its speed brakes
   // less [m/s^2].
   constexpr double kBraking = 0.5;
-  // Speed below which the car counts as standing, because it then stops within a millimeter [m/s].
+  // Speed below which the car is treated as standing [m/s]; from this speed, the car stops within a
+  // millimeter.
   constexpr double kStandstill = 0.05;
   const auto& rows = input.log.rows;
   std::size_t onset = 0;

@@ -59,7 +59,7 @@ void NoteSlidingContacts(RunResult& result, const CarModel& car) {
 /// and the reason for not passing that held longest.
 void NoteFollowing(RunResult& result) {
   for (const RunLog& log : result.logs) {
-    std::map<std::string, double> times;  // Time for which each reason held [s].
+    std::map<std::string, double> times;  // Time for which each reason for not passing held [s].
     double total = 0.0;
     for (std::size_t i = 0; i < log.changes.size(); ++i) {
       const auto* found = log.changes[i].plan.diagnostics.replan.GetIf<ReplanDiagnostics>();
@@ -100,8 +100,8 @@ PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarM
   }
   if (car.params().kind == VehicleKind::kDifferential) {
     // A differential drive has no wheels that a motor steers. The steering angle of a differential
-    // drive follows from the speeds of the wheels, so it jumps where the wheels slip, for example
-    // on a slope.
+    // drive follows from the speeds of the wheels, so the steering angle jumps where the wheels
+    // slip, for example on a slope.
     metrics.steering_rate_limit = 0.0;
   }
   if (scenario.maneuver) {

@@ -12,8 +12,8 @@
 /// ManeuverMetrics.
 namespace trackbed {
 
-/// Describes a value that is measured in a maneuver. The file that defines the evaluation of a
-/// maneuver also lists the metrics of the maneuver.
+/// Describes a value that is measured in a maneuver. The source file that evaluates a maneuver also
+/// lists the metrics of the maneuver.
 struct ManeuverMetric {
   const char* name;
   const char* label;

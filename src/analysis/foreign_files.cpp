@@ -40,9 +40,9 @@ std::set<std::string> NamesOf(const Manifest& manifest) {
 std::vector<std::string> ForeignNames(const fs::path& folder,
                                       const std::vector<std::string>& names) {
   const auto look = [&] {
-    // Another process may have moved only some files of a result into the folder, because the
-    // process is still running or was killed. Read the manifest of the hidden folder first, because
-    // that manifest is moved into the folder last.
+    // Another process that is still running or was killed may have moved only some files of its
+    // result from the hidden folder into the output folder. Read the manifest of the hidden folder
+    // first, so that a manifest that is moved between the two reads is not missed.
     const std::optional<Manifest> next = ReadManifest(folder / run_folder::kComplete);
     const std::optional<Manifest> manifest = ReadManifest(folder);
     std::vector<std::string> foreign;
@@ -84,7 +84,7 @@ std::string ResultThatLists(const fs::path& file) {
   try {
     manifest = ReadManifest(real.parent_path());
   } catch (const InputError&) {
-    return "";  // Another program wrote the manifest.
+    return "";  // another program wrote this invalid manifest
   }
   if (error || !manifest || !fs::exists(StatusOf(real))) {
     return "";

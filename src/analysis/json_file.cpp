@@ -27,8 +27,8 @@ namespace {
 /// line and the column start at 1.
 std::pair<int, int> Position(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, byte == 0 ? 0 : byte - 1);
-  // If the byte is in the first line, rfind returns npos, so that `line_begin` becomes npos + 1 =
-  // 0.
+  // For a byte in the first line of the text, rfind returns npos, so that `line_begin` becomes npos
+  // + 1 = 0.
   const std::size_t line_begin = before.rfind('\n') + 1;
   return {1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
           1 + static_cast<int>(before.size() - line_begin)};
@@ -65,7 +65,7 @@ ordered_json ParseJsonOf(const std::string& file, std::string_view text) {
     throw InputError(
         Problem{file, line, column, "", fmt::format("not JSON: {}", After(": ", error.what()))});
   } catch (const nlohmann::json::exception& error) {
-    // nlohmann::json throws this exception for a number beyond the range of a double.
+    // nlohmann::json throws this exception type for a number beyond the range of a double.
     throw InputError(
         Problem{.file = file, .message = fmt::format("not JSON: {}", After("] ", error.what()))});
   }

@@ -102,8 +102,8 @@ std::optional<Manifest> ReadManifest(const fs::path& folder) {
   }
   try {
     Manifest manifest;
-    // The file may be from another program, because web pages and browser extensions also have a
-    // manifest.json.
+    // A manifest.json may be from another program, because web pages and browser extensions also
+    // have a manifest.json.
     const ordered_json json = ParseJson(file);
     if (!json.at("results").is_object() || json.size() > (json.contains("others") ? 2U : 1U)) {
       throw InputError(Problem{.file = file.string(), .message = kNoManifest});

@@ -19,8 +19,8 @@ namespace trackbed {
 class EntryMaker {
  public:
   void Add(std::string_view content);
-  /// Returns the manifest entry of the content added so far. After Finish(), no function of the
-  /// EntryMaker may be called.
+  /// Returns the manifest entry of the file whose content was added. Do not call any function of
+  /// the EntryMaker after Finish().
   [[nodiscard]] ManifestEntry Finish();
 
  private:
@@ -43,7 +43,8 @@ struct Manifest {
   [[nodiscard]] bool Lists(const std::string& name) const;
 
   /// Adds a result to the manifest. Drops every older result that becomes incomplete, because the
-  /// new result replaces one of the older result's files or because `removed` lists such a file.
+  /// new result replaces one of the older result's files or because `removed` lists a file of the
+  /// older result.
   void Take(const std::string& result, ResultFiles files, const std::vector<std::string>& removed);
   [[nodiscard]] std::string ToJson() const;
 };

@@ -16,16 +16,15 @@ class McapWriter {
  public:
   McapWriter();
 
-  /// Adds a channel, and its schema unless an earlier channel has a schema with equal name and
-  /// shape. All channels must be added before the first message.
+  /// Adds a channel to the MCAP file, and the channel's schema unless an earlier channel has a
+  /// schema with equal name and JSON text. Add all channels before the first message.
   std::uint16_t AddChannel(const std::string& topic, const std::string& schema,
                            const nlohmann::json& shape);
 
   /// Adds a message to a channel. Message times [s] must be non-negative and in ascending order.
   void AddMessage(std::uint16_t channel, double time, const nlohmann::json& message);
 
-  /// Returns the content of the MCAP file. After Finish, no function of the McapWriter may be
-  /// called.
+  /// Returns the content of the MCAP file. Do not call any function of the McapWriter after Finish.
   std::string Finish();
 
  private:

@@ -13,7 +13,7 @@
 // entry. ListMetrics lists the metrics of a run with their paths in metrics.json. ListMetrics
 // returns first the metrics that have an entry, then the metrics of the sections maneuver,
 // turns[N], laps[N], windows[N] and requirements. DescribeMetric returns the label and the unit of
-// the metric at a path.
+// the metric with a given path in metrics.json.
 namespace trackbed {
 namespace {
 
@@ -64,7 +64,7 @@ bool Conflict(const std::string& a, const std::string& b) {
   return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
 }
 
-/// Returns why a metric cannot have the path `path` beside the existing path `other`.
+/// Explains why a new metric cannot have the path `path` if another metric has the path `other`.
 std::string TakenReason(const std::string& path, const std::string& other) {
   if (path == other) {
     return fmt::format("metrics.json already has '{}'; choose another name", path);
@@ -104,7 +104,8 @@ void CheckEntry(const MetricEntry& entry) {
 }
 
 /// Returns the part of a metric path after a list index, such as "lateral_offset" for
-/// "turns[1].lateral_offset". InList also stores the list index of the path in `index`.
+/// "turns[1].lateral_offset". InList stores the index in brackets, such as 1 for
+/// "turns[1].lateral_offset", in `index`.
 std::optional<std::string_view> InList(const char* list, std::string_view path, int& index) {
   const std::string begin = fmt::format("{}[", list);
   const std::size_t close = path.find("].");

@@ -28,7 +28,8 @@ using Reading = std::optional<MetricReading>;
 using Read = std::function<Reading(const PlantMetrics&)>;
 
 // Returns the part of a plant's metrics that has the same type as the argument `which`, whose value
-// is ignored. SelectMetrics returns null if the run did not measure this part of the metrics.
+// is ignored. SelectMetrics returns null if the run did not measure the metrics of the requested
+// type.
 const PlantMetrics* SelectMetrics(const PlantMetrics& metrics, const PlantMetrics* /*which*/) {
   return &metrics;
 }

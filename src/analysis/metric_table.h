@@ -32,8 +32,8 @@ struct LapMetricEntry {
 const std::vector<LapMetricEntry>& LapMetricTable();
 
 /// Describes a metric of the predictions over one horizon, which metrics.json contains for each
-/// horizon under `windows[N]`. The value in metrics.json is null if the run had no prediction
-/// windows, or if a quantile is infinite.
+/// horizon under `windows[N]`. The value of a prediction metric in metrics.json is null if the run
+/// had no prediction windows, or if a quantile is infinite.
 struct WindowMetricEntry {
   const char* key;
   const char* label;

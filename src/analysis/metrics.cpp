@@ -42,8 +42,8 @@ TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal, double cor
   double rows = 0.0;
   for (const LogRow& row : log.rows) {
     if (log.contact_time && row.state.time > *log.contact_time && rows > 0.0) {
-      // Stop here, because from this row on, an obstacle pushes the car and the steering no longer
-      // determines the motion.
+      // Ignore the rows after the contact, in which an obstacle pushes the car and the steering no
+      // longer determines the motion.
       break;
     }
     rows += 1.0;

@@ -8,22 +8,24 @@
 // Finds limit cycles of a control loop in the steering command.
 //
 // 1. A least-squares fit removes the part of the command that the inputs of the loop explain. The
-//    inputs are the steering angle of the path (the feed-forward, with any lead, lag and gain) and
-//    the noise of the measured pose.
-// 2. The remainder is searched for sustained oscillations, period by period. The autocorrelation of
-//    a linear loop that noise excites has the shape of its free decay (the random decrement of
-//    Cole 1973). In a loop with the damping ratio z, the fraction exp(-2 pi z M) of the amplitude
-//    remains after M cycles; a limit cycle keeps its whole amplitude.
+//    inputs of the loop are the feed-forward steering angle of the path (with any lead, lag and
+//    gain) and the noise of the measured pose.
+// 2. The unexplained remainder of the command is searched for sustained oscillations, period by
+//    period. The autocorrelation of a linear loop that noise excites has the shape of its free
+//    decay (the random decrement of Cole 1973). In a loop with the damping ratio z, an oscillation
+//    decays to the fraction exp(-2 pi z M) of its amplitude within M cycles; a limit cycle keeps
+//    its whole amplitude.
 namespace trackbed {
 namespace {
 
 using Series = std::vector<double>;
 
 /// Number of cycles in each half of an oscillation; the two halves are compared. If the second half
-/// has half of the first half's amplitude, the damping ratio is ln 2/(2 pi kCycles) = 0.028.
+/// of an oscillation has half of the first half's amplitude, the damping ratio is ln 2/(2 pi
+/// kCycles) = 0.028.
 constexpr int kCycles = 4;
-constexpr double kShortestHalf = 2.0;    ///< Shortest half of an oscillation [s].
-constexpr double kHalves = 0.9;          ///< Minimum correlation of the two halves.
+constexpr double kShortestHalf = 2.0;    ///< Minimum duration of each half [s].
+constexpr double kHalves = 0.9;          ///< Minimum correlation of the two halves of a wave.
 constexpr double kNeighbors = 0.9;       ///< Minimum correlation of neighboring cycles.
 constexpr double kLeastRemainder = 0.5;  ///< Minimum amplitude ratio of second to first half.
 constexpr double kLeastShare =
@@ -31,9 +33,9 @@ constexpr double kLeastShare =
 constexpr double kPeriodStep =
     1.189207115002721;  ///< Ratio of two neighboring searched periods: a quarter octave.
 
-/// Adds low-pass filters of the input with time constants in steps of a factor of 2. The time
-/// constants range from one period to 3 s, or to the twentieth part of a short signal. A filter
-/// that runs backward responds to the input's future.
+/// Appends low-pass filtered copies of the input, with time constants in steps of a factor of 2.
+/// The time constants of the filters range from one period to 3 s, or to the twentieth part of a
+/// short signal. A filter that runs backward responds to the input's future.
 void AddLowPasses(const Series& input, double period, bool backward, std::vector<Series>& out) {
   const std::size_t n = input.size();
   const double longest = std::min(3.0, 0.05 * static_cast<double>(n) * period);
@@ -76,15 +78,15 @@ Series EveryNth(const Series& signal, std::size_t stride) {
   return kept;
 }
 
-/// Sums of products over the last `length` samples. Each sample of the signal `late` is multiplied
-/// by the sample of the signal `early` that is `lag` samples older.
+/// Sums of products of two signals over the last `length` samples. Each sample of the signal `late`
+/// is multiplied by the sample of the signal `early` that is `lag` samples older.
 class ProductSums {
  public:
   ProductSums(const Series& late, const Series& early, std::size_t lag, std::size_t length)
       : late_(late), early_(early), lag_(lag), length_(length) {}
 
-  /// Adds the products of the sample `i`, and removes the products of the sample `i - length`. The
-  /// samples must be visited in order, from `lag` on.
+  /// Adds the products of the sample `i`, and removes the products of the sample `i - length`. Call
+  /// Advance for all samples in order, from `lag` on.
   void Advance(std::size_t i) {
     Add(i, 1.0);
     if (i >= lag_ + length_) {
@@ -117,8 +119,8 @@ class ProductSums {
   double early_squares_ = 0.0;
 };
 
-/// A stretch of 2 `lag` samples of the unexplained command `x`. Compares the stretch with itself,
-/// shifted by `lag` samples and by one cycle, and with the command `y`.
+/// A stretch of 2 `lag` samples of the unexplained command `x`. Correlates the stretch with copies
+/// of itself that are shifted by `lag` samples and by one cycle, and with the command `y`.
 class Stretch {
  public:
   Stretch(const Series& x, const Series& y, std::size_t lag, int cycles, bool random)
@@ -131,7 +133,7 @@ class Stretch {
         neighbors_(x, x, cycle_, 2 * lag - cycle_),
         in_command_(x, y, 0, lag) {}
 
-  /// Moves the end of the stretch to the sample `i`. The samples must be visited in order.
+  /// Moves the end of the stretch to the sample `i`. Call Advance for all samples in order.
   void Advance(std::size_t i) {
     in_command_.Advance(i);
     if (i >= cycle_) {
@@ -147,12 +149,13 @@ class Stretch {
     complete_ = i + 1 >= 2 * lag_;
   }
 
-  /// Returns whether the second half repeats the first one; with random inputs, also whether each
-  /// cycle repeats the previous cycle.
+  /// Returns whether the second half of the stretch repeats the first half; with random inputs,
+  /// each cycle must repeat the previous cycle, too.
   [[nodiscard]] bool Repeats() const {
-    // The second half has two sign changes per cycle; one sign change may be missing at the ends of
-    // the half. A wave with a neighboring period would have an eighth more or fewer sign changes.
-    // Cycles of few samples are not compared, because the period is not a whole number of samples.
+    // The second half of a wave has two sign changes per cycle; one sign change may be missing at
+    // the ends of the half. A wave with a neighboring period would have an eighth more or fewer
+    // sign changes. Cycles of few samples are not compared, because the period is not a whole
+    // number of samples.
     constexpr std::size_t kFewSamples = 8;
     const bool compared = random_ && cycle_ >= kFewSamples;
     const double expected = 2.0 * cycles_;
@@ -163,7 +166,7 @@ class Stretch {
            std::abs(crossings_ - expected) <= std::max(1.0, expected / 8.0);
   }
 
-  /// Returns the amplitude of the signal part that is common to both halves.
+  /// Returns the amplitude of the part of the signal that repeats in both halves of the stretch.
   [[nodiscard]] double Amplitude() const {
     return std::sqrt(2.0 * halves_.product() / static_cast<double>(lag_));
   }
@@ -255,13 +258,13 @@ std::vector<double> UnexplainedCommand(const LoopSignals& signals) {
   Eigen::Index used = 0;
   for (const Series& input : inputs) {
     const Eigen::VectorXd values = centered(input);
-    constexpr double kNothing = 1e-9;  // Norm of an input that only varies by rounding errors.
+    constexpr double kNothing = 1e-9;  // Norm below which an input is constant.
     if (const double norm = values.norm(); norm > kNothing) {
       filters.col(used++) = values / norm;
     }
   }
   if (used > 0) {
-    // The ridge keeps the solution small if filters are linearly dependent.
+    // The ridge term keeps the least-squares solution small if filters are linearly dependent.
     constexpr double kRidge = 1e-9;
     filters.conservativeResize(Eigen::NoChange, used);
     Eigen::MatrixXd gram = filters.transpose() * filters;
@@ -284,7 +287,7 @@ std::vector<Wave> FindWaves(const std::vector<double>& unexplained,
     const int cycles =
         std::max(kCycles, static_cast<int>(std::ceil(kShortestHalf / (cycle * period))));
     const double lag = cycles * cycle / static_cast<double>(stride);
-    const double halfway = std::sqrt(kPeriodStep);  // tries cycle/halfway to cycle*halfway
+    const double halfway = std::sqrt(kPeriodStep);  // periods tried: cycle/halfway to cycle*halfway
     const auto most = std::min(x.size() / 2, static_cast<std::size_t>(std::ceil(lag * halfway)));
     std::optional<Wave> best;
     for (auto own = static_cast<std::size_t>(lag / halfway); own <= most; ++own) {

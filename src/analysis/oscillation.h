@@ -8,7 +8,7 @@ namespace trackbed {
 
 /// Signals of a closed loop, all sampled at the same times.
 struct LoopSignals {
-  double period = 0.0;          ///< Sampling period [s], > 0.
+  double period = 0.0;          ///< Sampling period of the signals [s], > 0.
   std::vector<double> command;  ///< Steering command [rad].
   /// Inputs to which the controller may respond in advance, such as the steering angle of the path.
   std::vector<std::vector<double>> foreseen;
@@ -18,8 +18,8 @@ struct LoopSignals {
 
 /// Returns the part of the command that no input explains [rad]: the residual of a least-squares
 /// fit of the command by linear filters of the inputs and a constant. The filters are sums of
-/// first-order low-pass filters; the filters of foreseen inputs also run backward in time. Cost:
-/// O(n m^2) for n samples and m filters.
+/// first-order low-pass filters; the filters of foreseen inputs also run backward in time. The run
+/// time is O(n m^2) for n samples and m filters.
 std::vector<double> UnexplainedCommand(const LoopSignals& signals);
 
 /// A sustained oscillation of a signal.
@@ -35,10 +35,10 @@ struct Wave {
 /// least 0.9 and at least half of the amplitude. If inputs of the loop are `random`, each cycle
 /// must also repeat the previous cycle, because noise excites short trains of waves in poorly
 /// damped loops. The command itself must contain the wave with at least half of the wave's
-/// amplitude, because the fit of UnexplainedCommand may add waves to the unexplained part. Returns
-/// at most one wave for each quarter octave of periods, at the place of its largest amplitude.
-/// `period` [s] > 0 is the sampling period of both signals, which have the same size. Cost: O(n log
-/// n) for n samples.
+/// amplitude, because the fit of UnexplainedCommand may add waves to the unexplained part. For each
+/// quarter octave of periods, returns at most one wave: that with the largest amplitude. The
+/// argument `period` [s], > 0, is the sampling period of both signals, which have the same size.
+/// The run time is O(n log n) for n samples.
 std::vector<Wave> FindWaves(const std::vector<double>& unexplained,
                             const std::vector<double>& command, double period, bool random);
 

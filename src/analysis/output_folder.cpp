@@ -29,10 +29,10 @@
 // locked (flock) while it is written. ResultWriter writes all files of a result into a hidden
 // folder, and commits the result by renaming that folder. After the commit, ResultWriter moves the
 // files of the result into the output folder, and the manifest last. If a process is killed while
-// it moves files, the next process that locks the folder moves the remaining files. The process
-// that locks the folder next also removes results that were not committed. Output folders may come
-// from untrusted sources, so links are never followed. Only files that Trackbed has written are
-// overwritten or removed (own_files.h).
+// it moves files, the next process that locks the output folder moves the remaining files. The
+// process that locks an output folder next also removes results that were not committed. Output
+// folders may come from untrusted sources, so links are never followed. Only files that Trackbed
+// has written are overwritten or removed (own_files.h).
 namespace trackbed {
 namespace {
 
@@ -47,8 +47,8 @@ constexpr const char* kWritten = ".written";
   throw RunError(fmt::format("cannot write {}: {}", file.string(), error.message()));
 }
 
-/// Describes the process that holds the lock, such as " (process 123)", using the kernel's list of
-/// locks. Returns an empty text if the process is unknown.
+/// Describes the process that holds the lock of a folder, such as " (process 123)", using the
+/// kernel's list of locks. Returns an empty text if the holder of the lock is unknown.
 std::string Holder(int descriptor) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) {
@@ -58,7 +58,8 @@ std::string Holder(int descriptor) {
       fmt::format("{:02x}:{:02x}:{}", major(status.st_dev), minor(status.st_dev), status.st_ino);
   std::ifstream locks("/proc/locks");
   for (std::string line; std::getline(locks, line);) {
-    // Format of a line in the kernel's list: "1: FLOCK  ADVISORY  WRITE 123 fe:00:4711 0 EOF"
+    // Format of a line in /proc/locks, the kernel's list of file locks:
+    // "1: FLOCK  ADVISORY  WRITE 123 fe:00:4711 0 EOF"
     std::istringstream words(line);
     std::string number;
     std::string kind;
@@ -75,7 +76,7 @@ std::string Holder(int descriptor) {
 }
 
 /// Tries to lock an open folder. TryLock returns EWOULDBLOCK if another process holds the lock,
-/// else 0. TryLock also returns 0 on file systems without locks.
+/// else 0. TryLock also returns 0 if the file system does not support locks.
 int TryLock(int descriptor, int how) {
   return ::flock(descriptor, how | LOCK_NB) != 0 && errno == EWOULDBLOCK ? EWOULDBLOCK : 0;
 }
@@ -98,7 +99,7 @@ std::vector<std::string> ObsoleteNames(const fs::path& complete) {
   try {
     return JsonValue(ParseJson(file), file.string()).Texts();
   } catch (const InputError&) {
-    return {};  // ignore a damaged list, so that no file is removed
+    return {};  // if the list of obsolete files is damaged, remove no file
   }
 }
 
@@ -213,7 +214,7 @@ void OutputFolder::Open(For use) {
   }
   lock_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (lock_.get() < 0) {
-    // Ignore the error: a later read or write reports that the folder is absent or unreadable.
+    // Ignore a failure to open the folder: a later read or write reports the same error.
     return;
   }
   Lock(use);
@@ -301,7 +302,8 @@ ResultWriter::~ResultWriter() {
   try {
     RemovePartial(folder_);
   } catch (const std::exception&) {
-    // Ignore the error, because the next process that writes to the folder reports the same error.
+    // Ignore a failure to remove the partial result, because the next process that writes to the
+    // folder reports the same error.
   }
 }
 
@@ -318,8 +320,8 @@ void ResultWriter::Add(const std::string& name, const std::function<std::string(
                     WithoutControls(name), folder_.string()));
   }
   const fs::path file = folder_ / name;
-  // Refuse to replace foreign files now, because Commit would find them only after all files were
-  // written.
+  // Refuse to replace a file of another program now, because Commit would find it only after all
+  // files were written.
   if (name != run_folder::kManifest && !IsOwnOrAbsent(folder_, name, before_.get())) {
     FailAsForeign(file);
   }
@@ -392,8 +394,8 @@ void ResultWriter::Commit() {
   const fs::path partial = folder_ / run_folder::kPartial;
   WriteNewFile(partial / kObsolete, nlohmann::json(obsolete).dump(), folder_ / kObsolete);
   written_->Close();
-  // Commit point: after this rename, this process or the next one moves the files of the result
-  // into the folder.
+  // The rename commits the result: afterwards, this process or the next process moves the files of
+  // the result into the folder.
   std::error_code error;
   fs::rename(partial, folder_ / run_folder::kComplete, error);
   if (error) {

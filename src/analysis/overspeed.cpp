@@ -18,7 +18,7 @@ std::optional<double> OverspeedLimit(const RunLog& log, const Scenario& scenario
     road = std::max(road, RoadFactor(scenario.world, row.state.pose.position()));
   }
   const SpeedControlOptions& speed = scenario.control.speed;
-  // Largest deceleration of the car on this road [m/s^2]; 0 if unknown.
+  // Largest deceleration of the car at the highest friction of the run [m/s^2]; 0 if unknown.
   const double hardest = MaxDeceleration(vehicle, road);
   // Largest deceleration that SpeedControl commands [m/s^2].
   const double most = 2.0 * speed.deceleration;

@@ -9,16 +9,17 @@
 namespace trackbed {
 
 /// Returns the largest overspeed that the speed control of a run can still correct [m/s].
-/// OverspeedLimit returns none if the plan never sets the speed.
+/// OverspeedLimit returns none if no row of the log has a planned speed.
 ///
 /// At an overspeed e, the speed control commands the planned acceleration minus k e, where k is
-/// control.speed.gain. The acceleration command is at least -D. The largest commanded deceleration
-/// D is twice control.speed.deceleration. If the car cannot brake that hard, D is the largest
-/// deceleration that the car reaches at the highest friction coefficient of the run. At the
-/// overspeed e = D/k, the acceleration command reaches this bound. A larger overspeed means that a
-/// disturbance, such as a grade, is stronger than the saturated speed control. The acceleration
-/// command is constant during a control period T, so the overspeed may change by D T before the
-/// next command. OverspeedLimit therefore returns D/k + D T.
+/// control.speed.gain. The largest commanded deceleration D is twice control.speed.deceleration. If
+/// the car cannot brake at twice control.speed.deceleration, D is the largest deceleration that the
+/// car reaches at the highest friction coefficient of the run. At the overspeed e = D/k, the
+/// commanded deceleration reaches its maximum D. A larger overspeed means that a disturbance, such
+/// as a grade, is stronger than the saturated speed control. The acceleration command is constant
+/// during a control period T, so the overspeed may change by D T before the next command.
+/// OverspeedLimit therefore returns D/k + D T, with the largest deceleration D, the gain k and the
+/// control period T.
 std::optional<double> OverspeedLimit(const RunLog& log, const Scenario& scenario,
                                      const VehicleParams& vehicle);
 

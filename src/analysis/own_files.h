@@ -20,7 +20,7 @@ const char* KindOf(const std::filesystem::file_status& status);
 /// Returns the sorted names of the files in a folder; nothing if the folder cannot be read.
 std::vector<std::string> NamesIn(const std::filesystem::path& folder);
 
-/// Removes a file or an empty folder. Throws RunError if this fails.
+/// Removes a file or an empty folder. Throws RunError if the removal fails.
 void Remove(const std::filesystem::path& file);
 
 /// Returns true if the folder contains no file with this name, or if the file with this name is a
@@ -37,7 +37,7 @@ bool IsOwnOrAbsent(const std::filesystem::path& folder, const std::string& name,
 /// Removes the regular files with these names from a hidden folder, then removes the folder.
 /// RemoveHiddenFolder throws RunError if the folder is a link. If the folder contains files that
 /// Trackbed has not written, RemoveHiddenFolder keeps these files and throws a RunError that lists
-/// them. RemoveHiddenFolder ignores absent folders.
+/// them. RemoveHiddenFolder does nothing if the folder does not exist.
 void RemoveHiddenFolder(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
 }  // namespace trackbed

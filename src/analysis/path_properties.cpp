@@ -22,7 +22,7 @@ const Segments& SegmentsOf(const PlannedPath& path) {
 std::vector<double> Extrema(const Segment& segment) {
   std::vector<double> places{0.0, segment.length};
   const double vertex = -segment.sharpness / segment.sharpness_rate;
-  // If the curvature is not quadratic, `vertex` is NaN or infinite and the condition is false.
+  // If the curvature is not quadratic, `vertex` is NaN or infinite and is not added.
   if (vertex > 0.0 && vertex < segment.length) {
     places.push_back(vertex);
   }
@@ -66,7 +66,7 @@ double SquaredCurvature(const Segment& segment) {
 std::vector<double> Crossings(const Segment& segment) {
   std::vector<double> places{0.0, segment.length};
   const auto add = [&](double d) {
-    if (d > 0.0 && d < segment.length) {  // if `d` is NaN, the condition is false
+    if (d > 0.0 && d < segment.length) {  // skips a distance `d` that is NaN
       places.push_back(d);
     }
   };

@@ -10,7 +10,7 @@ void MeasureLateralAcceleration(const RunLog& log, std::size_t window, PlantMetr
   double sum = 0.0;
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
     if (log.contact_time && log.rows[i].state.time > *log.contact_time) {
-      break;  // stop here, because from this row on, the obstacle pushes the car
+      break;  // ignore the rows after contact, in which the obstacle pushes the car
     }
     sum += log.rows[i].state.lateral_acceleration;
     if (i >= rows) {
@@ -30,7 +30,7 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
     const VehicleState& state = log.rows[i].state;
     if (log.contact_time && state.time > *log.contact_time) {
-      break;  // stop here, because from this row on, an obstacle may turn the wheels
+      break;  // ignore the rows after contact, in which an obstacle may turn the wheels
     }
     metrics.steering_max = std::max(metrics.steering_max, std::abs(state.steering));
     if (i < window) {
@@ -48,7 +48,7 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
 
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin,
                          double end) {
-  // Share of a limit from which on the actuator counts as being at the limit. The remaining
+  // Fraction of a limit above which the actuator counts as being at the limit. The margin of a
   // thousandth covers rounding errors and the tolerances of controllers that solve for a command.
   constexpr double kAtLimit = 0.999;
   const auto reaches = [](double value, double limit) {

@@ -21,9 +21,10 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
 
 /// Returns the fraction of the control periods from `begin` to `end` [s] in which the steering
 /// actuator was saturated, in [0, 1]. A saturated actuator turns at its maximum rate during the
-/// whole period, or is at its maximum angle at the end of the period. The actuator counts as at a
-/// limit from 99.9 % of the limit on. The command does not matter: a controller that knows the
-/// limits commands angles that the actuator just reaches. An unknown limit (0) is never reached.
+/// whole period, or is at its maximum angle at the end of the period. The actuator counts as being
+/// at a limit if it reaches 99.9 % of the limit. Saturation is judged by the motion of the
+/// actuator, not by the command, because some controllers only command angles within the actuator's
+/// limits. An unknown limit (0) is never reached.
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin, double end);
 
 }  // namespace trackbed

@@ -72,7 +72,7 @@ Table PlanTable(const Plan& plan) {
   double waited = 0.0;  // [s]
   auto wait = plan.waits.begin();
   // Sample each piece of the path separately, so that plan.csv contains every cusp and stop. Where
-  // two pieces meet, keep the point of the earlier piece.
+  // two pieces of the path meet, keep only the point of the earlier piece.
   for (const Stations& piece : PiecesBetweenStops(plan)) {
     const Reference part = Excerpt(reference, piece);
     for (const PathPoint& point : part.path.Sample(kPlanSpacing)) {

@@ -11,8 +11,8 @@
 namespace trackbed {
 namespace {
 
-constexpr double kSpacing = 0.5;  // distance of sampled stations, and of outline points [m]
-constexpr double kBin = 8.0;      // [m]
+constexpr double kSpacing = 0.5;  // spacing of stations and outline points [m]
+constexpr double kBin = 8.0;      // side of a square bin [m]
 
 Vec2 PointAt(const Road& road, double s, double t) {
   const RoadPosition place = PositionAt(road, s, t);
@@ -20,7 +20,8 @@ Vec2 PointAt(const Road& road, double s, double t) {
 }
 
 /// Returns the signed distance from the line between two points, positive to the left [m]. The
-/// distance is infinite if the points are equal, as on the inside of a bend around the border.
+/// distance is infinite if the two points of the line coincide, as where a road turns about a point
+/// of its border.
 double LeftOf(const std::pair<Vec2, Vec2>& line, const Vec2& point) {
   const Vec2 along = line.second - line.first;
   const double length = along.norm();
@@ -120,11 +121,11 @@ std::optional<double> RoadBands::Inside(const Vec2& point) const {
       BinOf(point.y(), low_.y(), rows_) * columns_ + BinOf(point.x(), low_.x(), columns_);
   for (const std::size_t i : bins_[static_cast<std::size_t>(bin)]) {
     const Piece& piece = pieces_[i];
-    // Tolerance above the rounding errors at the common line of two neighboring pieces [m].
+    // Tolerance for rounding errors at the line that two neighboring pieces of a band share [m].
     constexpr double kOverlap = 1e-6;
     if (LeftOf({piece.left.first, piece.right.first}, point) < -kOverlap ||
         LeftOf({piece.right.second, piece.left.second}, point) < -kOverlap) {
-      continue;  // the point is before or beyond the piece
+      continue;  // the point is before or beyond this piece of the band
     }
     const double distance =
         std::min(LeftOf(piece.right, point), LeftOf({piece.left.second, piece.left.first}, point));

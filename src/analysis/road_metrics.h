@@ -21,15 +21,16 @@ class RoadBands {
   /// distance of at most kReach from the rectangle.
   RoadBands(const RoadNetwork& network, const Vec2& low, const Vec2& high);
 
-  /// Returns the distance from a point to the nearer border of a band, negative beside the band
-  /// [m]. Where several bands overlap, the largest distance counts. Returns nullopt if the point is
-  /// not abeam of any band, for example before the beginning of a road.
+  /// Returns the distance from a point to the nearer border of a band, negative outside the band
+  /// [m]. Where the bands of several roads overlap, Inside returns the largest distance. Returns
+  /// nullopt if the point is not abeam of the band of any road, for example before the beginning of
+  /// a road.
   [[nodiscard]] std::optional<double> Inside(const Vec2& point) const;
 
  private:
   /// The part of a band between two neighboring stations.
   struct Piece {
-    std::pair<Vec2, Vec2> right;  // Right border at the first station and at the second station.
+    std::pair<Vec2, Vec2> right;  // Right border at both stations of the piece.
     std::pair<Vec2, Vec2> left;
   };
 
@@ -41,7 +42,7 @@ class RoadBands {
   Vec2 low_{0.0, 0.0};
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<std::vector<std::size_t>> bins_;  // Pieces that reach a square bin.
+  std::vector<std::vector<std::size_t>> bins_;  // Indices of the pieces that reach each bin.
 };
 
 /// Returns the smallest distance of the footprint from the edges of the roads in a run; negative if

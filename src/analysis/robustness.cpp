@@ -34,7 +34,8 @@ std::optional<double> ExtentOf(const Check& check) {
   const double left = check.relation == Relation::kAtMost ? *bound - *value : *value - *bound;
   const double margin = *bound == 0.0 ? left : left / std::abs(*bound);
   // The margin of a violated check must be negative, but a strict requirement such as `x < y` is
-  // violated at margin 0. The margin then becomes the negative number nearest to 0.
+  // violated at margin 0. The margin of a violated strict requirement therefore becomes the
+  // negative number nearest to 0.
   return check.met ? margin : std::min(margin, -std::numeric_limits<double>::min());
 }
 

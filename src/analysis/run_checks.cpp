@@ -9,7 +9,7 @@
 #include "trackbed/analysis/verdict.h"
 #include "trackbed/core/error.h"
 
-// Most checks apply the same check to every plant. A run without plants never passes.
+// Most run checks apply one check to every plant. A run without plants never passes.
 namespace trackbed::run_checks {
 namespace {
 

@@ -41,9 +41,10 @@ double MeanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Computes epsilon squared of an output whose mean is near 0, for n rows that are divided into B
-/// classes. The result is 1 - (W / (n - B)) / (T / (n - 1)). W is the sum of squared deviations
-/// from the class means, and T is the sum of squared deviations from the total mean.
+/// Computes epsilon squared of an output whose mean is near 0. For n rows that are divided into B
+/// classes, epsilon squared is 1 - (W / (n - B)) / (T / (n - 1)). In this formula, W is the sum of
+/// squared deviations from the class means, and T is the sum of squared deviations from the total
+/// mean.
 class VarianceShare {
  public:
   explicit VarianceShare(std::size_t classes) : counts_(classes), sums_(classes) {}
@@ -306,7 +307,7 @@ std::optional<RankCorrelation> CorrelateRanks(const std::vector<double>& a,
   }
   const double rho = std::clamp(products / std::sqrt(squares_a * squares_b), -1.0, 1.0);
   const double half = z * std::sqrt((1.0 + 0.5 * rho * rho) / static_cast<double>(a.size() - 3));
-  const double center = std::atanh(rho);  // infinite for rho = -1 and rho = 1
+  const double center = std::atanh(rho);  // Fisher transform; infinite for rho = -1 and rho = 1
   return RankCorrelation{rho, {std::tanh(center - half), std::tanh(center + half)}};
 }
 

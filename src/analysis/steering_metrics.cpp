@@ -21,14 +21,14 @@
 // 3. The largest wave above ToleratedAmplitude counts. The tolerated oscillation uses a fifth of
 //    the steering rate, or moves the car by 5 % of its width, whichever amplitude is smaller. At
 //    least half of the backlash is tolerated.
-// docs/verdict.md#calm-steering explains the limits.
+// The page docs/verdict.md#calm-steering explains the limits.
 namespace trackbed {
 namespace {
 
-constexpr double kRateShare = 0.2;    ///< Share of the steering rate that is tolerated.
+constexpr double kRateShare = 0.2;    ///< Tolerated share of the maximum steering rate.
 constexpr double kSwayShare = 0.05;   ///< Tolerated lateral motion, relative to the car's width.
 constexpr double kShortest = 0.01;    ///< Shortest sampling period of the search [s].
-constexpr std::size_t kMost = 60000;  ///< Most samples that are searched together.
+constexpr std::size_t kMost = 60000;  ///< Maximum number of samples per search.
 
 /// Returns the number of rows up to the first contact with an obstacle.
 std::size_t FreeRows(const RunLog& log) {
@@ -76,7 +76,7 @@ void RemoveJumps(const RunLog& log, std::vector<double>& values) {
 /// Replaces a jump of the steering angle by a ramp if the wheels cannot turn so far between two
 /// rows. The ramp has the slope `rate` [rad/s], and the jump is in the middle of the ramp.
 /// Controllers that know the rate limit respond to curvature steps with ramps of this slope. No
-/// linear filter of the steps can explain these ramps.
+/// linear filter of the curvature steps can explain these ramps.
 std::vector<double> Ramped(const std::vector<double>& values, const RunLog& log, double rate) {
   const std::vector<LogRow>& rows = log.rows;
   std::vector<double> ramped = values;
@@ -191,8 +191,8 @@ class WaveSearch {
   WaveSearch(const SteeringSignals& signals, const VehicleParams& vehicle)
       : signals_(signals), vehicle_(vehicle) {}
 
-  /// Searches each stretch in which the car moves, because the command does not move a car at rest,
-  /// so there is no closed loop.
+  /// Searches only stretches in which the car moves: the steering command does not move a car at
+  /// rest, so there is no closed loop.
   void Search(std::size_t from, std::size_t to) {
     const std::vector<double> unexplained = UnexplainedCommand(Part(signals_.loop, from, to));
     std::size_t begin = from;

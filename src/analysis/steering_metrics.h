@@ -22,10 +22,10 @@ std::optional<OscillationMetrics> MeasureOscillation(const RunLog& log, const Pl
                                                      const VehicleParams& vehicle);
 
 /// Returns the largest amplitude [rad] of a steering oscillation that is tolerated. The tolerated
-/// amplitude is the smaller of two amplitudes. An oscillation with the first amplitude uses a fifth
-/// of the steering rate. An oscillation with the second amplitude moves the car at `speed` [m/s] by
-/// 5 % of its width to each side. The tolerated amplitude is at least half of the backlash, within
-/// which the wheels do not move. `frequency` is in Hz, > 0.
+/// amplitude is the smaller of a rate limit and a motion limit. At the rate limit, the oscillation
+/// uses a fifth of the maximum steering rate. At the motion limit, the oscillation moves the car at
+/// `speed` [m/s] by 5 % of its width to each side. The tolerated amplitude is at least half of the
+/// backlash, within which the wheels do not move. `frequency` is in Hz, > 0.
 double ToleratedAmplitude(const VehicleParams& vehicle, double frequency, double speed);
 
 }  // namespace trackbed

@@ -20,7 +20,7 @@ namespace {
 
 using CarKey = std::tuple<std::string, double, double>;
 
-/// Returns a text of the given numbers of a trailer.
+/// Returns a text with the specified numbers of a trailer, as a part of a key.
 std::string KeyOf(const std::optional<TrailerOptions>& trailer) {
   std::string key;
   if (trailer) {
@@ -156,7 +156,7 @@ CheckedStudy CheckStudy(Study study, bool all) {
       .points = StudyPoints(std::move(study)), .cars = std::make_unique<CarCache>(), .inputs = {}};
   CheckPoints(checked.points, all);
   checked.inputs["scenario"] = Sha256(checked.points.study().scenario_text);
-  // The last three elements are the driver aids.
+  // The last three elements of the key are the driver aids.
   using PlantsKey = std::tuple<CarKey, std::vector<std::string>, TyreLaw, bool, bool, Differential>;
   OncePerKey<CarKey> compiles([&](const Scenario& scenario) {
     checked.cars->Load(Bare(scenario));

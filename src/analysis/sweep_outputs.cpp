@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Adds the properties of a planned path that the path has.
+/// Adds those properties of a planned path that are defined for this path.
 void AddPlanOutputs(const PlannedPath& path, Outputs& outputs) {
   for (const PathProperty& property : PathProperties()) {
     if (const std::optional<double> value = property.measure(path)) {

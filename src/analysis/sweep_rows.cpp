@@ -86,7 +86,7 @@ class RowMaker {
     const BisectSpec& spec = *study_.bisect;
     Outputs best;  // outputs of the passing run with the largest value of the bisected key
     std::optional<double> lowest_failing;
-    std::string failure;  // reason of the failing run with the smallest value
+    std::string failure;  // reason of the failing run with the smallest value of the bisected key
     const Bisection bisection =
         Bisect(spec.from, spec.to, spec.tolerance, [&](double value) -> std::optional<bool> {
           Scenario scenario = ReadPoint(study_, point.settings, value);

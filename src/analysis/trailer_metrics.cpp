@@ -41,7 +41,8 @@ double OffTracking(const RunLog& log, std::size_t row) {
   const LogRow& now = log.rows[row];
   const Vec2 axle = TrailerPose(trailer, now.state.pose, now.trailer->angle).position();
   const double reach = trailer.hitch + trailer.tongue;
-  // The nearest point of the line is at most as far back as twice the length of the combination.
+  // Search the driven line only over twice the distance between the axles of car and trailer,
+  // because the nearest point lies within this distance.
   double nearest = (axle - now.state.pose.position()).norm();
   std::size_t i = row;
   for (; i > 0 && now.state.distance - log.rows[i].state.distance < 2.0 * reach; --i) {

@@ -120,7 +120,7 @@ void NotePrescribedSteering(const PlantMetrics& metrics, Verdict& verdict) {
 }
 
 /// Returns whether wheels left the road. Wheels in the air turn within the play of their linkage,
-/// faster than the actuator turns them.
+/// faster than the actuator, so their steering rate is not judged.
 bool WheelsLeftTheRoad(const PlantMetrics& metrics) {
   return metrics.status == DriveStatus::kRolledOver || metrics.status == DriveStatus::kAirborne;
 }

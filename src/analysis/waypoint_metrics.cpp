@@ -13,9 +13,9 @@ namespace {
 
 /// The point of the driven path that is nearest to a waypoint.
 struct NearestPoint {
-  double distance = std::numeric_limits<double>::infinity();  // [m]
-  double s = 0.0;                                             // [m]
-  double t = 0.0;                                             // [s]
+  double distance = std::numeric_limits<double>::infinity();  // Distance to the waypoint [m].
+  double s = 0.0;                                             // Station [m].
+  double t = 0.0;                                             // Time [s].
 };
 
 NearestPoint FindNearest(const RunLog& log, const Vec2& waypoint) {

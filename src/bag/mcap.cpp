@@ -95,8 +95,7 @@ class McapReader {
         NoteEnd(at - kHead);
         return;
       }
-      // Ignore the schemas and channels in the summary, which repeat the schemas and channels
-      // before.
+      // Ignore the schemas and channels in the summary, which repeat those of the data section.
       const bool is_used = (!in_summary_ && opcode > mcap::kFooter && opcode <= mcap::kChunk) ||
                            opcode == mcap::kStatistics;
       if (is_used) {
@@ -203,8 +202,8 @@ class McapReader {
   }
 
   void TakeChunk(RecordReader& record) {
-    record.Read<std::uint64_t>();  // time of the first message
-    record.Read<std::uint64_t>();  // time of the last message
+    record.Read<std::uint64_t>();  // Time of the first message.
+    record.Read<std::uint64_t>();  // Time of the last message.
     const auto size = record.Read<std::uint64_t>();
     const auto checksum = record.Read<std::uint32_t>();
     const std::string compression(record.Text());

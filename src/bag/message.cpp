@@ -17,9 +17,9 @@
 
 // Decodes messages of ROS 2. A definition in the format ros2msg is parsed to a tree of fields. The
 // tree is walked along a message with Fast CDR, which reads the primitives, aligns them and swaps
-// their bytes. The format has one line per field: type, name, and a default or constant value,
-// which is ignored. After the fields of the message, the definitions of the fields' types follow,
-// each after a line of '=' and a line "MSG: TYPE".
+// their bytes. The format ros2msg has one line per field: type, name, and a default or constant
+// value, which is ignored. After the fields of the message, the definitions of the fields' types
+// follow, each after a line of '=' and a line "MSG: TYPE".
 namespace trackbed {
 
 /// Types of fields; not in an unnamed namespace, because BagMessage::Type has them as members.
@@ -165,7 +165,7 @@ class TypeBuilder {
       made.shape = is_number ? Shape::kArray : Shape::kSequence;
       made.count = is_number ? std::stoull(inside) : 0;
     }
-    kind.erase(std::min(kind.find("<="), kind.size()));  // remove the largest string length
+    kind.erase(std::min(kind.find("<="), kind.size()));  // remove the bound on the string length
     if (const std::optional<Primitive> primitive = PrimitiveOf(kind)) {
       made.primitive = *primitive;
       return made;
@@ -188,7 +188,7 @@ class TypeBuilder {
   std::size_t fields_ = 0;
 };
 
-/// Adds the names of the numbers outside of arrays and sequences.
+/// Adds the column names of the numeric fields outside of arrays and sequences.
 void AddColumns(const Type& type, const std::string& prefix, std::vector<std::string>& columns) {
   for (const Field& field : type.fields) {
     if (field.shape != Shape::kSingle || field.primitive == Primitive::kString) {

@@ -124,7 +124,7 @@ namespace {
 constexpr const char* kColorOption = "--color";
 
 /// Appends the verbs of `app` and, recursively, their subcommands to `verbs`. The text `before`
-/// precedes each name.
+/// precedes the name of each verb.
 void AddVisibleVerbs(const CLI::App& app, const std::string& before,
                      const std::map<const CLI::App*, std::vector<Example>>& examples,
                      std::vector<CommandInfo>& verbs) {

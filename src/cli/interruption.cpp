@@ -54,7 +54,7 @@ void OnGraceOver(int /*signal*/) {
   }
   static std::atomic<bool> again{false};
   if (again.exchange(true)) {
-    End();  // no thread waits for the semaphore, or the file system blocks the thread
+    End();  // end now: no thread waits for the semaphore, or the file system blocks it
   }
   sem_post(&grace_over);
   constexpr int kRemoval = 200;  // time to remove temporary files [ms]
@@ -68,8 +68,8 @@ void EndAfterGrace() {
   End();
 }
 
-/// Starts the thread that ends the process when the grace period is over. A signal handler must not
-/// take the lock that the removal of temporary files needs.
+/// Starts the thread that ends the process when the grace period is over. A thread is needed,
+/// because a signal handler must not take the lock for the removal of temporary files.
 void StartThread() {
   sem_init(&grace_over, 0, 0);
   // The thread blocks all signals, so that they interrupt the system calls of the main thread.

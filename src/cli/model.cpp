@@ -27,15 +27,16 @@
 
 // The verb `model`: prints the parameters of a vehicle model.
 // 1. Finds the model by name or path, compiles it, and prints its parameters and notes.
-// 2. --ggv prints the g-g-v diagram as a table, --linkage the polynomials of the steering linkage.
-// 3. --save writes the composed MJCF file with its meshes and textures.
-// 4. --adapt proposes a car for the model of another program (sim/adapt.h), and prints the
-//    evidence.
+// 2. The option --ggv prints the g-g-v diagram as a table. The option --linkage prints the
+//    polynomials of the steering linkage.
+// 3. The option --save writes the composed MJCF file with its meshes and textures.
+// 4. The option --adapt proposes a car for the model of another program (sim/adapt.h), and prints
+//    the evidence.
 namespace trackbed::cli {
 namespace {
 
 void Row(const char* name, double value, const char* unit) {
-  // Print five significant digits, because the printed parameters are less accurate than that.
+  // Print five significant digits, because the parameters are not more accurate than that.
   Print("  {:<26} {:>12.5g}{}\n", name, value,
         std::string_view(unit).empty() ? "" : fmt::format(" {}", unit));
 }

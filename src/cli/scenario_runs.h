@@ -48,7 +48,7 @@ int ForEachRun(const std::vector<ScenarioRun>& runs,
 struct DrivenScenario {
   OutputFolder folder;
   RunResult result;
-  /// Exists for an interrupted run until its results are written.
+  /// Object that exists for an interrupted run until the results are written.
   std::optional<FinishingResult> finishing{};
 };
 

@@ -17,8 +17,8 @@
 //    them.
 // 2. The type name of an option decides its values: "draft|film" is a list of values, and CAMERA
 //    and SCENARIO are names that `trackbed list` prints when the user completes.
-// 3. Each shell parses words differently, so each has its own quoting. Names of files and scenarios
-//    are data of the user, and are never inserted into code.
+// 3. Each shell parses words differently, so each shell has its own quoting function. Names of
+//    files and scenarios are data of the user, and are never inserted into code.
 namespace trackbed::cli {
 namespace {
 

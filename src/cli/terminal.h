@@ -113,8 +113,8 @@ void Print(fmt::format_string<detail::Printed<T>...> format, const T&... values)
   fmt::print(stdout, format, detail::Safe(values)...);
 }
 
-/// Returns the width of the terminal in columns, at least 40. Returns 80 if `stream` is not a
-/// terminal.
+/// Returns the width of the terminal in columns, at least 40. TerminalWidth returns 80 if `stream`
+/// is not a terminal.
 std::size_t TerminalWidth(std::FILE* stream = stdout);
 
 /// Wraps `text` between words into lines of at most `width` columns. A word that is longer than a

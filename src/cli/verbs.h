@@ -39,7 +39,7 @@ void AddCompletion(const Command& command);
 void AddDocs(const Command& command);
 void AddManual(const Command& command);
 
-// Each of these functions adds a subcommand to the verb `sweep`.
+// Each of the following functions adds a subcommand to the verb `sweep`.
 void AddSweepMerge(const Command& command);
 void AddSweepSubmit(const Command& command);
 

@@ -44,14 +44,14 @@ constexpr double kPassed = 0.125;
 /// angle.
 constexpr double kLead = 3.0;
 
-/// Largest amplification of a step that crosses the play. If possible, the amplified step crosses
-/// the play within a control period. Without amplification, a step that barely exceeds the play
-/// would take many times the lag.
+/// Largest amplification of a steering step that crosses the backlash. If possible, the amplified
+/// step crosses the backlash within a control period. Without amplification, a step that barely
+/// exceeds the backlash would take many times the actuator's lag.
 constexpr double kCrossingLead = 6.0;
 
-/// Timesteps of the modeled actuator in a control period. With a single timestep per control
-/// period, the lag of the model would differ from the lag of the actuator. The feedback of this
-/// difference would move the command through the play and back.
+/// Number of timesteps of the modeled actuator in a control period. With a single timestep per
+/// control period, the lag of the model would differ from the lag of the actuator. Feedback of this
+/// difference between the lags would move the command back and forth through the backlash.
 constexpr int kSubsteps = 10;
 
 /// Distance ahead in which the control law may plan the steering of the path, in multiples of the
@@ -68,7 +68,7 @@ constexpr double kMinDynamicSpeed = 1.0;
 double CommandFor(const MonotoneCurve& curve, const std::vector<Vec2>& points, double angle) {
   double low = points.front().x();
   double high = points.back().x();
-  constexpr int kHalvings = 50;  // down to the rounding error
+  constexpr int kHalvings = 50;  // halves the interval down to the rounding error
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (low + high);
     (curve.At(middle) < angle ? low : high) = middle;
@@ -162,10 +162,10 @@ class ActuatorModel {
   double half_;     // Half of the backlash.
   double highest_;  // Limits of the angle before lag and backlash.
   double lowest_;
-  double moved_ = 1.0;          // Fraction of a step that the lag lets through in a control period.
+  double moved_ = 1.0;          // Fraction of a step that passes the lag in a control period.
   double crossing_lead_ = 1.0;  // Amplification of a step that crosses the play.
   bool crosses_ = false;        // Whether the actuator is within the play after a reversal.
-  double lead_ = 1.0;           // Amplification of any other step.
+  double lead_ = 1.0;           // Amplification of a step that does not cross the play.
   double wanted_;               // Last wanted angle.
   double target_;               // Output of the calibration curve, before backlash.
   double resting_;              // Angle at which the actuator comes to rest after the last command.

@@ -21,7 +21,7 @@ void BoundedRegulator::PredictWithoutBounds(const ErrorModel& model, const Regul
 }
 
 void BoundedRegulator::Begin(const ErrorModel& model, const Regulator& regulator, double most) {
-  // Half of the derivative of J by w, at w = 0, where q = -w*.
+  // Compute half of the derivative of the cost J by the inputs w, at w = 0, where q = -w*.
   ErrorModel::Vector x = ErrorModel::Vector::Zero(model.a.rows());
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const double q = -inputs_[k] / most;
@@ -67,7 +67,8 @@ void BoundedRegulator::ComputeStep(const ErrorModel& model, double product, bool
   ErrorModel::Vector s = ErrorModel::Vector::Zero(model.a.rows());
   for (std::size_t k = steps_.size(); k-- > 0;) {
     Step& step = steps_[k];
-    // Products of the changes of slack and multiplier: the slack of the upper bound is 1 - w.
+    // Second-order terms: products of the changes of slack and multiplier. The slack of the upper
+    // bound is 1 - w.
     const double above = corrects ? product + step.turn * step.upper_change : product;
     const double below = corrects ? product - step.turn * step.lower_change : product;
     step.upper_change = above / (1.0 - step.input) - step.upper;

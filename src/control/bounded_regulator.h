@@ -57,7 +57,7 @@ class BoundedRegulator {
     double turn = 0.0;          // Newton step of w.
     double upper_change = 0.0;  // Newton steps of the multipliers.
     double lower_change = 0.0;
-    double curvature = 0.0;  // Riccati recursion: second derivative of the cost by w.
+    double curvature = 0.0;  // Second derivative of the cost by the input w.
     Row feedback;            // The Newton step is -(feedback x + offset).
   };
 

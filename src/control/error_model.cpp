@@ -2,10 +2,11 @@
 //
 // The continuous model (Rajamani 2012, ch. 2) is linear in the state, the steering rate, the
 // curvature and a constant. The exponential of the model's augmented matrix yields the exact time
-// step. Ahead moves a point along the path at the planned speed plus the car's present excess
-// speed. Between two knots of the speed profile, the acceleration a is constant, so the point
-// drives v T + a T^2/2 in a step T, until the point stops. The regulator is found by doubling (Chu
-// et al. 2004). The weight of the steering rate grows with the errors (Megretski 1996).
+// step. The class Ahead moves a point along the path at the planned speed plus the car's present
+// excess speed. Between two knots of the speed profile, the acceleration a is constant. In a step
+// T, the point on the path therefore moves by v T + a T^2/2, until the point stops. The regulator
+// is found by doubling (Chu et al. 2004). The weight of the steering rate grows with the errors
+// (Megretski 1996).
 #include "src/control/error_model.h"
 
 #include <Eigen/LU>
@@ -63,7 +64,8 @@ double WayFrom(const ControlInput& input, double station, double excess, double 
   const double acceleration = planned.AccelerationAt(station);
   const double rolling = acceleration < 0.0 ? std::min(time, speed / -acceleration) : time;
   const double way = (speed + 0.5 * acceleration * rolling) * rolling;
-  // A car that is much slower than planned will speed up.
+  // Use a lower bound of the distance, because a car that is much slower than planned will speed
+  // up.
   return std::max(way + excess * time, std::min(way, SlowestSpeed(input.vehicle) * time));
 }
 
@@ -94,9 +96,9 @@ ErrorModel MakeErrorModelFor(const VehicleParams& vehicle, const Motion& motion,
   model.speed = motion.speed;
   const double u = model.speed;
 
-  // The augmented matrix maps (x, w, kappa, c) to the derivatives of (x, w, kappa, c), assuming
-  // that w, kappa and c are constant over a step. The exponential of the augmented matrix yields
-  // the exact discrete-time step.
+  // The augmented matrix maps the state x, the steering rate w, the curvature kappa and the
+  // constant c to their derivatives. The steering rate, kappa and c are assumed constant over a
+  // step. The exponential of the augmented matrix yields the exact discrete-time step.
   using Augmented = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                                   ErrorModel::kMaxStates + 3, ErrorModel::kMaxStates + 3>;
   Augmented rates = Augmented::Zero(n + 3, n + 3);
@@ -242,7 +244,7 @@ Vector Ahead::Next(const ErrorModel& model) {
   }
   station_ += stride;
   // Mean curvature over the step, computed from the heading change so that it includes curvature
-  // jumps. For a shorter step, rounding errors would dominate the heading change.
+  // jumps. For a step below kLeastStride, rounding errors would dominate the heading change.
   constexpr double kLeastStride = 1e-6;  // [m]
   const double mean = stride > kLeastStride
                           ? AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride)

@@ -25,8 +25,8 @@ class RampedPath;
 /// The input w = delta' is the steering rate, and kappa is the path's curvature. The constant c =
 /// tan(delta_0) - delta_0 is the linearization error of the tangent in the steady turn with the
 /// steering angle delta_0. The lateral motion depends on the tangent of the wheel angle, which the
-/// model linearizes at delta_0 with slope 1. A car in a steady turn therefore stays on its path, at
-/// any curvature.
+/// model linearizes at delta_0 with slope 1. In the model, a car in a steady turn therefore stays
+/// on its path, at any curvature.
 struct ErrorModel {
   static constexpr int kMaxStates = 6;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;
@@ -106,15 +106,15 @@ ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options) {
 /// Converts the options to weights, for a car at `speed` u [m/s] with a steering lag and the
 /// control period `period` T [s]. The closed loop of a car without slip has the bandwidth w_0 =
 /// ((u^2/L)^2 cross_track/steering_rate)^(1/6), if the heading has no weight. The default weight of
-/// the steering rate is increased until 1/w_0 is at least twice SteeringResponse::time_constant,
-/// and at least kPeriods T. With a faster loop, the lag would turn small actuator errors, such as
-/// backlash, into oscillations. The limited steering rate would change its sign from period to
-/// period.
+/// the steering rate is increased until the closed loop's time constant 1/w_0 is at least twice
+/// SteeringResponse::time_constant and kPeriods times T. With a faster loop, the lag would turn
+/// small actuator errors, such as backlash, into oscillations. In a loop faster than kPeriods
+/// control periods, the saturated steering rate would change its sign from period to period.
 template <typename Options>
 ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options, double speed,
                         double period) {
-  constexpr double kLags = 2.0;     // lower bound of 1/w_0 in lags
-  constexpr double kPeriods = 3.0;  // lower bound of 1/w_0 in control periods
+  constexpr double kLags = 2.0;     // Lower bound of 1/w_0, in lags.
+  constexpr double kPeriods = 3.0;  // Lower bound of 1/w_0, in control periods.
   ErrorWeights weights = WeightsFor(vehicle, options);
   if (!options.steering_rate) {
     const double turn = speed * speed / vehicle.wheelbase;
@@ -146,11 +146,11 @@ ErrorModel::Vector StateCost(const ErrorModel& model, const ErrorWeights& weight
 /// Computes, step by step, the disturbance g with which the path ahead acts on the error model. Let
 /// x_0(k) be the steady turn at the path's curvature k steps ahead. The deviation z = x - x_0 from
 /// the steady turn satisfies z(k+1) = a z(k) + b w(k) + g(k). The speed on the path ahead is the
-/// planned speed plus the amount by which the car now exceeds the planned speed. This speed
-/// determines the length of a step and the steady turn x_0(k). A car that is much slower than
-/// planned is assumed to reach the planned speed or the minimum speed of the model, whichever is
-/// smaller. The path ahead ends at the next cusp. With `path`, the car follows the ramped path
-/// instead of the path, and `tracking` is RampedPath::Track.
+/// planned speed plus the amount by which the car now exceeds the planned speed. The speed on the
+/// path ahead determines the length of a step and the steady turn x_0(k). A car that is much slower
+/// than planned is assumed to reach the planned speed or the minimum speed of the model, whichever
+/// is smaller. The path ahead ends at the next cusp. If `path` is not null, the car follows the
+/// ramped path `path`, and `tracking` must come from RampedPath::Track.
 class Ahead {
  public:
   Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model,
@@ -184,7 +184,7 @@ class Ahead {
 };
 
 /// Returns the distance [m] that the car drives within `steps` steps of `period` [s], at the speeds
-/// of Ahead.
+/// that the class Ahead assumes.
 double DistanceAhead(const ControlInput& input, double period, long steps);
 
 /// Returns the regulator for a car with a maximum steering rate `steering_rate` [rad/s]. For large
@@ -194,9 +194,9 @@ double DistanceAhead(const ControlInput& input, double period, long steps);
 /// (Megretski 1996). If the gain for small errors were also used for large errors, the car could
 /// oscillate forever.
 ///
-/// The offset in z is limited to the value at which the control law steers the car toward the path
-/// at an angle of 0.6 rad. Without the clamp, a large offset would make the linear model turn
-/// toward the path by more than a right angle.
+/// The offset in the deviation z is limited to the value at which the control law steers the car
+/// toward the path at an angle of 0.6 rad. Without this limit, a large offset would make the linear
+/// model turn toward the path by more than a right angle.
 Regulator ScheduledRegulator(const ErrorModel& model, double steering_rate, ErrorWeights& weights,
                              ErrorModel::Vector& z);
 

@@ -29,8 +29,9 @@ namespace {
 
 /// Number of intervals of a roll-out in which the deviation is constant.
 constexpr std::size_t kHolds = 10;
-/// Number of sizes of deviations, and the ratio of a size to the next smaller size. Small
-/// deviations refine the plan near its optimum; large deviations find ways around obstacles.
+/// Number of sizes of the random deviations from the plan, and the ratio of a size to the next
+/// smaller size. Small deviations refine the plan near its optimum; large deviations find ways
+/// around obstacles.
 constexpr std::size_t kSizes = 4;
 constexpr double kSizeRatio = 4.0;
 /// Fraction of the roll-outs whose costs define the spread of the costs. The costs of all other
@@ -39,7 +40,7 @@ constexpr double kSpreadShare = 0.1;
 /// Cost per step below which a plan is optimal up to rounding.
 constexpr double kNoCost = 1e-20;
 
-/// Returns well mixed bits of a counter (SplitMix64).
+/// Hashes a counter to pseudorandom bits (SplitMix64).
 std::uint64_t MixedBits(std::uint64_t counter) {
   std::uint64_t z = (counter + 1) * 0x9e3779b97f4a7c15ULL;
   z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
@@ -99,7 +100,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
 
   [[nodiscard]] std::unique_ptr<SteeringController> Clone() const override {
     auto copy = std::make_unique<Mppi>(*this);
-    copy->surroundings_ = nullptr;  // See() sets the surroundings of the copy
+    copy->surroundings_ = nullptr;  // the caller calls See() of the clone
     return copy;
   }
 
@@ -127,8 +128,8 @@ class Mppi final : public SteeringController, public SeesSurroundings {
     cost_ = CostOf(plan_);
     FollowRegulator();
     if (cost_ > kNoCost * static_cast<double>(steps_)) {
-      // After `kHolds` random rates with the deviation grip/sqrt(hold horizon), the steering angle
-      // has the standard deviation `grip`.
+      // Each random rate is held for the time `hold`. After kHolds rates with the standard
+      // deviation grip/sqrt(hold * horizon), the steering angle has the standard deviation `grip`.
       const double grip = SteeringAtGrip(input.vehicle, input.state.speed);
       const double hold = horizon / static_cast<double>(kHolds);
       Improve(options_.noise *
@@ -163,8 +164,8 @@ class Mppi final : public SteeringController, public SeesSurroundings {
     TakeIfCheaper();
   }
 
-  /// Returns the deviation of a pair of roll-outs in a step, in standard deviations of the largest
-  /// size.
+  /// Returns by how much a pair of roll-outs deviates from the plan in a step, as a multiple of the
+  /// largest standard deviation.
   [[nodiscard]] double Deviation(std::size_t pair, std::size_t step) const {
     return noise_[pair * kHolds + step * kHolds / steps_];
   }
@@ -265,7 +266,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
   MppiOptions options_;
   std::size_t steps_;          // Number of steps of a roll-out.
   std::size_t pairs_;          // Number of pairs of roll-outs.
-  std::vector<double> noise_;  // Deviations of each pair, in standard deviations.
+  std::vector<double> noise_;  // Deviations of each pair, as multiples of the largest sigma.
   std::vector<double> plan_;   // Steering rate of each step [rad/s].
   double step_ = 0.0;          // Duration of a step of the plan [s]; 0 before the first plan.
   double elapsed_ = 0.0;       // Time since the plan began [s].

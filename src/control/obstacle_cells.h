@@ -27,9 +27,9 @@ double GapOf(const Rectangle& a, const Rectangle& b);
 /// of the world.
 class ObstacleCells {
  public:
-  /// Takes the obstacles whose distance from the car may be below `margin` [m] within `duration`
-  /// [s], while the middle of the car stays within `reach` [m] of the origin of A. `radius` [m] is
-  /// the radius of the circle around the car.
+  /// Stores the obstacles whose distance from the car may be below `margin` [m] within `duration`
+  /// [s], while the middle of the car stays within `reach` [m] of the origin of A. The argument
+  /// `radius` [m] is the radius of the circle around the car.
   void Take(const std::vector<SeenObstacle>& obstacles, const Pose2& X_WA, double reach,
             double radius, double margin, double duration);
 

@@ -25,8 +25,8 @@ double Reach(const VehicleParams& vehicle, const SteeringProblem& problem) {
   return vehicle.steering_rate * std::abs(problem.distance) / problem.speed;
 }
 
-/// Subtracts the poses component by component, without rotation, since the cost (1) does not depend
-/// on the axes.
+/// Subtracts the poses component by component, without rotation, since the cost does not depend on
+/// the direction of the axes.
 Deviation Difference(const Pose2& actual, const Pose2& wanted) {
   return {actual.x - wanted.x, actual.y - wanted.y, actual.yaw - wanted.yaw};
 }

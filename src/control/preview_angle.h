@@ -16,7 +16,7 @@ double PreviewStation(const SomePath& path, const Vec2& p, double station, doubl
     return station + distance;
   }
   // A path leaves the circle with radius `distance` around `p` no earlier than a straight line
-  // would. Steps of an eighth of the distance find the first crossing if the path's radii of
+  // would. Steps of an eighth of `distance` find the first crossing if the path's radii of
   // curvature are larger than a step.
   const double stride = distance / 8.0;
   double inside = station;
@@ -32,8 +32,8 @@ double PreviewStation(const SomePath& path, const Vec2& p, double station, doubl
   return 0.5 * (low + high);
 }
 
-/// Returns the preview angle u [rad], as PreviewAngle. `direction` is that of the path at
-/// `station`.
+/// Returns the preview angle u [rad], as PreviewAngle does. The argument `direction` is the path's
+/// direction of motion at `station`.
 template <typename SomePath>
 double AngleTo(const SomePath& path, int direction, const Pose2& pose, double station,
                double distance) {

@@ -163,12 +163,12 @@ double HeldPreviewDistance::Next(const ControlInput& input, double delay) {
 }
 
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset) {
-  // The factor 1.5 was determined by trial, with offsets of 0.2 to 4 m and preview distances of 2
-  // to 4 m. With a factor of 1.5, all cars converge to the path. With a factor of 1, some cars
-  // oscillate forever; with a factor of 2, all cars converge more slowly.
+  // The factor kShare was determined by trial, with offsets of 0.2 to 4 m and preview distances of
+  // 2 to 4 m. With kShare = 1.5, all cars converge to the path. With kShare = 1, some cars
+  // oscillate forever; with kShare = 2, all cars converge more slowly.
   constexpr double kShare = 1.5;
-  // At speeds below this multiple of L omega, the car is restricted by the limit of its steering
-  // angle, not by the limit of its steering rate.
+  // At speeds below this multiple of wheelbase times steering rate, the car is restricted by the
+  // limit of its steering angle, not by the limit of its steering rate.
   constexpr double kMinSpeed = 1.25;
   const double slowest = kMinSpeed * vehicle.wheelbase * vehicle.steering_rate;
   const double curvature_rate =
@@ -176,7 +176,7 @@ double ReturnDistance(const VehicleParams& vehicle, double speed, double offset)
   // Tyres and actuator respond late, so the car drives the distance `response` before it turns.
   const double response = std::abs(speed) * ResponseTime(vehicle, speed, 0.0);
   const double turning = kShare * std::cbrt(std::abs(offset) / curvature_rate) + response;
-  // The arc to a point at the distance R has the curvature 2 e/R^2.
+  // From the offset e, the arc to a path point at the distance R has the curvature 2 e/R^2.
   const double gripping = std::abs(speed) * std::sqrt(2.0 * std::abs(offset) /
                                                       (kReturnGripShare * LateralGrip(vehicle)));
   return std::max(turning, gripping);

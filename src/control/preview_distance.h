@@ -2,9 +2,9 @@
 
 #include "trackbed/control/steering_controller.h"
 
-/// Default preview distance R [m] of controllers that steer toward a point of the path. `preview`
-/// steers toward a point of RampedPath, which has no steps of the curvature, and uses only the
-/// first two terms of R.
+/// Default preview distance R [m] of controllers that steer toward a point of the path. The
+/// controller `preview` steers toward a point of RampedPath, which has no curvature steps, and uses
+/// only the first two terms of R.
 ///
 /// The symbols are:
 ///   L      wheelbase [m]
@@ -36,8 +36,9 @@
 /// half behind the step. With a preview distance below S/2, the wheels begin to turn too late, and
 /// the car swings out. In the term 0.65 S, the factor 0.65 instead of 1/2 leaves a margin for model
 /// errors. With the preview distance 0.65 S + v T, a car deviates by about kappa S^2/24 at a
-/// curvature step of size kappa. A curvature ramp of length S deviates by the same distance from
-/// the step. The distance S is 0 if the wheels can follow the path's curvature.
+/// curvature step of size kappa. A path with a curvature ramp of length S deviates by the same
+/// distance from the path with the step. The distance S is 0 if the wheels can follow the path's
+/// curvature.
 namespace trackbed {
 
 /// Lower bound for speeds that are used as divisors [m/s].
@@ -51,8 +52,8 @@ inline constexpr double kReturnOffset = 0.125;
 /// v/(C_f + C_r) of the response time T is 0 for a car without tyre coefficients.
 double ResponseTime(const VehicleParams& vehicle, double speed, double period);
 
-/// Returns the default preview distance R [m] on a straight path: max(3/4 L, 3 v T). `delay` [s] is
-/// added to the response time T.
+/// Returns the default preview distance R [m] on a straight path: max(3/4 L, 3 v T), with the
+/// wheelbase L, the speed v and the response time T. The argument `delay` [s] is added to T.
 double ShortestPreview(const VehicleParams& vehicle, double speed, double period,
                        double delay = 0.0);
 
@@ -80,12 +81,12 @@ class HeldPreviewDistance {
 
 /// Returns the shortest preview distance [m] with which a rate-limited car at `speed` returns from
 /// `offset` [m] to its path without oscillation and without sliding. At the maximum steering rate,
-/// the curvature of the car's track changes by c = omega/(L v) per meter. Returning from an offset
-/// e takes a distance proportional to cbrt(e/c), plus the distance v T that the car drives before
+/// the curvature of the car's track changes by c = omega/(L v) per meter. The distance of a return
+/// from an offset e is proportional to cbrt(e/c), plus the distance v T that the car drives before
 /// it responds. T is the response time without the control period. If `speed` is below 5/4 L omega,
-/// c is computed with 5/4 L omega instead of v. The result is at least v sqrt(2 e/a): a car that
-/// steers on an arc toward a point at the distance R has the lateral acceleration 2 e v^2/R^2,
-/// which must not exceed a, the fraction kReturnGripShare of LateralGrip (steering_limit.h).
+/// c is computed with 5/4 L omega instead of v. The returned distance is at least v sqrt(2 e/a),
+/// with a the fraction kReturnGripShare of LateralGrip (steering_limit.h). The lateral acceleration
+/// then does not exceed a: on an arc toward a point at the distance R, it is 2 e v^2/R^2.
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset);
 
 /// Computes ReturnDistance (see above) for the car's present speed and its present offset from the

@@ -20,8 +20,10 @@
 //   2. Compute the car's free motion y_0 and its response A to a unit step of the steering at ten
 //      Gauss nodes within R, by the linear single-track model; without tyres, by the kinematic one.
 //   3. Steer by the angle that minimizes the weighted integral of the squared distance from the
-//      path: int (f - y_0) A W / int A^2 W, with the lateral displacement f of the path.
-//   4. Reduce this angle until the wheels can turn back in time (TimelySteering), and delay it.
+//      path: int (f - y_0) A W / int A^2 W, with the lateral displacement f of the path and the
+//      weight W.
+//   4. Reduce the steering angle so far that the wheels can turn back in time (TimelySteering), and
+//      delay the angle.
 namespace trackbed {
 namespace {
 
@@ -171,12 +173,13 @@ class PreviewIntegral final : public SteeringController {
 
   /// Returns the preview distance R [m] at which this law and the single-point law respond to an
   /// offset with equal gains. The single-point law has the preview distance R_1 = `single`. The
-  /// gain of the single-point law is 2 L'/R_1^2, where L' is the ratio of steering angle to
-  /// curvature in a steady turn. For the kinematic car, L' = L, and R/R_1 is the square root of the
-  /// ratio of the gains at equal distances. Tyres respond late, so A(eta) is smaller than for the
-  /// kinematic car, and the gain int A W/int A^2 W is larger. For a car with tyres, R is therefore
-  /// longer: with the kinematic ratio, a car with a limited steering rate would oscillate about its
-  /// path forever.
+  /// gain of the single-point law with the preview distance R_1 is 2 L'/R_1^2, where L' is the
+  /// ratio of steering angle to curvature in a steady turn. For the kinematic car, L' is the
+  /// wheelbase, and R/R_1 is the square root of the ratio of the two laws' gains at equal preview
+  /// distances. Tyres respond late, so the step response A(eta) is smaller than for the kinematic
+  /// car, and the gain int A W/int A^2 W is larger. For a car with tyres, R is therefore longer:
+  /// with the kinematic ratio, a car with a limited steering rate would oscillate about its path
+  /// forever.
   [[nodiscard]] double DistanceOfEqualGain(const ControlInput& input, int direction,
                                            double single) const {
     double distance = std::sqrt(KinematicGainRatio()) * single;
@@ -205,7 +208,7 @@ class PreviewIntegral final : public SteeringController {
 
   /// Returns, for the kinematic car, the ratio of this law's gain on a lateral offset to the gain
   /// of the single-point law with the same preview distance. The ratio is R^2/2 times the integral
-  /// of A W divided by the integral of A^2 W.
+  /// of A W divided by the integral of A^2 W, with the step response A and the weight W.
   [[nodiscard]] double KinematicGainRatio() const {
     return options_.weight == PreviewWeight::kNear ? 5.0 / 2.0 : 5.0 / 3.0;
   }

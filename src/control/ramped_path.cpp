@@ -11,7 +11,7 @@ namespace {
 /// Ratio of the tail's length to the ramp's length.
 constexpr double kTail = 2.0;
 /// Minimum ratio of the tail's length to the ramp's length. At this ratio, the tail needs at most
-/// 1.25 times the steering rate.
+/// 1.25 times the maximum steering rate.
 constexpr double kShortestTail = 1.0;
 
 /// Offset of the ramped path from the path, and its derivatives with respect to the station.
@@ -32,8 +32,8 @@ Offset OffsetFrom(double x, double ramp, double tail, double before) {
   const double d = std::abs(x);
   const double end = (x < 0.0 ? -before : 1.0 - before) * ramp * ramp / 24.0;
   if (d < half) {
-    // The second derivative of the offset is linear in x. At the end of the ramp, this derivative
-    // and its integrals are 0.
+    // On the ramp, the second derivative of the offset is linear in the distance x. At the end of
+    // the ramp, the slope and the second derivative of the offset are 0.
     const double left = half - d;
     return {.e = end - side * left * left * left / (6.0 * ramp),
             .slope = left * left / (2.0 * ramp),
@@ -65,7 +65,7 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
   steps_.reserve(segments.size());  // a path has at most one step per segment
   double station = 0.0;
   double leg = 0.0;      // Station at which the present leg begins.
-  std::size_t kept = 0;  // Number of steps before the present leg.
+  std::size_t kept = 0;  // Number of curvature steps before the present leg.
   const auto end_leg = [&] {
     for (std::size_t i = kept; i < steps_.size(); ++i) {
       Step& step = steps_[i];

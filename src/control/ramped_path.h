@@ -20,19 +20,20 @@ namespace trackbed {
 ///   e       offset of the ramped path from the path [m], positive to the left
 ///   T       length of the tails [m]: 2 S
 ///
-/// The curvature of the ramped path rises linearly at abs(x) < S/2. A ramp of length S shifts the
-/// path sideways by kappa S^2/24. For a step to the left, e < 0 ahead of the ramp and e > 0 behind
-/// the ramp. The difference of e across the ramp is the sideways shift. Beyond each end of the
-/// ramp, e returns to 0 along a tail of length T, a polynomial of degree 5. If the car can steer
-/// the tails on both sides, each side gets half of the shift. The curvature of such tails is at
-/// most 0.03 kappa, and their steering rate at most 0.16 omega. A turn at full lock leaves no
-/// steering angle for a tail, so the whole shift lies on the other side of the step. The offsets of
-/// several steps are added.
+/// The curvature of the ramped path rises linearly over the ramp, where abs(x) < S/2. A ramp of
+/// length S shifts the path sideways by kappa S^2/24. For a curvature step to the left, the offset
+/// e is negative ahead of the ramp and positive behind the ramp. The difference of the offset e
+/// across the ramp is the sideways shift. Beyond each end of the ramp, the offset e returns to 0
+/// along a tail of length T, a polynomial of degree 5. If the car can steer the tails on both
+/// sides, each side gets half of the sideways shift. The curvature of the tails is then at most
+/// 0.03 kappa, and their steering rate is at most 0.16 times the maximum omega. A turn at full lock
+/// leaves no steering angle for a tail, so the whole sideways shift lies on the other side of the
+/// step. The offsets of several curvature steps are added.
 ///
 /// A path without steps of the curvature is returned unchanged. At cusps and at the ends of the
-/// path, the wheels turn at rest, so curvature steps at these points remain. S/2 + T is at most the
-/// distance of a step from the nearest cusp or end, so that the ramped path passes through cusps
-/// and ends.
+/// path, the wheels turn at rest, so curvature steps at these points remain. The length S/2 + T of
+/// half a ramp and a tail is at most the distance of the step from the nearest cusp or end. The
+/// ramped path therefore passes through cusps and ends.
 class RampedPath {
  public:
   /// Finds the curvature steps whose ramps or tails lie between the car's station and `ahead` [m]
@@ -41,7 +42,7 @@ class RampedPath {
   /// Cost O(n) for a path of n segments.
   void Update(const ControlInput& input, double ahead);
 
-  /// Takes the path of `input` without ramps.
+  /// Uses the path of `input` as it is, without ramps.
   void UpdateWithoutRamps(const ControlInput& input);
 
   /// Returns the ramped path's point beside station `s` of the path. The last call of Update must
@@ -63,9 +64,9 @@ class RampedPath {
   struct Step {
     double station;
     double from;    // Curvature ahead of the step.
-    double height;  // kappa
-    double ramp;    // S
-    double tail;    // T
+    double height;  // Height kappa of the step.
+    double ramp;    // Ramp length S.
+    double tail;    // Tail length T.
     double before;  // Fraction of the offset that lies ahead of the step.
     int direction;
   };

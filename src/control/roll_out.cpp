@@ -8,19 +8,21 @@
 #include "trackbed/core/angle.h"
 
 // Simulates the single-track car for MPPI:
-//   1. Before the roll-outs of a control period: sample the path, its steady turns and its edges at
-//      nodes; compute the planned speeds and the axle forces of each step, the regulator of lqr for
-//      the remaining cost, and the obstacles nearby.
-//   2. In each step: turn the actuator and the wheels, solve the lateral motion by the implicit
-//      Euler method with secant stiffnesses, which is stable at any speed, move the rear axle on an
-//      arc, and project it onto the arc between two nodes.
-//   3. Add the cost of the deviation, of the lateral acceleration, and of small clearances.
+//   1. Before the roll-outs of a control period, sample the path, its steady turns and its edges at
+//      nodes. Compute the planned speeds and the axle forces of each step. Also compute the
+//      regulator of lqr, which determines the remaining cost, and find the obstacles nearby.
+//   2. In each step of a roll-out, turn the actuator and the wheels. Solve the lateral motion by
+//      the implicit Euler method with secant stiffnesses, which is stable at any speed. Move the
+//      rear axle on an arc, and project it onto the arc between two nodes of the path.
+//   3. After each step, add the cost of the deviation from the path, of the lateral acceleration,
+//      and of small clearances.
 namespace trackbed {
 namespace {
 
 /// Cost of a collision per step; larger than the cost of any deviation on a detour.
 constexpr double kCollision = 1e4;
-/// Cost per step of a car that touches an obstacle; falls to 0 at a gap of the margin.
+/// Cost per step of a car that touches an obstacle; the cost falls to 0 as the gap grows to the
+/// margin.
 constexpr double kCloseness = 20.0;
 /// Cost of a lateral acceleration of twice the grip.
 constexpr double kBeyondGrip = 1e3;
@@ -201,10 +203,10 @@ void RollOuts::Advance(int k, double rate, RolledCar& car) const {
   Project(car);
 }
 
-/// Solves the implicit Euler step of the lateral motion for the secant stiffness of each axle,
+/// Solves the implicit Euler step of the lateral motion for the secant stiffness of each axle. The
+/// equations are multiplied by |u|, so that they also hold at rest:
 ///   m (v' + u r) = F_f + F_r,  I r' = l_f F_f - l_r F_r,
 ///   F_f = S_f (u tan(delta) - v - l_f r)/|u|,  F_r = -S_r (v - l_r r)/|u|,
-/// multiplied by |u| so that it also holds at rest.
 void RollOuts::Slide(const Stage& stage, double speed, RolledCar& car) const {
   const double h = settings_.step;
   const double l_f = vehicle_.cg_to_front();

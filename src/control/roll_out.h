@@ -29,7 +29,7 @@ struct RolledCar {
   double y = 0.0;
   double yaw = 0.0;                   ///< Heading [rad].
   double lateral_speed = 0.0;         ///< Lateral speed of the center of gravity [m/s].
-  double yaw_rate = 0.0;              ///< [rad/s]
+  double yaw_rate = 0.0;              ///< Yaw rate [rad/s].
   double lateral_acceleration = 0.0;  ///< Lateral acceleration in the last step [m/s^2].
   double actuator = 0.0;              ///< Steering angle of the actuator [rad].
   double wheels = 0.0;                ///< Steering angle of the wheels [rad].
@@ -38,7 +38,7 @@ struct RolledCar {
   double heading_error = 0.0;         ///< Heading error psi relative to the path [rad].
 };
 
-/// Simulates a car along a path, and sums up the cost. Symbols: see MppiOptions.
+/// Simulates a car along a path, and sums up the cost. The symbols are those of MppiOptions.
 class RollOuts {
  public:
   /// Prepares the roll-outs of a control period. `tracking` is the deviation of the car from its
@@ -48,7 +48,8 @@ class RollOuts {
                const Surroundings* surroundings, const RollOutSettings& settings);
 
   /// Returns the cost of a motion. `rate_of(k, car)` is the wanted steering rate [rad/s] in the
-  /// step k, counted from 0. Cost clamps this rate to the car's largest steering rate.
+  /// step k, counted from 0. The function Cost clamps the wanted rate to the car's largest steering
+  /// rate.
   template <typename RateOf>
   [[nodiscard]] double Cost(const RateOf& rate_of) const {
     RolledCar car = start_;
@@ -101,7 +102,7 @@ class RollOuts {
   void Advance(int k, double rate, RolledCar& car) const;
   void Slide(const Stage& stage, double speed, RolledCar& car) const;
   void Project(RolledCar& car) const;
-  /// Returns the place of a station among the nodes.
+  /// Returns the fractional index of the node at a station.
   [[nodiscard]] double PlaceOf(double station) const;
   [[nodiscard]] SteadyTurn SteadyAt(double station) const;
   /// Returns the deviation z of the car from the steady turn on the path.
@@ -120,11 +121,11 @@ class RollOuts {
   Regulator regulator_;
   double largest_offset_ = 0.0;  // Offset beyond which the remaining cost grows linearly [m].
   int direction_ = 1;
-  bool slips_ = false;  // Whether the car has tyres.
+  bool slips_ = false;  // Whether the car has tyre coefficients.
   bool has_edges_ = false;
   double rate_limit_ = 0.0;
   double lag_decay_ = 0.0;  // Factor by which the lag of the wheels decays in a step.
-  double lag_ = 0.0;        // [s]
+  double lag_ = 0.0;        // Lag of the wheels [s].
   double grip_ = 0.0;       // Lateral acceleration that is free of cost [m/s^2].
   double first_ = 0.0;      // Station of the first node [m].
   double spacing_ = 1.0;    // Distance between nodes [m].

@@ -12,7 +12,8 @@ namespace {
 double MeanAcceleration(const SpeedProfile& profile, double s, double speed, double period,
                         double at_middle) {
   double acceleration = at_middle;
-  // Each iteration divides the error of the mean acceleration by about speed/(acceleration period).
+  // Each iteration divides the error of the mean acceleration by about speed/(acceleration *
+  // period).
   constexpr int kIterations = 3;
   for (int i = 0; i < kIterations; ++i) {
     const double next = s + period * (speed + 0.5 * period * acceleration);
@@ -63,7 +64,8 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   }
   const bool ends = stops && from + ahead * period >= end;
   const double at_middle = profile.AccelerationAt(middle);
-  // A car before the start does not move along the profile, so its speed determines no mean.
+  // A car before the start does not move along the profile, so its speed does not determine the
+  // profile's mean acceleration.
   const double feed_forward =
       ends || from > s ? at_middle : MeanAcceleration(profile, from, ahead, period, at_middle);
   const double error = profile.SpeedAt(s) - speed;

@@ -81,7 +81,7 @@ std::optional<FrontSlip> LargestSlipOfFront(const VehicleParams& vehicle, double
   if (!(speed > 0.0) || !HasTyres(vehicle) || axles.size() != 2 || !std::isfinite(sliding)) {
     return std::nullopt;
   }
-  // The brush model slides at q = 1 (brush_axle.h).
+  // In the brush model, an axle slides at the normalized slip q = 1 (brush_axle.h).
   const double force = 3.0 * vehicle.mass * sliding;
   const double front = force * axles[0].weight / vehicle.cornering_stiffness_front;
   const double rear = force * axles[1].weight / vehicle.cornering_stiffness_rear;

@@ -3,7 +3,7 @@
 #include "trackbed/control/steering_controller.h"
 
 /// Limits of the steering angle by the grip of the tyres and by roll-over. WithActuatorModel
-/// (actuator_model.h) applies them to every controller with feedback.
+/// (actuator_model.h) applies the steering limits to every controller with feedback.
 namespace trackbed {
 
 /// Returns the lateral acceleration [m/s^2] at which the car slides or its inner wheels lift, on a
@@ -22,19 +22,20 @@ double SteeringAtGrip(const VehicleParams& vehicle, double speed);
 /// Returns the largest steering angle [rad] that a control law commands at `speed`, even in a step:
 /// the steering limit, or the angle of the steady turn with the lateral acceleration a, whichever
 /// is less. Beyond this angle, the tyres slide without more lateral force, or a tall car rolls
-/// over.
-///   a = min(mu_y g,  c g b/(2 h) + (1 - c) a_0),  c = 0.65
-/// A step from a_0 to a makes the car lean as in a steady turn with a + (1/c - 1) (a - a_0), which
-/// must not exceed g b/(2 h). `held` is a_0 >= 0 [m/s^2]: the lateral acceleration of the steady
-/// turn, to the same side, that the car already drives. The angle of the turn is the largest of
-/// three angles: without slip, with linear tyres, and with the brush model. At the grip limit, an
-/// understeering car needs more steering than with linear tyres. An oversteering car needs more
-/// steering to enter the turn than to stay in the turn.
+/// over. The acceleration a follows from the grip and from roll-over:
+///   a = min(mu_y g, c g b/(2 h) + (1 - c) a_0), c = 0.65.
+/// A step from the lateral acceleration a_0 to a makes the car lean as in a steady turn with a +
+/// (1/c - 1) (a - a_0). This equivalent lateral acceleration must not exceed the roll-over limit g
+/// b/(2 h). The argument `held` is a_0 >= 0 [m/s^2]: the lateral acceleration of the steady turn,
+/// to the same side, that the car already drives. The steering angle of the steady turn is the
+/// largest of three angles: without slip, with linear tyres, and with the brush model. At the grip
+/// limit, an understeering car needs more steering than with linear tyres. An oversteering car
+/// needs more steering to enter the turn than to stay in the turn.
 double SteeringInAStep(const VehicleParams& vehicle, double speed, double held = 0.0);
 
 /// Returns the largest steering angle [rad] with which a car may turn round at `speed` [m/s]: the
-/// steering limit, or the angle of the steady turn in which the car uses half of its lateral grip.
-/// The fraction is kReturnGripShare of LateralGrip. A car of unknown grip uses its steering limit.
+/// steering limit, or the angle of the steady turn with the fraction kReturnGripShare of
+/// LateralGrip, whichever is less. A car of unknown grip uses its steering limit.
 double TurnRoundLimit(const VehicleParams& vehicle, double speed);
 
 /// Range of steering angles [rad] that a control law may command.
@@ -62,9 +63,9 @@ struct SteeringRange {
 /// brush model.
 ///
 /// `curvature` is the curvature of the path at the car [1/m]. The lateral acceleration a_0 of
-/// SteeringInAStep is the smaller of two: the car's present one, and that of a car on the path. If
-/// both have opposite signs, a_0 is 0. A turn that only the path or only the car has begun is
-/// therefore not a held turn.
+/// SteeringInAStep is the smaller of two: the car's present lateral acceleration, and that of a car
+/// on the path. If the accelerations of the car and of the path have opposite signs, a_0 is 0.
+/// Therefore, a turn that only the path or only the car has begun does not count as held.
 SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& state,
                               double curvature = 0.0);
 

@@ -11,7 +11,7 @@
 namespace trackbed {
 std::optional<double> TurnRound::Steer(const ControlInput& input, double u) {
   const Path& path = input.reference.path;
-  // The angle from the direction of the path to P is u + psi.
+  // The angle from the direction of the path to the target point P is u + psi.
   if (std::cos(u) >= 0.0 ||
       std::cos(u + AngleDifference(input.state.pose.yaw, path.At(input.station).pose.yaw)) < 0.0) {
     side_ = 0.0;

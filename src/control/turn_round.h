@@ -9,16 +9,16 @@ namespace trackbed {
 /// Makes a car turn round if its target lies behind it.
 ///
 /// Laws such as pure pursuit steer by the sine of the angle u from the direction of motion to the
-/// target point P. The sine decreases for |u| > 90 degrees. If the target is exactly behind the
-/// car, the sine is 0, so the car would drive straight on, away from its path. Laws that use the
-/// heading error psi saturate if the target is behind the car. The sign of psi jumps at 180
+/// target point P. The sine of u decreases for |u| > 90 degrees. If the target is exactly behind
+/// the car, the sine is 0, so the car would drive straight on, away from its path. Laws that use
+/// the heading error psi saturate if the target is behind the car. The sign of psi jumps at 180
 /// degrees, so measurement noise would turn the wheels back and forth. TurnRound replaces these
 /// laws while P is behind the car, but farther along the path than the car:
 ///   |u| > 90 degrees  and  (P - O) . t >= 0,
-/// with O the rear axle and t the direction of the path at the car's station. The second condition
-/// excludes a car on its path ahead of a hairpin, while P lies behind the car on the returning leg.
-/// The car then steers to the side of P with the angle TurnRoundLimit, and keeps this side until P
-/// is no longer behind.
+/// with O the rear axle and t the direction of the path at the car's station. The condition on (P -
+/// O) . t excludes a car on its path ahead of a hairpin, while P lies behind the car on the
+/// returning leg. While it turns round, the car steers to the side of P with the angle
+/// TurnRoundLimit, until P is no longer behind the car.
 class TurnRound {
  public:
   /// Returns the commanded steering angle [rad] if the car must turn round, otherwise nullopt. `u`

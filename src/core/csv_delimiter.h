@@ -7,7 +7,7 @@
 namespace trackbed {
 
 /// Replaces runs of spaces and tabs by a tab, and removes spaces and tabs at the ends of lines. The
-/// text may be passed in parts.
+/// text may be passed to Replace in parts.
 class BlankRuns {
  public:
   std::string Replace(std::string_view part);

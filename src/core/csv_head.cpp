@@ -14,7 +14,8 @@
 // 1. Splits the first lines of the file at the delimiter, outside of quotes.
 // 2. Finds the first row of numbers, and the lines directly above it that have the same number of
 //    cells.
-// 3. The topmost of these lines has the names; the lines between are units.
+// 3. Of the lines with as many cells as the first row of numbers, the topmost line has the names;
+//    the lines between the names and the numbers are units.
 namespace trackbed {
 namespace {
 
@@ -89,7 +90,7 @@ std::size_t Filled(const Line& line) {
                                                 [](const auto& c) { return !c.empty(); }));
 }
 
-/// Number of cells up to the last one that is not empty.
+/// Returns the number of cells of a line up to the last cell that is not empty.
 std::size_t Width(const Line& line) {
   const auto last = std::find_if(line.cells.rbegin(), line.cells.rend(),
                                  [](const std::string& cell) { return !cell.empty(); });

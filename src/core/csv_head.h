@@ -11,7 +11,7 @@ namespace trackbed {
 /// after the names.
 struct CsvHead {
   char delimiter = ',';
-  int preamble_lines = 0;  ///< Number of lines before the names.
+  int preamble_lines = 0;  ///< Number of lines before the column names.
   int first_row = 0;       ///< Line of the first row of numbers; 0 without lines of units.
   std::vector<std::string> units{};  ///< Unit of each column; "": no unit.
   bool has_decimal_commas = false;   ///< Whether numbers have decimal commas.
@@ -20,11 +20,12 @@ struct CsvHead {
 
 /// Finds the head of a table in the first 64 KiB of the file. Of the lines directly above the first
 /// row of numbers that have the same number of cells as this row, the topmost line has the names.
-/// Lines above the names are a preamble only if the first line has another number of cells. Lines
-/// between the names and the numbers are units if one of their cells is a unit and none is a
-/// number. Tries `delimiter` first, then other delimiters, and takes the first one with which the
-/// file has a preamble or units. If none of them does, takes `delimiter`. In VBO files, finds the
-/// table by the names of sections (FindVboHead).
+/// Lines above the names are a preamble only if the first line of the file has another number of
+/// cells. Lines between the names and the numbers are units if one of their cells is a unit and
+/// none is a number. Tries `delimiter` first, then other delimiters, and takes the first one with
+/// which the file has a preamble or units. If no delimiter leads to a preamble or units,
+/// FindCsvHead takes `delimiter`. In VBO files, finds the table by the names of sections
+/// (FindVboHead).
 CsvHead FindCsvHead(const std::filesystem::path& file, char delimiter);
 
 /// Appends the unit to the name of a column, as in "Speed [km/h]", unless the name already has a

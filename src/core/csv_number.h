@@ -12,7 +12,7 @@ namespace trackbed {
 bool HasDecimalCommas(const std::vector<std::vector<std::string>>& rows);
 
 /// Rewrites the number in a cell so that CellNumber reads it: removes the sign +, and replaces a
-/// decimal comma by a point if the table has decimal commas. Does not change other cells.
+/// decimal comma by a point if the table has decimal commas. Cells without a number stay unchanged.
 void NormalizeNumber(std::string& cell, bool has_decimal_commas);
 
 }  // namespace trackbed

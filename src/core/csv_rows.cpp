@@ -22,7 +22,7 @@
 
 // Reads rows of CSV files with libcsv, within limits of cells, columns and cell lengths.
 // 1. CommentFilter removes lines that begin with '#', before libcsv interprets quotes.
-// 2. RowReader collects the cells of a row, and calls the caller for each row with its line.
+// 2. RowReader collects the cells of a row, and passes each row with its line to the caller.
 // 3. NamedRows skips a preamble (src/core/csv_head.h), and finds the names of columns in the
 // header, or in a comment before rows of numbers. NamedRows rewrites numbers such as "+1" and
 // "0,5", and the cells of VBO files (src/core/vbo.h).
@@ -95,7 +95,7 @@ struct RowReader {
 /// parts that end at the end of a line or of the block.
 class CommentFilter {
  public:
-  /// Also removes the first `preamble` lines.
+  /// The filter also removes the first `preamble` lines of the file.
   CommentFilter(RowReader& reader, const csv_parser& parser, int preamble)
       : reader_(reader), parser_(parser), preamble_(preamble) {}
 

@@ -30,8 +30,8 @@ struct ColumnSelection {
 struct NumberReader {
   std::string file;
   ColumnSelection selection;
-  // Receives the rows, if the file has all needed columns. If `take` is empty, the rows are added
-  // to the table.
+  // Function that receives the rows, if the file has all needed columns. If `take` is empty, the
+  // rows are added to the table.
   std::function<void(const std::vector<double>& numbers, int line)> take{};
   std::optional<Table> table{};
   std::vector<int> lines{};           // Line of the file from which each row of the table was read.
@@ -42,12 +42,12 @@ struct NumberReader {
   bool has_needed = true;             // Whether the file has all needed columns.
   ProblemList problems{};
 
-  /// Adds a problem of the current line.
+  /// Records an error message about the current line.
   void AddError(std::string key, std::string message);
 
-  /// Adds a problem of a cell. The error message contains the number of the cell in its row,
-  /// counted from 1, and the name of the column, because libcsv does not report the position of
-  /// characters.
+  /// Records an error message about a cell. The error message contains the number of the cell in
+  /// its row, counted from 1, and the name of the column, because libcsv does not report the
+  /// position of characters.
   void AddCellError(std::size_t cell, std::string message);
 
   /// Reads the names of the columns from the first row, and the numbers from all other rows.

@@ -19,7 +19,7 @@ const char* KindOfFile(mode_t mode);
 bool IsDevice(const std::filesystem::path& file);
 
 /// Throws RunError if the file is a link whose target is absent. Renaming a new file to the link's
-/// name would replace the link, and a link may lead anywhere.
+/// name would replace the link, and creating the absent target could write anywhere.
 void RequireTarget(const std::filesystem::path& file);
 
 /// Throws RunError if a temporary file cannot replace the file: if the file is a folder, a device

@@ -16,7 +16,8 @@ struct List {
   std::multiset<fs::path> paths;
 };
 
-/// The list is never destroyed, because RemoveTemporariesForEver may run while the process exits.
+/// The list of temporary files is never destroyed, because RemoveTemporariesForEver may run while
+/// the process exits.
 List& TheList() {
   static List* const list = new List;
   return *list;

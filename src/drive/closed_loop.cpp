@@ -129,8 +129,8 @@ std::optional<Projection> LoopCore::FollowPlan(const VehicleState& state, bool a
 }
 
 bool LoopCore::Rests(const VehicleState& state) {
-  // Within this duration [s], a car that starts from rest with more than 0.02 m/s^2 moves farther
-  // than 1 cm, the limit of Standstill.
+  // Within the duration kMinRestDuration, a car that starts from rest with more than 0.02 m/s^2
+  // moves farther than 1 cm, the limit of Standstill.
   constexpr double kMinRestDuration = 1.0;  // Duration for which a car must rest [s].
   const bool steers = sequencer_.stationary_steer().InProgress();
   const std::optional<double> since = standstill_.Update(state, !steers);

@@ -40,8 +40,8 @@ class Progress {
 /// SteppedLoop. The plant and the configuration must outlive the LoopCore, which refers to them.
 class LoopCore {
  public:
-  /// Begins the first control period. `controller` only provides the columns and values of the log.
-  /// If `keeps_rows` is false, the log contains only the last row.
+  /// Begins the first control period. The argument `controller` only provides columns and values
+  /// for the log. If `keeps_rows` is false, the log contains only the last row.
   LoopCore(Plant& plant, const SteeringController& controller, const FeasiblePlan& plan,
            const LoopConfig& config, bool keeps_rows = true);
   /// Copies a loop; the copy steps `plant`, which must be in the same state as the plant of
@@ -58,12 +58,13 @@ class LoopCore {
   /// Returns the row of the log that begins the control period; the row has the last command.
   [[nodiscard]] const LogRow& row() const { return row_; }
   [[nodiscard]] const Plan& plan() const { return sequencer_.plan(); }
-  /// Returns the input of the controller for the control period. The input refers to this loop.
+  /// Returns the input of the controller for the control period. The returned input refers to data
+  /// of this loop.
   [[nodiscard]] ControlInput Input() const;
 
   /// Simulates the control period with the commands of `controller`, then begins the next period.
-  /// If `follow_schedule`, LoopConfig::follow_schedule applies; otherwise, the controller steers.
-  /// The run must not have ended.
+  /// If `follow_schedule` is set, the car steers by the schedule LoopConfig::follow_schedule;
+  /// otherwise, the controller steers. Do not call Step after the end of the run.
   void Step(SteeringController& controller, bool follow_schedule);
 
   /// Moves the log out of this loop, whose run must have ended.
@@ -85,8 +86,8 @@ class LoopCore {
   /// Returns the plant's state at the beginning of the control period.
   [[nodiscard]] VehicleState Observe() const;
 
-  /// Switches to a new plan or to the next segment if one is due. Returns the car's projection onto
-  /// the plan, or none without a path.
+  /// Switches to a new plan or to the next segment if a switch is due. Returns the car's projection
+  /// onto the plan, or none without a path.
   std::optional<Projection> FollowPlan(const VehicleState& state, bool at_rest);
 
   /// Returns whether the car is at rest and will stay at rest. A car at standstill counts as at

@@ -36,7 +36,7 @@ class LoopSurroundings final : public Surroundings {
   VehicleState state_;
   const Plan* plan_ = nullptr;
   // Computed on demand.
-  mutable bool sees_ = false;               // Whether `seen_` is computed for this period.
+  mutable bool sees_ = false;               // Whether the obstacles are collected for this period.
   mutable std::vector<SeenObstacle> seen_;  // Walls of the map, followed by known obstacles.
   mutable std::optional<PathEdges> edges_;  // Edges beside the present path.
 };

@@ -101,9 +101,9 @@ void NoteMissedWaypoint(FeasiblePlan& plan, const VehicleParams& vehicle) {
   }
 }
 
-/// Adds a note to the plan if the path takes a way from one waypoint to the next that is longer
-/// than the straight line by a whole circle of the car's smallest turning radius or more. Adds no
-/// note if there are obstacles, around which long ways are common.
+/// Adds a note to the plan if the path makes a long detour between two successive waypoints. A long
+/// detour exceeds the straight line by at least a full circle with the car's smallest turning
+/// radius. Adds no note if there are obstacles, around which detours are common.
 void NoteLongLeg(FeasiblePlan& plan, const VehicleParams& vehicle, const Scenario& scenario,
                  const std::vector<OrientedBox>& known) {
   if (vehicle.kind != VehicleKind::kSteered || !known.empty() || !plan->blocked.empty() ||
@@ -134,8 +134,9 @@ void NoteTimeLimit(FeasiblePlan& plan, double time_limit) {
   }
 }
 
-/// Returns the path of a car that turns round to the shorter side until it faces along `to`. The
-/// wheels turn from straight ahead to full lock at their full rate.
+/// Returns the path of a car that turns round to the shorter side until it has the heading of the
+/// path point `to`. On this path, the wheels turn from straight ahead to full lock at their full
+/// rate.
 Path TurnRoundPath(const VehicleParams& vehicle, const StartState& start, const PathPoint& to,
                    double speed) {
   const double turn = AngleDifference(to.pose.yaw, start.pose.yaw);
@@ -152,7 +153,7 @@ Path TurnRoundPath(const VehicleParams& vehicle, const StartState& start, const 
   return {start.pose, segments};
 }
 
-/// Adds a note to the plan if the car starts with its back to the path: where the car turns round,
+/// If the car starts with its back to the path, adds a note to the plan: where the car turns round,
 /// and whether an obstacle is in its way.
 void NoteTurnRound(FeasiblePlan& plan, const VehicleParams& vehicle, const StartState& start,
                    const SpeedControlOptions& speed, const std::vector<OrientedBox>& known) {

@@ -18,7 +18,8 @@ namespace {
 constexpr long kRemedySamples = kMaxSamples / 20;
 constexpr int kRemedyPoses = 20'000;
 
-/// Returns whether a car with another start, or on another kind of path, may have enough room.
+/// Returns whether planning failed for lack of room, so that another start or another kind of path
+/// may help.
 bool LacksRoom(PlanStatus status) {
   return status == PlanStatus::kNoPath || status == PlanStatus::kTurnTooTight ||
          status == PlanStatus::kCollides || status == PlanStatus::kBudgetUsedUp ||
@@ -31,8 +32,8 @@ bool Succeeds(const PlanRequest& request, const PlannerOptions& planner) {
   return plan.ok() && plan->partial.empty();
 }
 
-/// Returns the options of `plan: {method: hybrid_astar}` for a car, with a smaller budget. The
-/// lengths follow the size of small cars, as in scenarios.
+/// Returns the options of `plan: {method: hybrid_astar}` for a car, with a smaller budget. For
+/// small cars, the lengths in the options are scaled with the car's length, as in scenarios.
 HybridAStarOptions HybridFor(const VehicleParams& vehicle) {
   HybridAStarOptions options;
   const double scale = std::min(1.0, vehicle.length / kFullSizeCar);
@@ -45,7 +46,7 @@ HybridAStarOptions HybridFor(const VehicleParams& vehicle) {
   return options;
 }
 
-/// Returns the first of these changes that leads to a path: a start at rest, the planner
+/// Returns the first of the following changes that leads to a path: a start at rest, the planner
 /// `hybrid_astar`, or both. Returns an empty text if no change leads to a path.
 std::string MoreRoom(const PlanRequest& request, const PlanSpec& spec) {
   const HybridAStarOptions options = HybridFor(request.vehicle);

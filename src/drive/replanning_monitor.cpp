@@ -12,8 +12,8 @@
 //   1. Register the obstacles that become known.
 //   2. While the car is on the route, call the avoider, if configured, for obstacles that block the
 //      plan in a turn. The avoider is called only after its configured delay has passed.
-//   3. If the avoider is not called, replan, if configured, at multiples of the replanning period.
-//      Replan at once if a new obstacle is within stopping distance.
+//   3. If the avoider is not called and replanning is configured, replan at multiples of the
+//      replanning period. Replan at once if a new obstacle is within stopping distance.
 namespace trackbed {
 namespace {
 

@@ -71,7 +71,7 @@ class ReplanningMonitor {
   [[nodiscard]] RoadConditions Road() const;
 
   Options options_;
-  std::vector<Knowledge> knowledge_;  // State of knowledge about each obstacle of the world.
+  std::vector<Knowledge> knowledge_;  // One element for each obstacle of the world.
   Driving driving_;
   long periods_ = 0;      // Number of replanning periods so far.
   bool gave_up_ = false;  // Whether the last replanning started at rest and found no motion.

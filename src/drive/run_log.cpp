@@ -177,7 +177,7 @@ std::function<std::string()> CsvParts(const RunLog& log) {
       part.AddRow(CellsOf(log, groups, log.rows[next]));
     }
     const std::string text = part.ToCsv();
-    // Only the first part has the line of names.
+    // Only the first part of the CSV text has the line of column names.
     return std::exchange(begun, true) ? text.substr(text.find('\n') + 1) : text;
   };
 }

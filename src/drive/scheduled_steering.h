@@ -21,9 +21,9 @@ struct MotionAlong {
 ///
 /// An actuator with a rate limit turns at its full rate until it reaches the command, and then
 /// waits for the next step. If the schedule is slower than the actuator's full rate, the actuator
-/// is therefore, on average, ahead of the schedule by half of the waiting time. To compensate, the
-/// schedule is evaluated half of the waiting time before the end of the step. If the schedule has
-/// the actuator's full rate, the waiting time is zero.
+/// is therefore, on average, ahead of the schedule by half of the waiting time. To compensate for
+/// this lead, the schedule is evaluated half of the waiting time before the end of the step. If the
+/// schedule has the actuator's full rate, the waiting time is zero.
 inline double ScheduledSteering(const SteeringSchedule& schedule, const MotionAlong& motion,
                                 double timestep, double rate) {
   const auto after = [&](double time) {

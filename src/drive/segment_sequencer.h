@@ -43,8 +43,8 @@ class StationarySteer {
 
 /// Tracks the present segment and the car's position on it.
 ///
-/// In this class, a station is the distance along the present segment. A station of the log also
-/// includes the lengths of all segments and plans that the car drove before.
+/// In SegmentSequencer, a station is the distance along the present segment. A station of the log
+/// also includes the lengths of all segments and plans that the car drove before.
 class SegmentSequencer {
  public:
   struct Options {
@@ -105,7 +105,7 @@ class SegmentSequencer {
 
  private:
   void Begin(Plan plan, double offset, const VehicleState& state);
-  /// Returns a station; at a standstill at least 0.
+  /// Returns `station`, but at least 0 while the car steers at standstill.
   [[nodiscard]] double OnSegment(double station) const;
   /// Keeps the car at standstill for `wait` [s] from `time` [s] on, and until its wheels have
   /// turned.

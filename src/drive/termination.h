@@ -29,11 +29,11 @@ struct LoopStatus {
   std::optional<double> contact_time{};  ///< Time of the first contact with an obstacle [s].
 };
 
-/// Ends a run if the simulation diverged or was interrupted. Also ends the run if the car sinks
-/// into the ground, is airborne, is stuck or rolled over, or if its trailer jackknifes or rolls
-/// over. The run also ends when its duration or its time limit has passed, and one second after a
-/// collision. A run along a path also ends when the car is at rest. The run of a car that coasts
-/// through a course with gates ends when the whole car has passed the last gate.
+/// Ends a run if the simulation diverged or was interrupted. Termination also ends the run if the
+/// car sinks into the ground, is airborne, is stuck or rolled over, or if its trailer jackknifes or
+/// rolls over. The run also ends when its duration or its time limit has passed, and one second
+/// after a collision. A run along a path also ends when the car is at rest. The run of a car that
+/// coasts through a course with gates ends when the whole car has passed the last gate.
 class Termination {
  public:
   /// `plan` is the initial plan of the run.

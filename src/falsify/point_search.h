@@ -16,7 +16,8 @@ class PointSearch {
   /// Returns the next points to run; returns no points at the end of the search.
   virtual std::vector<UnitPoint> Ask() = 0;
   /// Passes to the search the objective values, which the search minimizes, at the points that the
-  /// last call of Ask returned. The list contains none for a point whose run has no objective.
+  /// last call of Ask returned. The list `values` contains none for a point whose run has no
+  /// objective.
   virtual void Tell(const std::vector<std::optional<double>>& values) = 0;
 };
 

@@ -41,7 +41,7 @@ Names NamesIn(const link_map& library) {
   const char* texts = nullptr;
   for (const ElfW(Dyn)* entry = library.l_ld; entry->d_tag != DT_NULL; ++entry) {
     if (entry->d_tag == DT_STRTAB) {
-      // The loader has added the base address of the library.
+      // The dynamic loader has already added the base address of the library to this pointer.
       texts = reinterpret_cast<const char*>(entry->d_un.d_ptr);
     }
   }
@@ -65,7 +65,8 @@ std::map<std::string, const link_map*> LoadedLibraries(const link_map& one) {
   }
   std::map<std::string, const link_map*> loaded;
   for (const link_map* library = first; library != nullptr; library = library->l_next) {
-    // The vDSO has no file, and the addresses in its dynamic section have no base address.
+    // Skip the vDSO: it has no file, and its dynamic section has addresses without the base
+    // address.
     if (*library->l_name != '\0' && !IsOfRuntime(fs::path(library->l_name).filename().string())) {
       loaded.emplace(NamesIn(*library).own, library);
     }

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 /// Types of the C interface of FMI 2.0 (fmi-standard.org, version 2.0.4). All types have the names
-/// of the standard.
+/// of the FMI standard.
 extern "C" {
 
 using fmi2Component = void*;

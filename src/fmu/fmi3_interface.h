@@ -4,7 +4,7 @@
 #include <cstdint>
 
 /// Types of the C interface of FMI 3.0 (fmi-standard.org/docs/3.0.2). All types have the names of
-/// the standard.
+/// the FMI standard.
 extern "C" {
 
 using fmi3Instance = void*;
@@ -47,7 +47,7 @@ using fmi3ClockUpdateCallback = void (*)(fmi3InstanceEnvironment);
 using fmi3LockPreemptionCallback = void (*)();
 using fmi3UnlockPreemptionCallback = void (*)();
 
-/// Types of the functions that the exporter calls.
+/// Types of the FMI functions that the exporter calls.
 using fmi3InstantiateCoSimulationTYPE = fmi3Instance(
     fmi3String instance_name, fmi3String token, fmi3String resource_path, fmi3Boolean visible,
     fmi3Boolean logging, fmi3Boolean event_mode, fmi3Boolean early_return,

@@ -34,8 +34,8 @@ std::set<std::string> ListedNames(const fs::path& file) {
   return names;
 }
 
-/// Returns the packages that own the files, by the soname of the file. Leaves out files that no
-/// package owns.
+/// Returns the packages that own the files, keyed by the sonames of the files. Leaves out files
+/// that no package owns.
 std::map<std::string, std::string> Owners(const std::map<std::string, fs::path>& carried,
                                           const fs::path& root) {
   std::map<std::string, std::string> soname_of;

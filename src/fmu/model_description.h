@@ -15,7 +15,7 @@ inline constexpr const char* kModelIdentifier = "trackbed";
 struct Description {
   std::string name;
   std::string token;            ///< Text that identifies the resources of the FMU.
-  double control_period = 0.0;  ///< [s]
+  double control_period = 0.0;  ///< Control period [s].
 };
 
 /// Returns modelDescription.xml, as FMI 2.0.4 or 3.0.2 defines it.

@@ -34,11 +34,11 @@ enum Reference : std::uint32_t {
   kFirstParameter = 6,
 };
 
-/// Name of the scenario in the folder `resources` of an FMU.
+/// File name of the scenario in the folder `resources` of an FMU.
 inline constexpr const char* kScenarioYaml = "scenario.yaml";
 
-/// Value of the output `status` while the run has not ended. After the end, the value is 1 plus the
-/// number of the DriveStatus.
+/// Value of the output `status` while the run has not ended. After the end of the run, the value of
+/// `status` is 1 plus the number of the DriveStatus.
 inline constexpr int kRunning = 0;
 /// Returns the names of the values of the output `status`, from kRunning on.
 std::vector<std::string> StatusNames();

@@ -16,7 +16,7 @@
 // The bank of a road as parameters of an identification: its values at evenly spaced knots of a
 // spline over the road. The road is the given track, or the path of the first record with edges
 // that all records stay within. An open road is mirrored at its end, so that it has a closed
-// spline. BankedGround makes the terrain for each set of values.
+// spline. BankedGround makes the terrain for each set of bank values.
 
 namespace trackbed {
 namespace {
@@ -27,7 +27,7 @@ constexpr std::size_t kMostParameters = 40;
 
 /// Returns the index of the sample that ends the first lap of a drive. The lap ends at the sample
 /// that is nearest to the sample `first`, when the car has returned from afar and heads in the same
-/// direction. Returns nullopt if the car does not return.
+/// direction. Returns nullopt if the car does not return to the place of `first`.
 std::optional<std::size_t> EndOfLap(const std::vector<RecordedSample>& samples, std::size_t first) {
   const Pose2 start = samples[first].pose;
   const auto away = [&](std::size_t i) {
@@ -147,7 +147,7 @@ CenterPoints TrackOfRecords(const Identification& study) {
   double right = 0.0;
   for (const auto* scenarios : {&study.fit_scenarios, &study.held_out_scenarios}) {
     for (const Scenario& scenario : *scenarios) {
-      constexpr double kSpacing = 1.0;  // between the samples that are compared with the track [m]
+      constexpr double kSpacing = 1.0;  // Spacing of the samples compared with the track [m].
       std::optional<Vec2> before;
       for (const RecordedSample& sample : scenario.record->data->samples) {
         const Vec2 at = sample.pose.position();
@@ -171,7 +171,7 @@ CenterPoints TrackOfRecords(const Identification& study) {
     }
   }
   const double half = 0.5 * LoadCar(first).params().width;
-  constexpr double kFold = 0.9;  // ratio of the ground's width to the smallest radius
+  constexpr double kFold = 0.9;  // Largest ratio of the ground's width to the smallest radius.
   const double widest = kFold * SmallestRadius(line);
   for (TrackPoint& point : line.points) {
     point.width_left = std::min(left + half, widest);

@@ -20,15 +20,17 @@ bool IsBankParameter(const std::string& name);
 /// continued as an even function beyond both ends, so its slope is zero at the ends.
 class BankModel {
  public:
-  /// Makes the track of the study: that of `bank.track`, or the path of the first fitted record,
-  /// with edges that all records stay within. The path of a record is its first lap if the record
-  /// returns to its start, else the whole open path. The study must have `bank`. Throws InputError
-  /// if a record leaves the path of an open road, or if the track has more knots than the study has
-  /// room for. The constructor also throws InputError in the same cases as BankedGround.
+  /// Makes the track of the study: the track of the key `bank.track`, or the path of the first
+  /// fitted record, with edges that all records stay within. The path of a record is its first lap
+  /// if the record returns to its start, else the whole open path. The study must have the section
+  /// `bank`. Throws InputError if a record leaves the path of an open road, or if the track has
+  /// more knots than the study has room for. The constructor also throws InputError in the same
+  /// cases as BankedGround.
   explicit BankModel(const Identification& study);
 
-  /// Returns the parameters, bank[0] at the start line first [rad]. Before the fit, they are
-  /// independent with a mean of 0, so the spacing of the knots determines how smooth the bank is.
+  /// Returns the parameters, bank[0] at the start line first [rad]. Before the fit, the bank
+  /// parameters are independent with a mean of 0, so the spacing of the knots determines how smooth
+  /// the bank is.
   [[nodiscard]] std::vector<IdentifiedParameter> Parameters() const;
 
   /// Returns the track with the bank of the given parameters.

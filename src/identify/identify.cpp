@@ -67,7 +67,7 @@ Identification WithSteeringOffset(Identification study) {
       LoadCar(scenarios.front()).params().kind != VehicleKind::kSteered) {
     return study;
   }
-  constexpr double kLargest = 0.1;  // Bound of the offset [rad].
+  constexpr double kLargest = 0.1;  // Bound of the steering offset [rad].
   study.parameters.push_back({.name = kSteeringOffset, .from = -kLargest, .to = kLargest});
   return study;
 }
@@ -82,12 +82,12 @@ Identification WithBank(Identification study, const std::optional<BankModel>& ba
   return study;
 }
 
-/// Returns the model of the bank; nullopt if the study does not estimate it.
+/// Returns the model of the track's bank; nullopt if the study does not estimate the bank.
 std::optional<BankModel> BankOf(const Identification& study) {
   return study.bank ? std::optional<BankModel>(std::in_place, study) : std::nullopt;
 }
 
-/// Returns notes on fitted records whose signals do not have the clock of the pose.
+/// Returns notes on fitted records whose signals and pose come from different clocks.
 std::vector<std::string> NotesOf(const std::vector<Scenario>& scenarios) {
   std::vector<std::string> notes;
   for (const Scenario& scenario : scenarios) {
@@ -209,9 +209,9 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
   }
 }
 
-/// Estimates the parameters. Fix parameters that the records do not determine, one after the other,
-/// until the records determine all free parameters. The parameter `added`, if any, is fixed before
-/// all others.
+/// Estimates the parameters. Fixes parameters that the records do not determine, one after the
+/// other, until the records determine all free parameters. The parameter `added`, if any, is fixed
+/// before all others.
 void Estimate(Estimator& estimator, const ResidualModel& model, ProgressCounter& work,
               std::optional<std::size_t> added, IdentificationResult& result) {
   const Identification& study = result.study;

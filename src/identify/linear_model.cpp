@@ -88,8 +88,8 @@ LinearModel Linearize(const Identification& study, const ResidualModel& model,
   std::vector<std::vector<SignalResiduals>> jacobian;
   for (const std::size_t index : free) {
     jacobian.push_back(Derivative(study, model, estimate, index, counted));
-    // The derivative has fewer residuals if the car model cannot be compiled with parameter values
-    // next to the estimate; replace such a derivative.
+    // The derivative lacks residuals if the car model cannot be compiled with parameter values next
+    // to the estimate; replace such a derivative by zeros.
     if (jacobian.back().size() != residuals.size()) {
       jacobian.back() = residuals;
       for (SignalResiduals& signal : jacobian.back()) {
@@ -162,8 +162,8 @@ Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linea
   const Eigen::MatrixXd inverted =
       eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
   Eigen::MatrixXd covariance = inverted * scatter * inverted;
-  // Component of a flat direction (a direction without effect on the cost) from which the parameter
-  // of this component counts as undetermined.
+  // Smallest component of a flat direction (a direction without effect on the cost) with which the
+  // parameter of this component counts as undetermined.
   constexpr double kFlatComponent = 1e-3;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (flat[i] > kFlatComponent) {

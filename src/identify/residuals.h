@@ -28,9 +28,9 @@ struct SignalResiduals {
 class ResidualModel {
  public:
   /// The study must outlive the ResidualModel. Before each prediction window, each thread calls
-  /// `interrupted`, which returns true if the caller asks to stop.
-  /// `bank` models the bank of the study's track by some of the study's parameters; null if the
-  /// study does not estimate the bank. The BankModel must outlive the ResidualModel, too.
+  /// `interrupted`, which returns true if the caller asks to stop. The argument `bank` models the
+  /// bank of the study's track by some of the study's parameters; null if the study does not
+  /// estimate the bank. The BankModel must outlive the ResidualModel, too.
   ResidualModel(const Identification& study, const BankModel* bank, int threads,
                 std::function<bool()> interrupted = {});
 
@@ -45,7 +45,7 @@ class ResidualModel {
   /// InputError if the cars cannot be compiled.
   [[nodiscard]] std::vector<CarModel> CarsAt(std::span<const double> values) const;
   /// Returns the bank of the study's track for the given parameter values; null if the study does
-  /// not estimate it.
+  /// not estimate the bank.
   [[nodiscard]] std::shared_ptr<const BankedTrack> BankAt(std::span<const double> values) const;
 
  private:
@@ -54,9 +54,10 @@ class ResidualModel {
     double start;  // [s]
   };
 
-  /// Returns the values of the parameters that are the bank.
+  /// Returns those of the parameter values that describe the bank.
   [[nodiscard]] std::vector<double> BankOf(std::span<const double> values) const;
-  /// Returns the cars with the given parameter values on the given ground; null: on level ground.
+  /// Returns the cars with the given parameter values on the given ground; on level ground if
+  /// `terrain` is null.
   [[nodiscard]] std::vector<CarModel> CarsOn(const std::shared_ptr<const Terrain>& terrain,
                                              std::span<const double> values) const;
   [[nodiscard]] std::shared_ptr<const Terrain> TerrainAt(std::span<const double> values) const;

@@ -11,7 +11,7 @@
 #include "trackbed/core/error.h"
 
 // Minimizes functions with NLopt under bounds and inequality constraints. Methods that support
-// constraints (isres, cobyla, slsqp) receive the constraints. Other methods receive for an
+// constraints (isres, cobyla, slsqp) receive the constraints. All other methods receive for an
 // infeasible point an objective value of at least 1e100 that grows with the violation. DIRECT
 // receives infinity for an infeasible point. The class Evaluator stores the values at the last
 // point, counts evaluations and computes gradients by central differences. Evaluator also keeps the
@@ -31,8 +31,8 @@ enum class Handling {
   /// The search method only compares objective values. Infeasible points rank below all feasible
   /// points.
   kRanked,
-  /// The method receives infinity for infeasible points and estimates a value from neighboring
-  /// points.
+  /// The search method receives infinity for infeasible points and estimates a value from
+  /// neighboring points.
   kHidden,
 };
 
@@ -407,9 +407,9 @@ SearchResult Search(const SearchProblem& problem, const SearchOptions& options,
   // The computing time of DIRECT grows with the square of the number of its cells, so run DIRECT
   // three times, each time in a smaller box.
   const int looks = options.method == SearchMethod::kDirect ? 3 : 1;
-  // Without a feasible point DIRECT does not keep its share of the budget, so no evaluations may be
-  // left for the next run. NLopt's DIRECT reads uninitialized memory if its first evaluation stops
-  // it.
+  // Without a feasible point, DIRECT exceeds its share of the budget, so no evaluations may be left
+  // for the next run. If no evaluations are left, end the loop, because NLopt's DIRECT reads
+  // uninitialized memory if it is stopped at its first evaluation.
   const auto goes_on = [&] { return !evaluator.failure && evaluator.best().evaluations < budget; };
   for (int look = 0; look < looks && goes_on(); ++look) {
     if (look > 0 && evaluator.best().status != SearchStatus::kNotFinite) {

@@ -28,7 +28,7 @@ double PlausibleBulge(double chord, double turn) {
 
 /// Measures the deviation of a curve from the straight line after a knot. `curve` returns the
 /// curve's point for a share of the way from 0 to 1. Golden-section search refines the largest of
-/// sixteen distances.
+/// sixteen sampled distances.
 template <typename Curve>
 Bulge BulgeAfter(const Curve& curve, std::size_t knot, const Vec2& from, const Vec2& to,
                  double turn) {
@@ -70,7 +70,7 @@ std::vector<double> TurnsOf(const ChordPoints& fitted, double period) {
   return turns;
 }
 
-/// Returns the length of the step after each point.
+/// Returns the distance from each point to the next point.
 std::vector<double> StepsOf(const ChordPoints& fitted, double period) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < fitted.u.size(); ++i) {
@@ -110,11 +110,11 @@ bool IsStraighter(const std::vector<double>& turns, const std::vector<double>& l
   return turn(step) + turn(step + 1) < 0.25 * curvature * (length(step) + beside);
 }
 
-/// Returns the ascending fractions of a step at which points are added. The distances between these
-/// points grow from `first` at the beginning and `last` at the end [m] towards the middle. Between
-/// equidistant knots, the sideways swing of a spline of degree 5 shrinks from knot to knot by a
-/// factor of about 0.43. The distances grow by much less than 1/0.43, so the swing in meters
-/// shrinks, too.
+/// Returns the ascending fractions of a step at which points are added. The distances between the
+/// added points grow from `first` [m] at the beginning and `last` [m] at the end towards the middle
+/// of the step. Between equidistant knots, the sideways swing of a spline of degree 5 shrinks from
+/// knot to knot by a factor of about 0.43. The distances between the added points grow by much less
+/// than the factor 1/0.43, so the swing in meters shrinks, too.
 std::vector<double> SharesOn(double length, double first, double last) {
   constexpr double kGrowth = 1.25;
   std::vector<double> begin;
@@ -168,7 +168,7 @@ Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, doubl
 
 std::vector<std::size_t> StraightSteps(const CurveBetweenKnots& curve, const ChordPoints& fitted,
                                        double period, double tolerance) {
-  // A step is long if it is kLong times as long as the median, such as a straight of a track.
+  // A step is long if it is kLong times as long as the median step, such as a straight of a track.
   constexpr double kLong = 4.0;
   // An end of a step at which the points turn by more than kLargestTurn may be a wrong point.
   constexpr double kLargestTurn = 0.25 * kPi;

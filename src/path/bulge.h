@@ -39,20 +39,21 @@ Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, doubl
                 double tolerance);
 
 /// Returns the steps between knots that are straight lines although the curve bulges beside them.
-/// At the ends of a returned step, the knots turn by at most 45 degrees. The curve deviates too far
-/// from the returned step (IsAside), or the step is a gap on a straight. A gap is more than four
-/// times as long as the median step. The curvature of the knots on a gap is less than a quarter of
-/// the curvature beside the gap. The curve leaves the gap by more than the tolerance.
+/// At both ends of a returned step, the polyline through the knots turns by at most 45 degrees. The
+/// curve deviates too far from the returned step (IsAside), or the step is a gap on a straight. A
+/// gap is more than four times as long as the median step. The curvature of the knots on a gap is
+/// less than a quarter of the curvature beside the gap. On a gap, the curve deviates from the
+/// straight line by more than the tolerance.
 std::vector<std::size_t> StraightSteps(const CurveBetweenKnots& curve, const ChordPoints& fitted,
                                        double period, double tolerance);
 
-/// Adds points on the straight lines of steps. At each end of a step, the distances between the
-/// added points begin with the length of the adjacent step. The distances grow by a quarter from
-/// point to point.
+/// Adds points on the given straight steps between knots. At each end of a step, the distances
+/// between the added points begin with the length of the adjacent step. The distances between the
+/// added points grow by a quarter from point to point.
 ChordPoints WithPointsOn(const ChordPoints& fitted, double period,
                          const std::vector<std::size_t>& steps);
 
-/// Throws InputError that names the point of the stretch that is probably wrong.
+/// Throws InputError that names the input point that is probably wrong.
 [[noreturn]] void RefuseBulge(const Bulge& bulge, const ChordPoints& fitted,
                               const DistinctPoints& distinct, const PathPoints& given);
 

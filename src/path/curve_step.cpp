@@ -13,14 +13,16 @@ double TurnBetween(const CurveNode& from, const CurveNode& to) {
   return h * (from.curvature + h * (from.sharpness / 3.0 + to.sharpness / 6.0));
 }
 
-/// Integrals of 1, d - d^2/(2 h) and d^2/(2 h), times the vector from d to the end. The three
-/// factors are the effects of curvature and of both sharpnesses on the curvature at the distance d.
+/// Integrals, over a segment of length h, of three factors times the vector from the distance d to
+/// the segment's end. The factors 1, d - d^2/(2 h) and d^2/(2 h) are the effects of the curvature
+/// and of both end sharpnesses on the curvature at the distance d.
 struct Levers {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
   Eigen::Vector3d left = Eigen::Vector3d::Zero();
 };
 
-/// Computes the levers in the frame of the segment's end, for the mean curvature of the segment.
+/// Computes the integrals of Levers in the frame of the segment's end, for the mean curvature of
+/// the segment.
 Levers LeversOf(double h, double turn) {
   const double bend = turn / h;
   Levers levers;
@@ -31,7 +33,7 @@ Levers LeversOf(double h, double turn) {
     const double rest = h - d;
     const double angle = bend * rest;
     const Eigen::Vector3d effect(1.0, d - d * d / (2.0 * h), d * d / (2.0 * h));
-    // Series of sin(angle)/bend and (cos(angle) - 1)/bend.
+    // Use the Taylor series of sin(angle)/bend and (cos(angle) - 1)/bend.
     levers.along += h * weight * rest * (1.0 - angle * angle / 6.0) * effect;
     levers.left -= h * weight * rest * angle * (0.5 - angle * angle / 24.0) * effect;
   }

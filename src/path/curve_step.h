@@ -8,8 +8,8 @@
 
 namespace trackbed {
 
-// Indices of the extended state. The multipliers kMultiplier + i belong to the end values of the
-// states i.
+// Indices of the extended state. The index kMultiplier + i is the multiplier of the end condition
+// on the state i.
 enum CurveState : int { kOffset, kHeading, kCurvature, kSharpness, kOne, kMean, kMultiplier };
 inline constexpr int kStates = 4;
 inline constexpr int kSize = kMultiplier + kStates;
@@ -17,10 +17,10 @@ using StateMatrix = Eigen::Matrix<double, kSize, kSize>;
 using StateRow = Eigen::Matrix<double, 1, kSize>;
 using StateVector = Eigen::Matrix<double, kSize, 1>;
 
-/// The linearized motion from a node to the next node, for a change u of the next sharpness.
+/// The linearized motion from a node to the next node, for a change u of the next node's sharpness.
 struct CurveStep {
   Eigen::Matrix<double, 3, kSize> next;  // Offset, heading and curvature of the next node.
-  Eigen::Vector3d control;               // Effect of u on them.
+  Eigen::Vector3d control;               // Effect of u on offset, heading and curvature.
   StateRow length;                       // Change of the length between the nodes.
   double length_control = 0.0;
   StateRow gain;  // The optimal u.
@@ -36,7 +36,7 @@ CurveNode Follow(const CurveNode& from, const CurveNode& to);
 /// `to`, which moves by `next_slide` [m].
 CurveStep Linearize(const CurveNode& from, const CurveNode& to, double slide, double next_slide);
 
-/// Adds weight/2 times the square of row * state.
+/// Adds the cost weight/2 (row * state)^2 to the matrix `cost`.
 void AddSquare(StateMatrix& cost, const StateRow& row, double weight);
 
 /// Eliminates the control: computes step.gain, and returns the cost of the state from the node

@@ -20,8 +20,8 @@
 // Fits a path to points. The points are divided into legs of one direction of motion (legs.cpp).
 // Each leg is fitted as a forward path in its direction of travel (leg_fit.cpp). A first fit of
 // each leg gives the headings at the cusps between the legs. A second fit of each leg has these
-// headings at its ends, which makes the heading of the whole path continuous. Headings and
-// curvatures that agree with the points are followed instead (given_shape.cpp).
+// headings at its ends, which makes the heading of the whole path continuous. If the given headings
+// and curvatures agree with the points, the path follows them instead of a fit (given_shape.cpp).
 
 namespace trackbed {
 
@@ -98,8 +98,8 @@ double MeanAngle(const std::vector<double>& angles, const std::vector<double>& w
 }
 
 /// Estimates the error of the heading at the end of a curve that is fitted to points [rad]. The
-/// error is the mean deviation of the points near this end, over the length of curve that they
-/// determine.
+/// error is the mean deviation of the points near this end, divided by the length of the curve that
+/// these points determine.
 double HeadingError(const FittedPath& fit, bool at_begin) {
   // Error of a heading from fewer than kManyPoints points, which tell little about the curvature.
   constexpr std::size_t kManyPoints = 4;
@@ -126,7 +126,7 @@ double HeadingError(const FittedPath& fit, bool at_begin) {
 /// headings.
 double CuspHeading(const PathPoints& given, const std::array<Leg, 2>& legs,
                    const std::array<const FittedPath*, 2>& fits) {
-  // Heading difference above which the given headings are no help [rad].
+  // Heading difference above which the given headings are ignored [rad].
   constexpr double kFar = 0.3;
   std::vector<double> headings;
   std::vector<double> weights;

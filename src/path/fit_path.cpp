@@ -15,8 +15,9 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path/tractrix.h"
 
-// A fit that fails because of noise is repeated with growing values of max_deviation. The message
-// then names a value that succeeds. fit_once.cpp contains the fit itself.
+// A fit that fails because of noise is repeated with growing values of max_deviation. The error
+// message then names a value of max_deviation with which the fit succeeds. The file fit_once.cpp
+// contains the fit itself.
 namespace trackbed {
 namespace {
 
@@ -127,7 +128,8 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
     }
     return fitted;
   } catch (const InputError& error) {
-    // Noise that turns back may be too large for a spline, although no point is a reversal.
+    // A spline fit may also fail because noise of the positions turns back, even if no point is a
+    // reversal.
     std::vector<Problem> problems = error.problems();
     if (problems.front().key == "max_deviation" && DistinctFor(given, options).merged > 0) {
       if (const std::optional<double> allowed = NoiseDeviation(given, options)) {

@@ -7,10 +7,10 @@ namespace {
 
 /// Terms shared by the transformations to and from the Frenet frame.
 struct Frame {
-  double narrow;   // Value of 1 - kappa_r d at the point.
+  double narrow;   // Factor 1 - kappa_r d at the offset d from a path of curvature kappa_r.
   double tangent;  // Tangent of the heading difference Dtheta.
   double cosine;   // Cosine of the heading difference Dtheta.
-  double drift;    // Value of kappa_r' d + kappa_r d' at the point.
+  double drift;    // Derivative of kappa_r d by the station: kappa_r' d + kappa_r d'.
 
   Frame(const PathPoint& at, double d, double slope)
       : narrow(1.0 - at.curvature * d),

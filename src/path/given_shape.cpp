@@ -8,17 +8,18 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/geometry/pose.h"
 
-// Follows the headings and curvatures of a planner. Between two points, the turn of the car and the
-// length of the step give the mean curvature. If a monotonic quadratic curvature has this mean, the
-// segment has this quadratic curvature. If the curvature is constant on both sides of the step, it
-// jumps within the step: the mean gives the place of the jump. After a cusp, the curvature is
-// linear, because the curvature given at a cusp may belong to the leg before the cusp. If the mean
-// fits none of these cases, the given headings and curvatures do not agree with the points.
+// Converts points with a planner's headings and curvatures to a path. Between two points, the turn
+// of the car and the length of the step determine the mean curvature. If a monotonic quadratic
+// curvature profile has this mean, the segment gets this profile. If the curvature is constant on
+// both sides of the step, the curvature jumps within the step, at a place that follows from the
+// mean. After a cusp, the curvature is linear, because the curvature given at a cusp may belong to
+// the leg before the cusp. If no such profile has the mean curvature of a step, the given headings
+// and curvatures do not agree with the points.
 
 namespace trackbed {
 namespace {
 
-/// Curvature below which a difference of curvatures is rounding [1/m].
+/// Difference of curvatures below which it counts as a rounding error [1/m].
 constexpr double kSameCurvature = 1e-8;
 
 class GivenShape {
@@ -31,7 +32,7 @@ class GivenShape {
 
   /// Returns the segments from a point of a leg to the next point, or none.
   [[nodiscard]] std::vector<Segment> Step(const Leg& leg, std::size_t i) const {
-    constexpr double kMaxTurn = 1.0;    // [rad]
+    constexpr double kMaxTurn = 1.0;    // Largest turn of a step [rad].
     constexpr int kIterations = 5;      // Each iteration reduces the error by a factor of turn^2.
     constexpr double kMaxError = 1e-4;  // Share of the length.
     const Pose2 from = PoseAt(i);
@@ -75,7 +76,8 @@ class GivenShape {
            (i + 1 == leg.last || std::abs(curvature[i + 2] - curvature[i + 1]) <= flat);
   }
 
-  /// Returns segments of a length that turn as given, or none.
+  /// Returns segments of the total length `length` [m] that turn by `turn` [rad]; none if no
+  /// curvature profile fits.
   [[nodiscard]] std::vector<Segment> Shape(const Leg& leg, std::size_t i, double length,
                                            double turn) const {
     // Tolerance of the mean curvature, as a fraction of the largest curvature.
@@ -113,7 +115,7 @@ class GivenShape {
       }
       return segments;
     }
-    // Refuse a mean that no monotonic quadratic curvature has.
+    // Refuse a mean curvature that no monotonic quadratic curvature profile has.
     if (std::abs(beside) > std::abs(b - a) / 6.0 + slack) {
       return {};
     }

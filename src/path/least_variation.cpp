@@ -13,9 +13,10 @@
 // curve, and by a known distance along the curve, to the foot of its point. The linearized problem
 // is a linear-quadratic control problem with the state (n, heading, curvature, sharpness) and the
 // sharpness of the next node as its control. The Riccati recursion eliminates the controls from the
-// last node to the first. Multipliers of the end conditions, the constant c and the number 1, which
-// carries the affine terms, extend the state by constants. The curve's nodes are first moved
-// independently, with gaps that close as the method converges (multiple shooting), and then joined.
+// last node to the first. The state is extended by constants: the multipliers of the end
+// conditions, the constant c, and the number 1 for the affine terms. The curve's nodes are first
+// moved independently, with gaps that close as the method converges (multiple shooting), and then
+// joined.
 //
 // The bound of the curvature is a quadratic penalty at the nodes that exceed it. The nodes that
 // exceed the bound are found anew in each iteration (a semismooth Newton method).
@@ -38,7 +39,7 @@ double MaxTurn(const CurveNode& from, const CurveNode& to) {
               h * (std::abs(from.sharpness) / 3.0 + std::abs(to.sharpness) / 6.0));
 }
 
-// Largest turn of a segment [rad].
+// Largest heading change of a segment [rad].
 constexpr double kMaxTurn = 2.0 * kPi;
 
 // Smallest factor by which a segment may be shortened.
@@ -57,7 +58,7 @@ class Newton {
     }
   }
 
-  /// Moves the nodes. Returns the largest movement, or infinity if the curve degenerates.
+  /// Moves the nodes. Returns the largest movement of a node, or infinity if the curve degenerates.
   double Iterate();
   /// Joins the nodes by moving each to the end of the segment before it.
   void Join();
@@ -75,7 +76,7 @@ class Newton {
   std::vector<CurveNode> nodes_;
   bool closed_;
   EndHeadings headings_;
-  double max_curvature_;          // In units of 1/(smoothing length), like all curvatures.
+  double max_curvature_;          // Bound of the curvature, in units of 1/(smoothing length).
   double mean_ = 0.0;             // The constant c.
   std::vector<double> shortest_;  // Smallest length of the segment before each node.
   std::vector<double> slides_;    // Distance that each node moves along the curve.
@@ -83,8 +84,8 @@ class Newton {
   std::vector<Change> changes_;
 };
 
-/// Computes the slide of each node. A node with a given point moves to the foot of this point on
-/// the curve; between these nodes, the slides are interpolated linearly.
+/// Computes by how far each node slides along the curve. A node with a given point moves to the
+/// foot of this point on the curve; between these nodes, the slides are interpolated linearly.
 void Newton::Slide() {
   const std::size_t count = nodes_.size();
   slides_.assign(count, 0.0);
@@ -108,7 +109,8 @@ void Newton::Slide() {
     }
     before = i;
   }
-  // Two points may be closer to each other along the curve than the smallest length of a segment.
+  // Keep the smallest lengths of the segments, because two points may be closer together along the
+  // curve.
   const double last = slides_.back();
   for (std::size_t i = 1; i < count; ++i) {
     slides_[i] = std::max(slides_[i], slides_[i - 1] + shortest_[i] - nodes_[i].length);
@@ -150,7 +152,8 @@ void Newton::AddBound(StateMatrix& cost, std::size_t node) const {
   AddSquare(cost, row, 0.5 * kPenalty * (before + after));
 }
 
-/// Returns the state at the first node that minimizes the cost and meets the conditions.
+/// Returns the state at the first node with which the cost is smallest and the end conditions are
+/// met.
 StateVector Newton::Start(const StateMatrix& cost) const {
   StateVector state = StateVector::Zero();
   state(kOne) = 1.0;
@@ -200,7 +203,7 @@ double Newton::Iterate() {
     }
   }
   AddBound(cost, count - 1);
-  // If the points do not determine the constant, as with three points, the constant stays
+  // If the points do not determine the constant c of the sharpness, as with three points, c stays
   // unchanged.
   double length = 0.0;
   for (std::size_t i = 1; i < count; ++i) {
@@ -232,7 +235,8 @@ double Newton::Iterate() {
 }
 
 double Newton::Move(StateVector state) {
-  // Largest movement of a node, relative to the smoothing length, or of a heading in an iteration.
+  // Largest movement of a node in an iteration, relative to the smoothing length, and largest
+  // change of a heading [rad].
   constexpr double kMaxMove = 0.5;
   const std::size_t count = nodes_.size();
   const double mean = state(kMean);
@@ -334,7 +338,7 @@ std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode>
   }
   Scale(nodes, 1.0 / smoothing_length);
   Newton newton(std::move(nodes), closed, headings, max_curvature * smoothing_length);
-  // Movement below which rounding dominates.
+  // Movement of a node below which rounding errors dominate.
   const double rounding = 1e-14 * length / smoothing_length;
   double before = std::numeric_limits<double>::infinity();
   bool is_joined = false;

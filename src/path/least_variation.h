@@ -26,29 +26,30 @@ struct CurveNode {
 };
 
 /// Fits a curve of which the curvature varies as little as possible (a minimum variation curve,
-/// Moreton and Séquin 1992). The curve minimizes
-///     sum over i of w_i n_i^2 + l^6 integral of (kappa'(s) - c)^2 ds, where n_i [m] is the
-/// distance of the point i from the curve, w_i [m] is its weight, l [m] is the smoothing length,
-/// and kappa' is the sharpness. The constant c is chosen to minimize the sum. The integral is 0 for
-/// lines, arcs and clothoids: if all points lie on one of these curves, the fitted curve is this
-/// curve, up to rounding.
+/// Moreton and Séquin 1992). The curve minimizes the cost
+///     sum over i of w_i n_i^2 + l^6 integral of (kappa'(s) - c)^2 ds.
+/// In this cost, n_i [m] is the distance of the point i from the curve, w_i [m] is its weight, l
+/// [m] is the smoothing length, and kappa' is the sharpness. The constant c is chosen to minimize
+/// the cost. For lines, arcs and clothoids, the integral of (kappa' - c)^2 is 0. If all points lie
+/// on such a curve, the fitted curve is therefore this curve, up to rounding.
 ///
 /// The sharpness is continuous and is linear between nodes, so curvature and sharpness are
 /// continuous. An open curve begins at the first point and ends at the last point, with the
 /// prescribed headings. A closed curve returns to its first node with equal curvature and
 /// sharpness; the last node repeats the first.
 ///
-/// With a finite `max_curvature` [1/m], > 0, the sum has a further term: k l^4 times the integral
-/// of (|kappa| - max_curvature)^2. The integral covers the parts of the curve on which |kappa|
-/// exceeds max_curvature, and is evaluated at the nodes; the factor k is large. At the nodes, the
-/// curve then exceeds max_curvature by less than a thousandth of the excess of the curve without
-/// this term. Where the curvature jumps, as between a line and an arc, a curve without this term
+/// With a finite `max_curvature` [1/m], > 0, the cost has a penalty term: k l^4 times the integral
+/// of (|kappa| - max_curvature)^2. The penalty covers the parts of the curve on which |kappa|
+/// exceeds max_curvature, and is evaluated at the nodes; the factor k is large. With the penalty,
+/// the curve exceeds max_curvature at the nodes by less than a thousandth of the excess without the
+/// penalty. Where the curvature jumps, as between a line and an arc, a curve without the penalty
 /// has a larger curvature than the arc.
 ///
-/// `nodes` are the initial values, at least three. In an open curve, the first and the last node
-/// must have a point to fit. `headings` must be empty for a closed curve. Newton's method converges
-/// if the initial curve is near the points compared with its radii. Returns nullopt if the method
-/// does not converge. Costs about 20 us per node.
+/// The argument `nodes` has the initial values of at least three nodes. In an open curve, the first
+/// and the last node must have a point to fit. `headings` must be empty for a closed curve.
+/// Newton's method converges if the initial curve is near the points compared with its radii of
+/// curvature. Returns nullopt if Newton's method does not converge. The computing time is about 20
+/// us per node.
 std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode> nodes,
                                                           double smoothing_length, bool closed,
                                                           const EndHeadings& headings = {},

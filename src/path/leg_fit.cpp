@@ -12,9 +12,9 @@
 #include "trackbed/geometry/pose.h"
 
 // Fits a path to the points of one leg. FitLeg drops repeated points, and optionally resamples the
-// other points along straight lines. A spline fit is in spline_fit.cpp. A polyline fit joins
-// straight lines by arcs with tangents of at most 1 mm. Points at which the path turns back are
-// reported as reversals.
+// other points along straight lines. The file spline_fit.cpp contains the fit of splines. A
+// polyline fit joins straight lines by arcs with tangents of at most 1 mm. Points at which the path
+// turns back are reported as reversals.
 
 namespace trackbed {
 namespace {
@@ -68,7 +68,8 @@ void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
   }
 }
 
-/// Inserts a point after the first one, which a polyline passes with the given heading.
+/// Inserts a point after the first point, so that a polyline leaves the first point with the given
+/// heading.
 void BeginWithHeading(ChordPoints& chords, double heading) {
   constexpr double kLength = 1e-3;  // [m]
   const Vec2 first = chords.points[1] - chords.points[0];
@@ -94,9 +95,9 @@ bool IsStraight(const ChordPoints& chords, const EndHeadings& headings) {
 }  // namespace
 
 DistinctPoints DistinctFor(const PathPoints& given, const PathFitOptions& options) {
-  // Diagonal of a box of noise, as a fraction of the largest deviation. All points in a box are
-  // within half of the diagonal of its center. Points in a box at an end of the path are within the
-  // diagonal of this end.
+  // Diagonal of the box within which points count as noise, as a fraction of the largest deviation.
+  // All points in a noise box are at most half of its diagonal away from its center. In a noise box
+  // at an end of the path, all points are at most the diagonal away from this end.
   constexpr double kNoise = 0.9;
   return Distinct(given, options.closed,
                   options.fit == PathFit::kSpline ? kNoise * options.max_deviation : 0.0);
@@ -122,8 +123,8 @@ ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& option
   }
   // The linear equations of a spline lose a digit for each factor of about 1.6 between the
   // distances of neighboring knots. Points that are much closer together than their neighbors would
-  // therefore make the spline swing. The fit still keeps max_deviation of the points between the
-  // knots.
+  // therefore make the spline swing. The fit still stays within max_deviation of the points that
+  // are not knots.
   constexpr double kSpacing = 0.1;
   return options.fit == PathFit::kSpline ? Spaced(distinct, kSpacing * options.max_deviation)
                                          : distinct.chords;

@@ -8,7 +8,8 @@
 
 namespace trackbed {
 
-/// Finds the distinct points of the given points. A polyline passes all points, so it has no noise.
+/// Finds the distinct points of the given points. For a polyline, which passes all points, no
+/// points are merged as noise.
 DistinctPoints DistinctFor(const PathPoints& given, const PathFitOptions& options);
 
 /// Returns the points to which the path is fitted.
@@ -18,9 +19,9 @@ ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& option
 std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period);
 
 /// Fits a forward path to the points of one leg, with the prescribed headings at its ends, and with
-/// the bound `max_curvature` [1/m] on the curvature of a spline (FitSpline). Does not
-/// compute the deviation and the heading difference. If the points turn back, fits no path and sets
-/// the reversals.
+/// the bound `max_curvature` [1/m] on the curvature of a spline (FitSpline). FitLeg computes
+/// neither the deviation nor the heading difference. If the points turn back, FitLeg fits no path
+/// and sets the reversals.
 FittedPath FitLeg(PathPoints given, const PathFitOptions& options, const EndHeadings& headings,
                   double max_curvature);
 

@@ -10,14 +10,14 @@ namespace trackbed {
 /// A stretch of the given points that the car drives in one direction. The car changes its
 /// direction at the last point of a leg, which is also the first point of the next leg.
 struct Leg {
-  std::size_t first = 0;  ///< Index of the first point.
-  std::size_t last = 0;   ///< Index of the last point.
+  std::size_t first = 0;  ///< Index of the leg's first point.
+  std::size_t last = 0;   ///< Index of the leg's last point.
   int direction = 1;      ///< Direction of motion: +1 forwards, -1 backwards.
 };
 
-/// Finds the legs of the given points from their directions and headings. Without both, there is
-/// one forward leg. A reverse piece that is shorter than `noise` [m] counts as noise of the
-/// positions. Costs O(n).
+/// Finds the legs of the given points from their directions and headings. Without directions and
+/// headings, all points form one forward leg. A reverse piece that is shorter than `noise` [m]
+/// counts as noise of the positions. Costs O(n).
 std::vector<Leg> FindLegs(const PathPoints& given, double noise);
 
 /// Returns the points of a leg and their line numbers.

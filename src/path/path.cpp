@@ -113,7 +113,7 @@ double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p
   const double turned = std::atan2(sign * local.x(), sign * (radius - local.y()));
   const double lap = 2.0 * kPi * std::abs(radius);
   double distance = segment.direction * radius * turned;
-  // First foot point on the circle at a distance of at least `from`.
+  // Find the first foot point on the circle that is at least `from` [m] along the segment.
   distance += lap * std::ceil((from - distance) / lap);
   if (distance <= to) {
     return distance;

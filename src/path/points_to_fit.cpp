@@ -13,7 +13,7 @@
 // Noise is found by its steps: a recorder of a car that stands or creeps logs steps that turn back
 // although the car does not. Groups of consecutive points are kept on a stack. A group at which the
 // polyline turns by more than a right angle absorbs its neighbors as long as their common bounding
-// box is small enough. Passes repeat until no group changes.
+// box is small enough. The merging passes repeat until no group changes.
 
 namespace trackbed {
 namespace {
@@ -33,14 +33,14 @@ struct PointGroup {
   Vec2 low;
   Vec2 high;
   std::size_t begin = 0;      // Index of the group's first point in the given points.
-  std::size_t count = 1;      // Number of distinct points.
+  std::size_t count = 1;      // Number of distinct points in the group.
   bool is_noise = false;      // Whether a step within the group turned back.
   std::optional<Vec2> end{};  // Position of a group that contains an end of an open path.
 
   [[nodiscard]] Vec2 At() const { return end ? *end : Vec2(0.5 * (low + high)); }
 };
 
-/// Returns the two groups as one.
+/// Returns the union of two groups of points.
 PointGroup Merged(const PointGroup& a, const PointGroup& b) {
   PointGroup both = a;
   both.low = a.low.cwiseMin(b.low);
@@ -62,8 +62,8 @@ bool TurnsBack(const PointGroup& a, const PointGroup& b, const PointGroup& c) {
   return (b.At() - a.At()).dot(c.At() - b.At()) < 0.0;
 }
 
-/// Merges groups at which the polyline turns back with their neighbors. Returns whether any groups
-/// were merged.
+/// If the polyline turns back at a group, merges this group with its neighbors. Returns whether any
+/// groups were merged.
 bool MergePass(std::vector<PointGroup>& groups, double noise) {
   std::vector<PointGroup> kept;
   const auto merge_last = [&] {

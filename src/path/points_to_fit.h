@@ -24,8 +24,8 @@ std::string NameOf(const PathPoints& given, std::size_t point);
 
 /// Returns the points with one position for each run of successive points with the speed 0, at
 /// which the car stands: the center of their bounding box, or the first or last point of the path.
-/// Runs with a point farther than `noise` [m] from this position keep their points, because the car
-/// may move there. Points without speeds are returned as they are.
+/// A run with a point farther than `noise` [m] from its common position keeps its points, because
+/// the car may move during this run. Points without speeds are returned as they are.
 PathPoints AtStandstills(PathPoints given, double noise);
 
 /// The given points without repeated points and without noise that turns back, with the chord
@@ -33,10 +33,10 @@ PathPoints AtStandstills(PathPoints given, double noise);
 struct DistinctPoints {
   ChordPoints chords;
   std::vector<std::size_t> number;  // Index of each distinct point among the given points.
-  std::vector<double> given_u;      // Chord length of each given point's distinct point.
+  std::vector<double> given_u;      // Chord length at the distinct point of each given point.
   double period = 0.0;              // Period of a closed path [m]; 0 for an open path.
-  std::size_t repeated = 0;         // Points that equal the preceding point.
-  std::size_t merged = 0;           // Points that were merged with their neighbors.
+  std::size_t repeated = 0;         // Number of points that equal the preceding point.
+  std::size_t merged = 0;           // Number of points that were merged with their neighbors.
 };
 
 /// Finds the distinct points. Steps that turn back by more than a right angle within `noise` [m]

@@ -93,8 +93,9 @@ void SmoothingSpline::AddData(const ChordPoints& fitted, const EndHeadings& head
   for (std::size_t i = 0; i < fitted.u.size(); ++i) {
     add(fitted.u[i], 0, weights_[i], fitted.points[i]);
   }
-  // The derivative by the chord length is about a unit vector along the heading. The factor of the
-  // square of a length gives the derivative the weight of an end point.
+  // The derivative by the chord length is about a unit vector along the heading. Multiplied by the
+  // square of a knot distance, the weight of an end point also suits the derivative, which has no
+  // unit.
   const auto square = [](double length) { return length * length; };
   if (headings.begin) {
     add(knots_.front(), 1, weights_.front() * square(knots_[1] - knots_[0]),

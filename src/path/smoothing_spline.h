@@ -25,7 +25,7 @@ struct EndHeadings {
 };
 
 /// Smoothing spline of degree 5, which FitPath uses. With `period` > 0 [m], the spline is closed:
-/// its last point connects to its first point, and u repeats after `period`.
+/// its last point connects to its first point, and the chord length u repeats after `period`.
 class SmoothingSpline {
  public:
   /// An open path needs at least two points, and a closed path needs at least three points. An open
@@ -36,7 +36,8 @@ class SmoothingSpline {
   /// machine precision, Fit() returns false and leaves the spline unchanged.
   bool Fit(double smoothing_length);
 
-  /// Returns the derivative d^order P/du^order at u, for order 0 to 2.
+  /// Returns the derivative d^order P/du^order of the curve P at the chord length u, for order 0 to
+  /// 2.
   [[nodiscard]] Vec2 At(double u, int order = 0) const;
 
   /// Returns the knots, between which the spline is a polynomial. The first knot is the chord

@@ -37,7 +37,7 @@ double Deviation(const SmoothingSpline& spline, const ChordPoints& points) {
 }
 
 /// Fraction of the largest deviation that the spline may use. The segments, which approximate the
-/// spline, may use the rest.
+/// spline, may use the rest of the deviation.
 constexpr double kSplineShare = 0.95;
 
 /// Rounds a positive length up to three significant digits.
@@ -119,8 +119,8 @@ struct KnotPath {
 std::vector<CurveNode> NodesAlong(const SmoothingSpline& spline, const ChordPoints& fitted,
                                   bool closed) {
   using Quadrature = boost::math::quadrature::gauss<double, 7>;
-  constexpr double kNodeTurn = 0.125;  // [rad]
-  constexpr int kMeasured = 8;         // Parts of an interval in which its turn is measured.
+  constexpr double kNodeTurn = 0.125;  // Largest turn between nodes [rad].
+  constexpr int kMeasured = 8;         // Number of parts for measuring an interval's turn.
   const std::vector<double>& knots = spline.knots();
   const std::vector<double> weights = spline.weights();
   std::vector<CurveNode> nodes;
@@ -198,7 +198,8 @@ ChordPoints Relative(ChordPoints points, const Vec2& origin) {
   return points;
 }
 
-/// Points to which a spline is fitted, relative to the first knot: a large offset costs no digits.
+/// Points to which a spline is fitted, relative to the first knot, so that a large offset of the
+/// coordinates costs no digits.
 struct LocalPoints {
   ChordPoints knots;
   ChordPoints distinct;
@@ -324,8 +325,8 @@ KnotPath PathAlong(const SmoothingSpline& spline, const LocalPoints& local, doub
 }
 
 /// Fits the curve of least variation near the spline, and sets its smoothing length. Returns
-/// nullopt if no curve converges within the tolerance. Afterwards, the spline may have another
-/// smoothing length.
+/// nullopt if no curve converges within the tolerance. FitCurve may change the smoothing length of
+/// `spline`.
 std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& local,
                                  double& smoothing_length, double tolerance) {
   // FitCurve tries kLengths smoothing lengths; each is kShorter times the previous one. A curve
@@ -363,7 +364,8 @@ std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& loc
   return std::nullopt;
 }
 
-/// A spline with the largest smoothing length that keeps the tolerance.
+/// The smoothing spline with the largest smoothing length at which the spline stays within the
+/// tolerance.
 struct SplineFit {
   LocalPoints local;
   std::unique_ptr<SmoothingSpline> spline;

@@ -15,8 +15,8 @@
 #include "trackbed/path_files/commonroad_scenario.h"
 
 // Reads the path of a CommonRoad file. A solution contains one trajectory for each planning
-// problem; a trajectory is a list of states. Velocities are negative in reverse. The path of a
-// scenario is the route of its planning problem along lanelets.
+// problem; a trajectory is a list of states. The velocities of a trajectory are negative in
+// reverse. The path of a scenario is the route of its planning problem along lanelets.
 namespace trackbed {
 namespace {
 
@@ -57,8 +57,8 @@ const XMLElement* FindTrajectory(const XMLElement& root, std::size_t& count) {
   return first;
 }
 
-/// Takes the directions of motion from the velocities, which are signed in CommonRoad. Without a
-/// negative velocity, the car drives forwards all along, whatever its orientations say.
+/// Takes the directions of motion from the velocities, which are signed in CommonRoad. If no
+/// velocity is negative, the car drives forwards on the whole path, regardless of its orientations.
 void TakeVelocities(PathPoints& points) {
   TakeSignedSpeeds(points);
   if (points.direction.empty() && !points.yaw.empty() && !points.speed.empty()) {
@@ -66,8 +66,9 @@ void TakeVelocities(PathPoints& points) {
   }
 }
 
-/// Takes the times of the states, which are numbers of time steps. A solution does not contain the
-/// duration of a time step, so the duration is computed from the positions and velocities.
+/// Converts the times of the states, which are numbers of time steps, to seconds. A solution does
+/// not contain the duration of a time step, so the duration is computed from the positions and
+/// velocities.
 void TakeTimeSteps(PathFile& found, std::vector<double> steps, const std::string& file) {
   const PathPoints& points = found.points;
   const bool is_rising =
@@ -81,8 +82,8 @@ void TakeTimeSteps(PathFile& found, std::vector<double> steps, const std::string
     length += (points.points[i + 1] - points.points[i]).norm();
     steps_times_speed += 0.5 * (points.speed[i] + points.speed[i + 1]) * (steps[i + 1] - steps[i]);
   }
-  // The duration is rounded to milliseconds, because the integration of the velocities is not
-  // exact.
+  // The duration of a time step is rounded to milliseconds, because the integration of the
+  // velocities is not exact.
   const double duration = std::round(1e3 * length / steps_times_speed) * 1e-3;
   if (!(steps_times_speed > 0.0) || !(duration > 0.0)) {
     return;

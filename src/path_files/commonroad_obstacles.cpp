@@ -12,13 +12,13 @@
 
 // Reads obstacles and goal regions of CommonRoad scenarios.
 // 1. A shape becomes the smallest enclosing rectangle that has a side along an edge of the shape.
-// 2. A moving obstacle has the poses of its trajectory. Without a trajectory, it keeps its
-//    velocity.
-// 3. States without an orientation head in the direction of motion.
+// 2. A moving obstacle has the poses of its trajectory. Without a trajectory, a moving obstacle
+//    keeps its velocity.
+// 3. A state without an orientation gets the direction of motion as its heading.
 // 4. An occupancy set becomes moving boxes, each as large as the smallest place of the set. The
-//    boxes spread out as the places grow. The obstacle is at a place in the middle of the place's
-//    time interval.
-// 5. Approximations counts the changes of steps 1 to 4, for the notes.
+//    moving boxes spread out as the possible places grow. Each place of the set applies in the
+//    middle of its time interval.
+// 5. The struct Approximations counts the changes of steps 1 to 4, for the notes to the user.
 namespace trackbed {
 namespace {
 
@@ -195,8 +195,8 @@ std::vector<State> ReadStates(const XMLElement& obstacle, const CommonRoadClock&
 /// A box that an obstacle may occupy at a time [s].
 using Occupancy = std::pair<double, OrientedBox>;
 
-/// Returns the same box with another description: its yaw is that of the four side directions that
-/// is nearest to `yaw`.
+/// Returns the same box, described by the yaw of that side which is nearest to `yaw`. If the yaw
+/// turns by a right angle, length and width are swapped.
 OrientedBox TurnedTo(double yaw, const OrientedBox& box) {
   const double turn = AngleDifference(yaw, box.center.yaw);
   const double quarters = std::round(turn / (0.5 * kPi));
@@ -241,9 +241,10 @@ double PieceOffset(int index, int count, double length, double piece) {
   return count < 2 || length <= piece ? 0.0 : (length - piece) * (index / (count - 1.0) - 0.5);
 }
 
-/// Covers places that grow and shrink by boxes that keep their sizes and move. Each box is as large
-/// as the smallest place. At each time of the set, the boxes together cover exactly the place. If
-/// this needs more than kMost boxes along one side, kMost larger boxes cover more than the place.
+/// Covers a sequence of places of changing size by moving boxes of constant size. Each box is as
+/// large as the smallest place. At each time of the set, the boxes together cover exactly the
+/// place. If an exact cover needs more than kMost boxes along one side, kMost larger boxes cover
+/// more than the place.
 std::vector<CommonRoadObstacle> CoverOccupancies(const std::vector<Occupancy>& occupancies) {
   struct Side {
     double smallest = std::numeric_limits<double>::infinity();
@@ -257,7 +258,7 @@ std::vector<CommonRoadObstacle> CoverOccupancies(const std::vector<Occupancy>& o
     }
     void Divide() {
       constexpr int kMost = 8;
-      // Sizes have four decimals.
+      // Tolerate 1e-3 m, because the sizes are rounded to four decimals.
       count = std::min(kMost, static_cast<int>(std::ceil((largest - 1e-3) / smallest)));
       piece = count < kMost ? std::min(smallest + 1e-3, largest) : largest / count;
     }
@@ -288,7 +289,7 @@ std::vector<CommonRoadObstacle> CoverOccupancies(const std::vector<Occupancy>& o
   return pieces;
 }
 
-/// Reads an obstacle; one that is given by a set of places becomes several boxes.
+/// Reads an obstacle; an obstacle that is given by a set of places becomes several boxes.
 std::vector<CommonRoadObstacle> ReadObstacle(const XMLElement& element, bool moves,
                                              const CommonRoadClock& clock,
                                              const CommonRoadReading& reading,
@@ -309,7 +310,7 @@ std::vector<CommonRoadObstacle> ReadObstacle(const XMLElement& element, bool mov
     ++notes.without_place;
     return {};
   }
-  // A shape is in the frame of the obstacle.
+  // The coordinates of a shape are in the frame of the obstacle.
   const Shape shape = ReadShapes(*shapes, {reading.file, reading.largest});
   notes.boxes += shape.is_larger ? 1 : 0;
   CommonRoadObstacle obstacle{.box = shape.box};

@@ -21,7 +21,7 @@ struct CommonRoadClock {
 Pose2 ReadPlace(const tinyxml2::XMLElement& state, const CommonRoadReading& reading);
 
 /// Reads the element rectangle, circle or polygon as a region. Replaces a polygon by its enclosing
-/// rectangle, because it may not be convex.
+/// rectangle, because the polygon may not be convex.
 CommonRoadRegion ReadRegion(const tinyxml2::XMLElement& shape, const CommonRoadReading& reading);
 
 /// Reads the static and dynamic obstacles of a scenario. Adds notes on approximations.

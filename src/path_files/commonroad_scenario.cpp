@@ -26,8 +26,8 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr double kAcceleration = kCommonRoadAcceleration;
-constexpr double kMinSpeed = 0.1;   // [m/s]
-constexpr double kMaxSpeed = 60.0;  // [m/s]
+constexpr double kMinSpeed = 0.1;   // Lowest speed of the car [m/s].
+constexpr double kMaxSpeed = 60.0;  // Highest speed of the car [m/s].
 constexpr double kMaxLength = 5e4;  // Largest length of a route [m].
 
 /// Stations at which a path enters and leaves a region.
@@ -187,7 +187,7 @@ Vec2 OriginOf(const XMLElement& root, const std::filesystem::path& file) {
 /// Leaves out an obstacle that moves and begins in the initial state: scenarios that are converted
 /// from other formats have the recorded car of the problem among their obstacles.
 void LeaveOutOwnCar(CommonRoadScenario& scenario) {
-  constexpr double kSame = 1e-3;  // [m, rad]; files have four decimals
+  constexpr double kSame = 1e-3;  // Largest difference [m, rad]; files have four decimals.
   const std::size_t left_out = std::erase_if(scenario.obstacles, [&](const auto& obstacle) {
     if (obstacle.poses.empty()) {
       return false;

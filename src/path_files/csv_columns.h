@@ -10,8 +10,8 @@ namespace trackbed {
 /// Returns whether the names of the columns are numbers (CsvLimits::numbers_columns).
 bool AreNumbered(const std::vector<std::string>& names);
 
-/// Returns the first cell that names the color of a cone beside a track of Formula Student, such as
-/// big_orange. Returns the number of cells if no cell does.
+/// Returns the index of the first cell that names the color of a cone beside a track of Formula
+/// Student, such as big_orange. Returns the number of cells if no cell names a cone's color.
 std::size_t ConeCell(const std::vector<std::string>& row);
 
 /// Explains that a table lists cones instead of points of a path.

@@ -88,8 +88,8 @@ class LayoutFinder {
   }
 
  private:
-  /// Adds a problem. Missing columns are then not reported, because they may be consequences of
-  /// this problem.
+  /// Adds a problem. After a problem of the header, missing columns are not reported, because the
+  /// problem may be their cause.
   void AddProblem(const std::string& column, std::string message) {
     layout_.problems.emplace_back(column, std::move(message));
     is_broken_ = true;

@@ -20,7 +20,8 @@ struct PathColumn {
   double largest = 0.0;  ///< Largest permitted magnitude of the quantity, in SI units.
 };
 
-/// Quantities of a path. The quantities from kCurvature on may be unusable.
+/// Quantities of a path. A path can be read even if the columns of the quantities from kCurvature
+/// on are unusable.
 enum PathQuantity { kX, kY, kYaw, kCurvature, kSpeed, kTime, kMotion, kQuantities };
 
 /// The columns of a CSV table that hold the quantities of a path.
@@ -33,7 +34,8 @@ struct CsvLayout {
   bool is_globe = false;  ///< Whether kX and kY are longitudes and latitudes [deg].
   bool is_unnamed =
       false;  ///< Whether the file has no column names, and the caller names no columns.
-  /// Problems of the header, each with the name of its column. A table with problems has no layout.
+  /// Problems of the header, each with the name of its column. If the header has problems, the
+  /// table has no valid layout.
   std::vector<std::pair<std::string, std::string>> problems;
 
   /// Returns the names of the columns that are read.

@@ -10,10 +10,10 @@ namespace trackbed {
 /// The meaning of the numbers in a column of directions of motion. In every column of directions,
 /// words such as "D", "R", "forward" and "reverse" are allowed, too.
 enum class DirectionColumn {
-  kSigned,   ///< 1 forwards, -1 in reverse, 0 if the car stands.
-  kGear,     ///< Positive forwards, negative in reverse, 0 neutral.
-  kForward,  ///< 1 or true forwards, 0 or false in reverse.
-  kReverse,  ///< 1 or true in reverse, 0 or false forwards.
+  kSigned,   ///< Numbers: 1 forwards, -1 in reverse, 0 if the car stands.
+  kGear,     ///< Gears: positive forwards, negative in reverse, 0 neutral.
+  kForward,  ///< Flags: 1 or true forwards, 0 or false in reverse.
+  kReverse,  ///< Opposite flags: 1 or true in reverse, 0 or false forwards.
 };
 
 /// Returns the direction of motion in a cell: 1, -1 or, if the car stands, 0. Returns nullopt if

@@ -12,9 +12,9 @@
 #include "trackbed/core/file.h"
 
 // Makes a path of one line of a GPX, KML or GeoJSON file. Segments of one track are joined if the
-// gap between them is not longer than the longest step within them. The gap then looks like every
-// other step of the track. In all other cases, each line is a separate path, and the user selects
-// one of them.
+// gap between them is not longer than the longest step within them. Such a short gap looks like
+// every other step of the track. All other segments and lines are separate paths, and the user
+// selects one of these paths.
 namespace trackbed {
 namespace {
 

@@ -216,7 +216,7 @@ class XmlLines {
     Finish(std::move(line));
   }
 
-  /// Reads a Track: as many times (when) as positions (coord), which may be empty.
+  /// Reads a Track, which has as many times (when) as positions (coord); positions may be empty.
   void ReadTrack(const XMLElement& element, GlobeLine line) {
     std::vector<std::optional<double>> times;
     EachChild(element, "when", [&](const XMLElement& when) {

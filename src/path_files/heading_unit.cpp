@@ -14,8 +14,8 @@
 // converts the headings to radians from the x axis, and compares them with the direction of travel
 // at the points. A car that is driven in reverse has the opposite heading, so directions are
 // compared without their sign. The meanings "from the x axis" and "from north, positive to the
-// left" differ by 90 degrees and cannot be confused; the reader takes both. All other meanings are
-// refused, with the remedy.
+// left" differ by 90 degrees and cannot be confused; the reader accepts both meanings. The reader
+// refuses all other meanings, and names the remedy.
 namespace trackbed {
 namespace {
 
@@ -81,8 +81,8 @@ double MeanDifference(const std::vector<Heading>& headings, const HeadingMeaning
 }
 
 /// Returns whether `other`, the mean difference of another meaning, is much smaller than `least`,
-/// the mean difference of the accepted meanings. The headings then fit the accepted meaning only by
-/// accident, because the path hardly turns.
+/// the mean difference of the accepted meanings. If another meaning fits so much better, the
+/// headings fit the accepted meaning only by accident, because the path hardly turns.
 bool IsMuchBetter(double other, double least) {
   constexpr double kExact = 0.05;  // Mean difference up to which an accepted meaning is certain.
   return least > kExact && other < 0.25 * least;

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using tinyxml2::XMLElement;
 
-constexpr const char* kReversed = " reversed";  // Ends the key of a lanelet's other direction.
+constexpr const char* kReversed = " reversed";  // Key suffix for a lanelet's other direction.
 
 std::string Attribute(const XMLElement& element, const char* name) {
   const char* text = element.Attribute(name);
@@ -54,7 +54,7 @@ bool IsForCars(const OsmTags& tags) {
          subtype == "exit" || subtype == "road_shoulder";
 }
 
-/// Whether a line may be crossed by a car that has it on its right (`from_left`) or on its left.
+/// Returns whether a car may cross a line that lies on its right (`from_left`) or on its left.
 bool MayCross(const OsmTags& line, bool from_left, bool is_reversed) {
   if (const std::string change = ValueOf(line, "lane_change"); !change.empty()) {
     return change == "yes";
@@ -66,7 +66,7 @@ bool MayCross(const OsmTags& line, bool from_left, bool is_reversed) {
 
 /// Orients the bounds of a lanelet in its direction. In a convex quadrilateral, two opposite sides
 /// are together shorter than the diagonals, so the ends that are closer belong together. The ring
-/// of the right bound and of the left one backward is counter-clockwise.
+/// that follows the right bound forward and the left bound backward is counter-clockwise.
 void Orient(LaneletBound& left, LaneletBound& right) {
   const auto apart = [](const Vec2& a, const Vec2& b) { return (a - b).norm(); };
   const Vec2& first = left.points.front();

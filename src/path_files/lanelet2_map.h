@@ -53,8 +53,8 @@ std::optional<double> SpeedOfTag(const std::string& text);
 /// A map, and the lanelets on which cars drive. The map keeps a reference to the file's name.
 class Lanelet2Map {
  public:
-  /// Throws InputError if a lanelet's node has no place, or two lanelets have the same id. Leaves
-  /// out lanelets whose ways or nodes are missing.
+  /// Throws InputError if a lanelet's node has no position, or two lanelets have the same id.
+  /// Leaves out lanelets whose ways or nodes are missing.
   Lanelet2Map(const std::filesystem::path& file, const tinyxml2::XMLElement& root,
               const PathMap& map);
 

@@ -16,7 +16,7 @@ namespace trackbed {
 namespace {
 
 constexpr double kSpacing = 1.0;              // Distance between points of the path [m].
-constexpr double kLateralAcceleration = 1.5;  // [m/s^2]
+constexpr double kLateralAcceleration = 1.5;  // Lateral acceleration of a lane change [m/s^2].
 
 /// The center line of a lane, with normals that are continuous along the line.
 class CenterLine {
@@ -113,11 +113,11 @@ double ChangeLength(double offset, double speed) {
                    4.0 * std::abs(offset), 5.0 * kSpacing});
 }
 
-/// The lateral offset from a center line over the distance.
+/// The lateral offset from a center line as a function of the distance.
 struct Offset {
-  double start = 0.0;   // [m]
-  double slope = 0.0;   // Slope at the start.
-  double length = 1.0;  // [m]
+  double start = 0.0;   // Offset at the start [m].
+  double slope = 0.0;   // Slope of the offset at the start.
+  double length = 1.0;  // Length over which the offset falls to 0 [m].
 
   [[nodiscard]] double At(double x) const {
     const double u = std::min(x / length, 1.0);
@@ -149,8 +149,8 @@ std::vector<Vec2> LaneletPath(const Lanelets& lanelets, const std::vector<Lanele
     const Offset offset{from.offset, std::tan(turn),
                         std::min(ChangeLength(from.offset, speed),
                                  std::max(line.length() - from.station, kSpacing))};
-    // The path leaves the center line at the distance `change` before the aim, to reach the aim's
-    // offset.
+    // At the distance `change` before the aim, the path begins to move from the center line to the
+    // aim's lateral offset.
     double aim_offset = 0.0;
     double aim_at = 0.0;
     double change = 1.0;

@@ -82,8 +82,8 @@ std::string IdOf(const XMLElement& element, const char* attribute,
 /// A candidate lanelet: the number by which candidates are compared, and the key of the lanelet.
 using Candidate = std::pair<double, std::string>;
 
-/// Distance that a change to an adjacent lanelet counts [m], so that a route changes lanes only
-/// where it must.
+/// Cost of a change to an adjacent lanelet, as a distance [m]: a route changes lanes only where it
+/// must.
 constexpr double kLaneChangeCost = 5.0;
 
 }  // namespace
@@ -218,7 +218,7 @@ PolylinePlace PlaceOn(const std::vector<Vec2>& line, const Vec2& point) {
 }
 
 std::vector<std::string> LaneletsAt(const Lanelets& lanelets, const Pose2& pose) {
-  constexpr double kMaxDistance = 5.0;  // [m]
+  constexpr double kMaxDistance = 5.0;  // Largest distance of the nearest lanelet [m].
   // Lanelets whose direction differs by more than kMaxTurn from the pose's heading are for oncoming
   // or crossing traffic.
   constexpr double kMaxTurn = 0.5 * kPi;  // [rad]

@@ -54,7 +54,7 @@ using LaneletLane = std::vector<const Lanelet*>;
 struct PolylinePlace {
   double station = 0.0;   ///< Station of the nearest point [m].
   double distance = 0.0;  ///< Distance from the nearest point [m].
-  double offset = 0.0;    ///< `distance` with a sign, positive to the left of the polyline [m].
+  double offset = 0.0;    ///< Signed `distance`, positive to the left of the polyline [m].
   double yaw = 0.0;       ///< Direction of the polyline at the nearest point [rad].
 };
 PolylinePlace PlaceOn(const std::vector<Vec2>& line, const Vec2& point);

@@ -12,8 +12,8 @@
 #include "trackbed/bag/message.h"
 #include "trackbed/core/spelling.h"
 
-// Reads a path from a bag of ROS 2. A message nav_msgs/Path has a sequence of poses. In other
-// topics, each message has one pose.
+// Reads a path from a bag of ROS 2. A message nav_msgs/Path has a sequence of poses. In topics of
+// other types than nav_msgs/Path, each message has one pose.
 namespace trackbed {
 namespace {
 
@@ -86,9 +86,9 @@ class BagPoseColumns {
  private:
   std::optional<std::array<std::size_t, 2>> position_;
   std::optional<std::array<std::size_t, 4>> orientation_;
-  std::optional<std::array<std::size_t, 2>> stamp_;  // seconds and nanoseconds
-  std::optional<double> first_second_;               // seconds of the first stamp [s]
-  std::vector<double> stamps_;                       // since first_second_ [s]
+  std::optional<std::array<std::size_t, 2>> stamp_;  // Seconds and nanoseconds.
+  std::optional<double> first_second_;               // Seconds of the first stamp [s].
+  std::vector<double> stamps_;                       // Stamps since first_second_ [s].
   bool has_heading_ = false;
 };
 

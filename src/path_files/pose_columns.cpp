@@ -75,8 +75,8 @@ std::vector<std::string> OtherNames(std::string_view quantity) {
                            : std::vector<std::string>{};
 }
 
-/// Columns of a quantity by the words for a pose around the usual name. A header may repeat a
-/// name; the reader refuses this.
+/// Returns the columns of a quantity; the key of a column is the words for a pose around the usual
+/// name. A header may repeat a name; the reader refuses this.
 std::map<std::string, UsualColumn> ColumnsByPose(const std::vector<std::string>& names,
                                                  std::string_view quantity) {
   std::map<std::string, UsualColumn> columns;

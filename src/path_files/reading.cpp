@@ -38,9 +38,9 @@ std::size_t FirstTimeOutOfOrder(const std::vector<double>& times) {
 }
 
 /// Separates the times of points that share one time, as clocks with whole seconds write. The speed
-/// is constant from the first of these points to the next point with another time. If no point with
-/// a later time follows, the speed is that of the step before. Returns the speed of each step
-/// [m/s].
+/// is constant from the first point with a shared time to the next point with another time. If no
+/// point with a later time follows, the speed is that of the previous step. Returns the speed of
+/// each step [m/s].
 std::vector<double> SpreadEqualTimes(const std::vector<Vec2>& points, std::vector<double>& times) {
   std::vector<double> step_speeds;
   std::size_t first = 0;

@@ -22,17 +22,17 @@ inline constexpr std::size_t kMaxGlobeBytes = std::size_t{64} << 20U;
 std::string LowerEnding(const std::filesystem::path& file);
 
 /// Stores the times at which the points are reached, from 0 [s]. If the points have no speeds,
-/// computes the speed at each point from the times. Points of one equal time are reached at a
-/// constant speed until the next time. If the times decrease or are all equal, or if a computed
-/// speed is out of range, drops the speeds and the times. For dropped times, adds a problem that
-/// names the point to PathFile::speed_problems.
+/// computes the speed at each point from the times. If successive points have equal times, their
+/// speed is constant up to the next point with a later time. If the times decrease or are all
+/// equal, or if a computed speed is out of range, drops the speeds and the times. For dropped
+/// times, adds a problem that names the point to PathFile::speed_problems.
 void TakeTimes(PathFile& found, std::vector<double> times, const std::string& file);
 
 /// Takes the stamps of ROS messages [s], one for each point, as TakeTimes does. Ignores stamps that
 /// are all equal, as those of a planner that does not set them.
 void TakeStamps(PathFile& found, std::vector<double> stamps, const std::string& file);
 
-/// Throws InputError with this message about a key of a file, and about a line if it is not 0.
+/// Throws InputError with the given message about a key of a file, and about a line if it is not 0.
 [[noreturn]] void Refuse(const std::filesystem::path& file, const std::string& key,
                          std::string message, int line = 0);
 

@@ -36,7 +36,7 @@ constexpr double kLevelBorder = 24.0;   // Width of the level border of the terr
 constexpr double kSlopeToBorder = 72.0;
 // Height by which the level border lies below the lowest point of the road [m].
 constexpr double kBorderDepth = 1.0;
-constexpr double kMaxSide = 4000.0;  // [m]
+constexpr double kMaxSide = 4000.0;  // Largest side length of the terrain [m].
 // Column of a file that says whether its line is closed.
 constexpr const char* kClosedColumn = "closed";
 
@@ -141,7 +141,7 @@ BankedGround::Node BankedGround::NodeAt(const Vec2& point,
     }
     const TrackEdges edges = line_->EdgesAt(s);
     const double beside = std::max({0.0, d - edges.left, edges.right - d});
-    // The road fades out while 1 - kappa d decreases from 0.5 to 0.1.
+    // The road fades out while 1 - kappa d, with the lateral offset d, decreases from 0.5 to 0.1.
     const auto fade = [](double beyond) { return Fade((beyond - kSurfaceMargin) / kBlendWidth); };
     const double share = Fade((0.5 - fold) / 0.4) * fade(beside) * fade(line_->BeyondEnds(s));
     if (share <= 0.0) {
@@ -313,7 +313,7 @@ std::string OpenLineProblem(const std::vector<TrackPoint>& points) {
 
 namespace {
 
-/// Reads the column `closed` of a file; nullopt if it has none.
+/// Reads the column `closed` of a file; nullopt if the file has no such column.
 std::optional<bool> ReadClosed(const std::filesystem::path& file) {
   std::optional<std::size_t> index;
   std::optional<bool> closed;

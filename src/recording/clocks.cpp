@@ -107,8 +107,8 @@ class Clocks {
   const RecordedDrive& drive_;
   double start_;
   std::vector<bool> valid_;
-  Motion pose_;    // computed from the pose
-  Motion motion_;  // measured motion, on the clock of the pose
+  Motion pose_;    // Motion computed from the pose.
+  Motion motion_;  // Measured motion, on the clock of the pose.
   std::vector<SignalClock> clocks_;
 };
 
@@ -167,7 +167,7 @@ double DelayInMap(const LogMap& map, LogSignal signal) {
 }
 
 /// Returns the delay [s] that no car can cause: any delay of a motion signal behind the pose, or a
-/// delay of the steering behind the yaw rate. Returns nullopt for other delays.
+/// delay of the steering behind the yaw rate. Returns nullopt for a delay that a car can cause.
 std::optional<double> Contradiction(const SignalClock& clock) {
   const double delay = clock.found.delay;
   if (!IsSteering(clock.signal)) {

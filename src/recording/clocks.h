@@ -14,23 +14,26 @@ namespace trackbed {
 struct SignalClock {
   LogSignal signal = kSpeedSignal;
   SignalDelay found{};
-  /// Delay [s] above which the signal counts as delayed. This is the largest of three standard
-  /// errors, the mean time between rows of the signal, and the mean time between rows of the pose.
-  /// A logger that writes the last value of a signal into each row delays the signal by up to the
-  /// time between two rows.
+  /// Delay [s] above which the signal counts as delayed. The limit is the maximum of three values:
+  /// 3 times the standard error, the mean time between rows of the signal, and the mean time
+  /// between rows of the pose. A logger that writes the last value of a signal into each row delays
+  /// the signal by up to the time between two rows.
   double uncertainty = 0.0;
 
   [[nodiscard]] bool differs() const;
 };
 
-/// Estimates the delays of all signals of a log that can be compared with the motion (FindDelay):
-///   speed          against the derivative of the position along the car
-///   yaw_rate       against the derivative of the yaw
-///   accelerometer  against the acceleration at the place of the accelerometer, which is computed
-///                  from longitudinal speed, lateral speed and yaw rate. Measured speeds and yaw
-///                  rates are shifted by their delays for this comparison.
-///   steering, steering_command  the yaw rate against speed times the tangent of the angle; here
-///                  the delay is that of the yaw rate, and negative if the steering is logged late.
+/// Estimates the delays of all signals of a log that can be compared with the motion (FindDelay).
+///
+/// The signal `speed` is compared with the derivative of the position along the car. The signal
+/// `yaw_rate` is compared with the derivative of the yaw. An accelerometer is compared with the
+/// acceleration at its place, which is computed from longitudinal speed, lateral speed and yaw
+/// rate. For the accelerometer, measured speeds and yaw rates are first shifted by their delays.
+///
+/// For `steering` and `steering_command`, the yaw rate is compared with the speed times the tangent
+/// of the steering angle. The delay of a steering signal is that of the yaw rate behind the
+/// steering, and negative if the steering is logged late.
+///
 /// The samples of `drive` contain the motion that was computed from the pose; `start` is the time
 /// of the first sample since the first row of the log [s].
 std::vector<SignalClock> MeasureClocks(const LogRows& rows, const LogMap& map,

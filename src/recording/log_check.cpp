@@ -111,11 +111,12 @@ std::vector<double> HalfWidths(const LogMap& map) {
 }
 
 /// Returns the smallest misfit over all widths; none if the vehicle hardly turns. Skips the
-/// remaining widths after a misfit below `enough`. If only noise turns the course, the misfit of
-/// narrow polynomials is near 1, because the course turns much more than the yaw.
+/// remaining widths of the polynomials after a misfit below `enough`. If only noise turns the
+/// course, the misfit of narrow polynomials is near 1, because the course turns much more than the
+/// yaw.
 std::optional<double> LeastMisfit(const LogRows& rows, const LogMap& map, double scale,
                                   double enough) {
-  constexpr double kLikeNoise = 0.3;  // misfits within this distance of 1 may be noise
+  constexpr double kLikeNoise = 0.3;  // Misfits that differ from 1 by less may be noise.
   std::optional<double> least;
   for (const double width : HalfWidths(map)) {
     const std::optional<double> misfit = Misfit(Moments(rows, map, scale, width));

@@ -14,8 +14,8 @@ void ProjectRows(const std::filesystem::path& log, const LogPosition& map, std::
                  LogRows& rows);
 
 /// Refuses a CSV file that marks south or west by letters in a separate column while its numbers
-/// are positive, because the numbers would be read as north or east. Throws InputError that
-/// names the lines of such rows.
+/// are positive, because the numbers would be read as north or east. Throws InputError that names
+/// the lines of the contradictory rows.
 void CheckHemispheres(const std::filesystem::path& log, const LogPosition& map, char delimiter);
 
 /// Sets the yaw of each row to the direction of motion. Below 0.5 m/s, repeats the last yaw. Adds a

@@ -20,8 +20,8 @@
 // Lists a log and proposes a map (log_map.h).
 // 1. In CSV files, columns are recognized by the names that path files use, too
 //    (FindPoseColumns), and by names that state a unit.
-// 2. In bags, the type of a topic's messages decides. The position comes from the odometry; without
-//    odometry, from a pose; without both, from a satellite fix.
+// 2. In bags, topics are recognized by the type of their messages. The position comes from the
+//    odometry; without odometry, from a pose; without both, from a satellite fix.
 // 3. GPX, KML and GeoJSON files have positions and times.
 // 4. FitTo chooses the gap and the width of the polynomials from the median step of the times.
 namespace trackbed {
@@ -140,7 +140,7 @@ std::optional<FoundColumn> Matches(const std::string& name, const std::string& w
 }
 
 /// Returns the first of the wanted names that the log has. A column that states a unit other than
-/// `units` is not taken.
+/// `units` is ignored.
 std::optional<FoundColumn> AnyOf(const std::vector<std::string>& names, const Names& units,
                                  const std::vector<const char*>& wanted) {
   for (const char* own : wanted) {

@@ -235,7 +235,7 @@ class LogReader {
                 const std::vector<std::size_t>& columns, ProblemList& problems);
 
   const fs::path& log_;
-  std::string topic_;  // topic of the position in a bag; else empty
+  std::string topic_;  // Topic of the position in a bag; empty for other logs.
   const LogMap& map_;
   std::vector<SignalColumn> signals_;
   LogRows rows_;
@@ -243,9 +243,9 @@ class LogReader {
   // column of additional nanoseconds.
   std::optional<std::pair<double, double>> origin_;
   std::size_t kept_ = 0;
-  bool is_globe_;            // whether positions are on the globe [deg] until projection
-  double globe_unit_ = 1.0;  // degrees per unit of the columns
-  std::vector<int> lines_;   // line of each position on the globe
+  bool is_globe_;            // Whether positions are on the globe [deg] until projection.
+  double globe_unit_ = 1.0;  // Degrees per unit of the columns.
+  std::vector<int> lines_;   // Line of each position on the globe.
 };
 
 void LogReader::TakePose(const Numbers& numbers, double time, int line,

@@ -50,7 +50,7 @@ struct LogRows {
   std::size_t repeated = 0;      // Number of rows with the same time as the previous row.
   // Line number of the first row that has the same time as the previous row.
   int repeated_line = 0;
-  std::vector<std::string> notes{};  // How positions on the globe were projected.
+  std::vector<std::string> notes{};  // Notes on how positions on the globe were projected.
 };
 
 /// Reads the rows of the log and of the other files that the map names. ReadLogRows throws

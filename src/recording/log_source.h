@@ -27,8 +27,8 @@ using TakeLogRow = std::function<void(const std::vector<double>& numbers, int li
 /// Reads columns of a log by name. The log is a CSV file (ReadCsvColumns), or a GPX, KML or GeoJSON
 /// file, whose columns are kGlobeColumns. The log may also be a topic of a bag, whose columns are
 /// those of its messages (BagMessage) and kBagTimes. In a bag, `stamp.sec` is the time in the
-/// message's header; without it, the time at which the message was logged. Throws InputError in the
-/// same cases as ReadCsvColumns, ReadGlobeFile, ReadBagMessages and BagMessage.
+/// message's header or, without a header, the time at which the message was logged. Throws
+/// InputError in the same cases as ReadCsvColumns, ReadGlobeFile, ReadBagMessages and BagMessage.
 void ReadLogNumbers(const LogSource& source, const WantedColumns& columns, const TakeLogRow& take);
 
 /// The columns of a GPX, KML or GeoJSON file: seconds since 1970, degrees, degrees and meters.

@@ -24,8 +24,8 @@ constexpr double kLeastExplained = 0.1;
 struct Line {
   double a = 0.0;
   double b = 0.0;
-  double residuals = 0.0;  // sum of squared residuals
-  double variance = 0.0;   // sum of squared deviations of the signal from its mean
+  double residuals = 0.0;  // Sum of squared residuals.
+  double variance = 0.0;   // Sum of squared deviations of the signal from its mean.
   double count = 0.0;
 };
 
@@ -136,10 +136,10 @@ double VarianceOfSum(const std::vector<double>& values) {
 }
 
 /// Returns weights w_k such that the sum of w_k (f(k) - f(-k)) over k from 1 to `width` is the
-/// slope at 0 of the least-squares cubic through values f. The values are at the places from
-/// -`width` to `width` (Savitzky and Golay 1964). If `width` is 1, the curve is a parabola.
+/// slope at 0 of the least-squares cubic through values f. The values f(k) are at the places k from
+/// -`width` to `width` (Savitzky and Golay 1964). If `width` is 1, the fitted curve is a parabola.
 std::vector<double> CubicWeights(int width) {
-  double s2 = 0.0;  // sums of powers of the places
+  double s2 = 0.0;  // sums of k^2, k^4 and k^6 over all places k
   double s4 = 0.0;
   double s6 = 0.0;
   for (int k = 1; k <= width; ++k) {
@@ -159,13 +159,14 @@ std::vector<double> CubicWeights(int width) {
 
 /// Minimum of the sum of squared residuals over the delay, in samples.
 struct Minimum {
-  int middle = 0;      // nearest whole delay
-  double delay = 0.0;  // delay at the minimum
-  double bend = 0.0;   // second derivative
+  int middle = 0;      // Whole delay nearest to the minimum.
+  double delay = 0.0;  // Delay at the minimum.
+  double bend = 0.0;   // Second derivative at the minimum.
 };
 
 /// Finds the delay near `middle` at which the cubic through the sums of squared residuals, within
-/// `width` samples of this delay, has no slope. The slope is interpolated linearly between samples.
+/// `width` samples of this delay, has no slope. The slope of the cubic is interpolated linearly
+/// between samples.
 Minimum FindMinimum(const Scan& scan, int middle, int width, int stride) {
   std::map<int, double> sums;
   const auto sum_at = [&](int delay) {
@@ -213,8 +214,8 @@ double StandardError(const Scan& scan, const Minimum& minimum, int width, int st
   const std::vector<double> weights = CubicWeights(width);
   std::vector<double> scores;
   std::size_t count = 0;
-  double squares = 0.0;  // sum of squared signal values
-  double slopes = 0.0;   // sum of squared slopes
+  double squares = 0.0;  // Sum of squared signal values.
+  double slopes = 0.0;   // Sum of squared slopes.
   const double part = minimum.delay - minimum.middle;
   scan.ForPairs(minimum.middle, stride, [&](double /*x*/, double y, std::size_t index) {
     if (count++ % group == 0) {
@@ -245,9 +246,10 @@ double IndependentSamples(const Scan& scan, int delay, const Line& line, int str
 }
 
 /// Returns the delay in samples whose sum of squared residuals is smallest. Periodic motion fits
-/// nearly as well at other delays, one period apart. The sum then has several minima, separated by
-/// delays that fit significantly worse. If other minima are not significantly worse than the
-/// smallest one, returns the minimum with the smallest absolute delay.
+/// nearly as well at other delays, one period apart. For periodic motion, the sum of squared
+/// residuals has several minima, separated by delays that fit significantly worse. If other minima
+/// are not significantly worse than the smallest one, returns the minimum with the smallest
+/// absolute delay.
 int BestDelay(const Scan& scan, const std::vector<Line>& lines, int stride) {
   const int reach = scan.reach();
   const auto at = [&](int delay) -> const Line& {
@@ -265,7 +267,7 @@ int BestDelay(const Scan& scan, const std::vector<Line>& lines, int stride) {
   const double worst = at(least).residuals * std::exp(kSignificant / std::max(1.0, independent));
   int best = least;
   const int none = reach + 1;
-  int valley = none;  // best delay since the last significantly worse one
+  int valley = none;  // best delay since the last significantly worse delay
   for (int delay = -reach; delay <= reach; ++delay) {
     if (at(delay).a > 0.0 && at(delay).residuals <= worst) {
       valley = valley != none && at(valley).residuals <= at(delay).residuals ? valley : delay;
@@ -278,9 +280,8 @@ int BestDelay(const Scan& scan, const std::vector<Line>& lines, int stride) {
   return best;
 }
 
-/// Returns the half width of the range of delays around `best` that fit nearly as well: each of
-/// them explains at least nine tenths of the variance that `best` explains. The half width is at
-/// least 1.
+/// Returns the half width of the range of delays around `best` that explain at least nine tenths of
+/// the variance that `best` explains. The returned half width is at least 1.
 int WidthOfCubic(const std::vector<Line>& lines, int reach, int best) {
   constexpr double kExplained = 0.9;
   const auto explained = [&](int delay) {
@@ -297,8 +298,8 @@ int WidthOfCubic(const std::vector<Line>& lines, int reach, int best) {
 }
 
 /// Returns whether the reference explains more of the signal than pure noise would explain at its
-/// best delay. The function applies a likelihood ratio test at three standard deviations, corrected
-/// for the number of independent delays.
+/// best delay. IsSignificant applies a likelihood ratio test at three standard deviations,
+/// corrected for the number of independent delays.
 bool IsSignificant(const Scan& scan, int best, const Line& line, int stride) {
   constexpr double kSignificant = 9.0;
   const double independent = IndependentSamples(scan, best, line, stride);
@@ -386,7 +387,8 @@ std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
   if (static_cast<double>(signal.size()) < 4.0 * std::ceil(kMaxSignalDelay / period)) {
     return std::nullopt;
   }
-  // Largest reach of the moving averages [s]. A larger reach would smooth the motion itself.
+  // Largest reach of the moving averages [s]. A moving average of larger reach would smooth the
+  // motion itself.
   constexpr double kWidest = 0.5 * kMaxSignalDelay;
   constexpr double kMost = 0.8;  // explained share above which the signals need no smoothing
   Estimate estimate = EstimateDelay(reference, signal, valid, period);

@@ -28,13 +28,14 @@ inline constexpr double kMaxSignalDelay = 1.0;
 /// differ significantly (three standard deviations), the smallest absolute delay is returned.
 ///
 /// If the model explains less than 0.8 of the signal's variance, signal and reference are smoothed
-/// by moving averages. The averages extend over up to half of kMaxSignalDelay to either side.
+/// by moving averages. The moving averages extend over up to half of kMaxSignalDelay to either
+/// side.
 ///
 /// All samples have the same distance `period` [s] in time. Returns nullopt if the model explains
 /// less than a tenth of the signal's variance. Also returns nullopt if pure noise would explain
 /// nearly as much at its best delay. Also returns nullopt if the best delay exceeds
-/// kMaxSignalDelay, or if there are fewer than 4 kMaxSignalDelay/period samples. The cost is at
-/// most 1.5 s.
+/// kMaxSignalDelay, or if there are fewer than 4 kMaxSignalDelay/period samples. The computing time
+/// is at most 1.5 s.
 std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
                                      const std::vector<double>& signal,
                                      const std::vector<bool>& valid, double period);

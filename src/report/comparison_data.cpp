@@ -30,8 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Maximum number of rows of all difference curves together. The limit lets a single curve have
-/// more rows than a chart has pixels, and keeps a page with ten pairs small.
+/// Maximum number of rows of all difference curves together. This row limit lets a single curve
+/// have more rows than a chart has pixels, and keeps a page with ten pairs small.
 constexpr std::size_t kCurveRows = 3000;
 
 [[noreturn]] void FailOutdated(const fs::path& file, const std::string& message) {

@@ -16,11 +16,11 @@ bool HasComparison(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> ComparedRuns(const std::filesystem::path& folder);
 
 /// Returns the differences between pairs of plants at equal stations, as {verdicts, pairs}. If
-/// `judged` is given, the pairs are those of the comparison in the folder `judged`. Without
-/// `judged`, the pairs are those of the comparisons in the run folders. Each plant of the first run
-/// is also paired with the plant of the same name in every other run. For a single run that has no
-/// comparison, the pairs are all pairs of plants of this run. Returns an empty result if there are
-/// no pairs of plants. Throws InputError if a comparison does not match the logs.
+/// `judged` is given, the pairs are those of the comparison in the folder `judged`. Without a
+/// folder `judged`, the pairs are those of the comparisons in the run folders. Each plant of the
+/// first run is also paired with the plant of the same name in every other run. For a single run
+/// that has no comparison, the pairs are all pairs of plants of this run. Returns an empty result
+/// if there are no pairs of plants. Throws InputError if a comparison does not match the logs.
 nlohmann::ordered_json ComparisonData(const std::vector<std::filesystem::path>& runs,
                                       const std::optional<std::filesystem::path>& judged);
 

@@ -50,7 +50,7 @@ ShownName NameOfOutput(const std::string& path) {
     const std::string plant = TakeWord(rest);
     ShownName name = NameOfMetric(rest);
     // A label that begins with "…", such as "… at station", continues the label of the row above.
-    // Because such a label is not understandable alone, the metric's path is used instead.
+    // A label that needs the row above is replaced by the metric's path.
     name.label = name.label.starts_with("…") ? rest : name.label;
     name.label += plant == "*" ? "" : fmt::format(" ({})", plant);
     return name;

@@ -11,8 +11,8 @@
 namespace trackbed {
 namespace {
 
-/// Returns the indices of the first and the last row. Also returns the rows with the minimum and
-/// maximum of each column in each of `stretches` equal parts of the table.
+/// Returns the indices of the first and the last row. The returned indices include the rows with
+/// the minimum and maximum of each column in each of `stretches` equal parts of the table.
 std::vector<std::size_t> ExtremeRows(const Table& table, std::size_t stretches) {
   std::set<std::size_t> rows{0, table.rows() - 1};
   for (std::size_t k = 0; k < stretches; ++k) {

@@ -19,10 +19,11 @@ nlohmann::ordered_json RoundedColumn(const Table& table, const std::string& colu
                                      const std::vector<std::size_t>& rows);
 
 /// Selects rows of a table that preserve the shape of the curves of all columns. Selects all rows
-/// if the table has at most `limit` rows. Divides a larger table into parts with equal numbers of
-/// rows. For a larger table, selects the first and the last row, and the rows with the minimum and
-/// maximum of each column in each part. Returns the selected rows in their order in the table. At
-/// most `limit` rows are selected, unless the two end rows and two rows per column exceed `limit`.
+/// if the table has at most `limit` rows. Divides a table with more than `limit` rows into parts
+/// with equal numbers of rows. From a table with more than `limit` rows, selects the first and the
+/// last row, and the rows with the minimum and maximum of each column in each part of the table.
+/// Returns the selected rows in their order in the table. At most `limit` rows are selected, unless
+/// the two end rows and two rows per column exceed `limit`.
 std::vector<std::size_t> RowsToShow(const Table& table, std::size_t limit);
 
 }  // namespace trackbed

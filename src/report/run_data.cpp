@@ -417,7 +417,7 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
   }
   run["resolved"] = ReadFile(scenario, kMaxScenarioBytes);
   AddScene(folder, world, row_limit / 2, run);
-  // added last, because computing the data of the car takes the longest time
+  // the data of the car is added last, because computing this data takes the longest time
   AddCar(folder, world, row_limit / 2, run);
   return run;
 }

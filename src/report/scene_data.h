@@ -35,7 +35,7 @@ nlohmann::ordered_json GroundJson(const World& world, double low_x, double low_y
 
 /// Encodes numbers as base64. If int16 resolves the range of the numbers to 1e-3 or finer (meters
 /// or radians), the format is {i2, offset, scale} with int16. For a larger range, the format is
-/// {f4} with float32. The bytes of both formats are little-endian.
+/// {f4} with float32. The bytes of int16 and float32 are little-endian.
 nlohmann::ordered_json ChannelJson(const std::vector<double>& values);
 
 /// Encodes numbers as base64 in the format {f4}, which contains float32.

@@ -9,7 +9,7 @@
 
 namespace trackbed {
 
-/// Whether a row of a study counts as passed if it has this status.
+/// Whether a row of a study with the status `status` counts as passed.
 bool HasPassed(const std::string& status);
 
 /// Computes statistics over all rows of a study: the pass rate, the distribution of each output and

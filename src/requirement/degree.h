@@ -49,21 +49,21 @@ struct Windows {
 };
 
 /// Finds for each sample the window of samples that lie `from` to `to` seconds later, including
-/// both ends, with a tolerance of 1 ns. The window of a sample never begins before the sample
+/// both ends, with a tolerance of 1 ns. The time window of a sample never begins before the sample
 /// itself. The argument `times` must be in ascending order.
 Windows FindWindows(const std::vector<double>& times, double from, double to);
 
 /// Compute the minimum or maximum over the window of each sample, by Lemire's monotonic wedge
 /// algorithm, in a time proportional to the number of samples. If several samples have the same
-/// extreme value, the functions return the earliest of these samples.
+/// extreme value, SlidingMin and SlidingMax return the earliest of these samples.
 Degrees SlidingMin(const Degrees& values, const Windows& windows);
 Degrees SlidingMax(const Degrees& values, const Windows& windows);
 
 /// Computes for each sample the degree of "phi until[from, to] psi", in a time proportional to the
-/// number of samples (Donzé, Ferrère and Maler 2013). The result is the minimum of three degrees.
-/// The first one is that psi holds at some sample of the window. The second one is that phi holds
-/// from the sample to the beginning of the window. The third one is that "phi until psi" holds at
-/// the beginning.
+/// number of samples (Donzé, Ferrère and Maler 2013). The degree of "until" is the minimum of the
+/// degrees of three conditions. Condition 1: psi holds at some sample of the window. Condition 2:
+/// phi holds from the sample to the beginning of the window. Condition 3: "phi until psi" holds at
+/// the beginning of the window.
 Degrees Until(const Degrees& phi, const Degrees& psi, const Windows& windows);
 
 }  // namespace trackbed

@@ -5,8 +5,8 @@
 #include <cmath>
 
 // Adds smooth moves w(s) C to a path p(s), where C is a constant vector in the plane and w a
-// quintic polynomial that rises from 0 to 1. Heading and curvature of p + w C follow from its first
-// and second derivative, so the changed path is as smooth as the path before.
+// quintic polynomial that rises from 0 to 1. Heading and curvature of the moved path p + w C follow
+// from its first and second derivatives, so the moved path is as smooth as the path p.
 
 namespace trackbed {
 namespace {
@@ -20,7 +20,7 @@ struct Move {
   [[nodiscard]] double End() const { return from + length; }
 };
 
-/// The sum of moves at a station, and its derivatives with respect to the station.
+/// The sum of all moves of the path at a station, and its derivatives with respect to the station.
 struct MoveRate {
   Vec2 value{0.0, 0.0};
   Vec2 first{0.0, 0.0};
@@ -41,8 +41,8 @@ MoveRate RateAt(const std::vector<Move>& moves, double s) {
   return rate;
 }
 
-/// Returns the moves that bring the path back to the points. The moves are ordered by the station
-/// of the point at which the path deviates.
+/// Returns the moves that bring the path back to the points of the lane centers. The moves are
+/// ordered by the station of the point at which the path deviates.
 std::vector<Move> NeededMoves(const Path& path, const std::vector<Piece>& runs) {
   std::vector<Move> moves;
   Vec2 moved(0.0, 0.0);
@@ -65,7 +65,7 @@ Vec2 TangentAt(double yaw) {
   return {std::cos(yaw), std::sin(yaw)};
 }
 
-/// Returns heading and curvature of the moved path. The station of the point stays unchanged.
+/// Returns heading and curvature of the moved path at a point, and keeps the station of the point.
 CurvePoint Moved(const CurvePoint& point, const MoveRate& rate) {
   const Vec2 tangent = TangentAt(point.yaw);
   const Vec2 first = tangent + rate.first;
@@ -80,8 +80,8 @@ CurvePoint Moved(const CurvePoint& point, const MoveRate& rate) {
 }  // namespace
 
 double ClosingLength(double offset) {
-  constexpr double kCurvature = 1e-3;             // Largest added curvature [1/m].
-  const double steepest = 10.0 / std::sqrt(3.0);  // Largest second derivative of w for length 1.
+  constexpr double kCurvature = 1e-3;             // Largest curvature that a move adds [1/m].
+  const double steepest = 10.0 / std::sqrt(3.0);  // Largest w'' of a move of length 1.
   return std::sqrt(steepest * offset / kCurvature);
 }
 
@@ -90,13 +90,13 @@ bool CloseGaps(const Path& path, std::vector<Piece>& runs) {
   if (moves.empty()) {
     return false;
   }
-  // A move overlaps only with moves at nearby stations. `active` contains the moves near the
-  // current point.
+  // A move of the path overlaps only with moves at nearby stations. `active` contains the moves
+  // near the current point.
   std::vector<Move> by_start = moves;
   std::stable_sort(by_start.begin(), by_start.end(),
                    [](const Move& a, const Move& b) { return a.from < b.from; });
   std::vector<Move> active;
-  Vec2 done(0.0, 0.0);  // Sum of the moves that end before the current point.
+  Vec2 done(0.0, 0.0);  // Sum of the path moves that end before the current point.
   auto next = by_start.begin();
   double before = 0.0;
   double distance = 0.0;

@@ -15,8 +15,8 @@ struct CenterPoint {
 /// Points of a piece of a lane's center line without kinks.
 using Piece = std::vector<CenterPoint>;
 
-/// Largest deviation of a path from the lane centers that is not corrected [m]. If the deviation is
-/// larger, the path is moved back.
+/// Largest deviation of a path from the lane centers that is not corrected [m]. Where the deviation
+/// is larger, CloseGaps moves the path back.
 constexpr double kKeptOffset = 1e-3;
 
 /// Returns the length over which a path moves sideways by `offset` [m], such that the move adds at
@@ -26,10 +26,10 @@ double ClosingLength(double offset);
 /// Moves the path through `runs` back to the positions of the points. A path is built from headings
 /// and curvatures, so each gap between pieces and each rounded kink moves the rest of the path
 /// aside. Where a path deviates by more than kKeptOffset, CloseGaps changes headings, curvatures
-/// and distances of the points. The changed part has the ClosingLength, half of it before and half
-/// of it after the deviating point. The points get the positions of the moved path. The start of
-/// the path is not moved. Returns whether anything was changed. `path` is the path through `runs`.
-/// The cost is O(n log n) for n points.
+/// and distances of the points. The changed part of the path has the ClosingLength, half of it
+/// before and half of it after the deviating point. The points get the positions of the moved path.
+/// The start of the path is not moved. Returns whether any point was changed. `path` is the path
+/// through `runs`. The computing time is O(n log n) for n points.
 bool CloseGaps(const Path& path, std::vector<Piece>& runs);
 
 }  // namespace trackbed

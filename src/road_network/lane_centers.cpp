@@ -14,14 +14,14 @@
 #include "trackbed/geometry/pose.h"
 
 // Joins the centers of a route's lanes to a path. The center line of a lane is the reference line
-// of the road plus a lateral offset, which is measured across the road's surface and projected to
-// the plane. In a lane change, a quintic polynomial blends the offsets of the two lanes. The
-// algorithm splits the lane centers into pieces, at the stations where one polynomial of the
-// OpenDRIVE file ends and the next polynomial begins. Each piece is sampled at points with exact
-// heading and curvature. Kinks of at most 0.2 rad are rounded over 0.5 m on either side, and
-// negligible steps of curvature become ramps. The path through the pieces then returns to the lane
-// centers after each gap (center_gaps.h). The algorithm rejects a route whose lane centers have
-// larger gaps or kinks, and a path that deviates too far from the lane centers.
+// of the road plus a lateral offset. The offset of a lane center is measured across the road's
+// surface and projected to the plane. In a lane change, a quintic polynomial blends the offsets of
+// the two lanes. The algorithm splits the lane centers into pieces, at the stations where one
+// polynomial of the OpenDRIVE file ends and the next polynomial begins. Each piece is sampled at
+// points with exact heading and curvature. Kinks of at most 0.2 rad are rounded over 0.5 m on
+// either side, and negligible steps of curvature become ramps. The path through the pieces then
+// returns to the lane centers after each gap (center_gaps.h). The algorithm rejects a route whose
+// lane centers have larger gaps or kinks, and a path that deviates too far from the lane centers.
 
 namespace trackbed {
 namespace {
@@ -31,11 +31,11 @@ constexpr double kSpacing = 0.25;
 constexpr double kKink = 1e-6;    // Largest kink that is not rounded [rad].
 constexpr double kMaxKink = 0.2;  // Largest kink that is rounded [rad].
 // Largest step of curvature that is rounded in the same way as a kink [1/m]. Rounding the largest
-// step moves the line by 1e-3/24 m, which is 0.04 mm. Steps of this size are caused by joints of
-// superelevation or elevation polynomials, and by rounded numbers in a file. Without rounding, a
-// planner would reserve time for turning the wheels at each step.
+// step moves the line by 1e-3/24 m, which is 0.04 mm. Curvature steps up to 1e-3 1/m are caused by
+// joints of superelevation or elevation polynomials, and by rounded numbers in a file. Without
+// rounding, a planner would reserve time for turning the wheels at each step of the curvature.
 constexpr double kCurvatureStep = 1e-3;
-// Largest change of the curvature that counts as 0 [1/m]. Along 100 km, a curvature of this size
+// Largest change of the curvature that counts as 0 [1/m]. Along 100 km, a curvature of 1e-9 1/m
 // changes the heading by 1e-4 rad.
 constexpr double kSameCurvature = 1e-9;
 // Length of the center line that rounding replaces on either side of a kink [m].
@@ -233,8 +233,8 @@ class Gaps {
 /// pieces are rounded.
 class Joiner {
  public:
-  /// Adds a piece to the end of the line. If the piece cannot be joined, Add returns the reason,
-  /// otherwise an empty text.
+  /// Adds a piece of a lane center to the end of the joined line. If the piece cannot be joined,
+  /// Add returns the reason, otherwise an empty text.
   std::string Add(Piece piece) {
     if (runs_.empty()) {
       runs_.push_back(std::move(piece));
@@ -295,8 +295,9 @@ class Joiner {
 
   /// Builds the path, which follows the lane centers also beyond gaps and kinks.
   [[nodiscard]] Path Join() {
-    // The first pass moves the path. Later passes correct the error of the segments through the
-    // moved points. Each error is less than a tenth of the preceding move.
+    // In the first pass, CloseGaps moves the path back to the lane centers. Later passes correct
+    // the error of the path segments through the moved points. The error after a pass is less than
+    // a tenth of the move in this pass.
     constexpr int kPasses = 4;
     Path path = Through();
     for (int i = 0; i < kPasses && CloseGaps(path, runs_); ++i) {
@@ -306,8 +307,8 @@ class Joiner {
   }
 
  private:
-  /// Builds the path through the points. Adjacent pieces of the same straight line or arc become
-  /// one segment, because planners use the distances between steps of the curvature.
+  /// Builds the path through the points of all pieces. Adjacent pieces of the same straight line or
+  /// arc become one segment, because planners use the distances between steps of the curvature.
   [[nodiscard]] Path Through() const {
     std::vector<Segment> segments;
     for (const Piece& run : runs_) {

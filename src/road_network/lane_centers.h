@@ -16,8 +16,8 @@ struct JoinedPath {
   /// Message that explains why the lane centers cannot be joined; empty on success.
   std::string failure;
   Path path;
-  std::string note;        ///< note on the gaps that the path closes; empty without gaps
-  double deviation = 0.0;  ///< largest distance of the path from the lane centers [m]
+  std::string note;        ///< Note on the gaps that the path closes; empty without gaps.
+  double deviation = 0.0;  ///< Largest distance of the path from the lane centers [m].
 };
 
 /// Computes the path along the lane centers of consecutive stretches.

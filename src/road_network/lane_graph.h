@@ -34,9 +34,9 @@ class LaneGraph {
   [[nodiscard]] const LaneNode& node(std::size_t index) const { return nodes_[index]; }
 
   /// Returns the shortest path in driving direction from the end of one lane to the start of
-  /// another lane. The returned path contains both lanes. If `from` and `to` are the same lane, the
-  /// path is a loop. Returns an empty path if the target lane cannot be reached. The computing time
-  /// is O(n log n) for n lanes.
+  /// another lane. The returned path contains the first and the last lane. If `from` and `to` are
+  /// the same lane, the path is a loop. Returns an empty path if the target lane cannot be reached.
+  /// The computing time is O(n log n) for n lanes.
   [[nodiscard]] std::vector<std::size_t> ShortestWay(std::size_t from, std::size_t to) const;
 
   /// Returns at most three texts for messages: the broken parts of the file at which the paths from

@@ -25,7 +25,7 @@ BoundEnds EndsOf(const Vec2& first, const Vec2& last) {
 
 /// Adds the dashes of a broken line.
 void AddDashes(const std::vector<Vec2>& line, std::vector<PaintedLine>& lines) {
-  double from = 0.0;  // Station of the first of the two points.
+  double from = 0.0;  // Station of the segment's first point.
   PaintedLine dash{.points = {}, .width = kWidth};
   const auto finish = [&] {
     if (dash.points.size() > 1) {
@@ -49,7 +49,7 @@ void AddDashes(const std::vector<Vec2>& line, std::vector<PaintedLine>& lines) {
       } else {
         finish();
       }
-      s = next > s ? next : length;  // rounding must not stop the progress of the loop
+      s = next > s ? next : length;  // the loop must progress despite rounding
     }
     from += length;
   }

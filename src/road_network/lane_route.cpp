@@ -16,7 +16,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kMinStretchLength = 1e-6;  // Length below which a stretch is dropped [m].
+constexpr double kMinStretchLength = 1e-6;  // Length below which a route's stretch is dropped [m].
 constexpr double kMaxRouteLength = 1e5;     // Largest length of a route [m].
 
 std::string Named(const LanePlace& place) {
@@ -103,7 +103,7 @@ Pose2 PoseAt(const RoadNetwork& network, const LanePlace& place) {
   const bool follows = FollowsRoad(road, place.lane);
   const std::size_t section = road.SectionAt(place.s);
   // The first pose of a route is computed from the polynomials beyond merged joints. If the route
-  // begins less than 1 cm before a kink, the pose therefore has the heading beyond the kink.
+  // begins less than 1 cm before a kink, the first pose therefore has the heading beyond the kink.
   const double beyond = std::clamp(place.s + (follows ? 2.0 : -2.0) * kMergedJoints,
                                    road.sections[section].s, road.SectionEnd(section));
   const double piece_of = 0.5 * (place.s + beyond);

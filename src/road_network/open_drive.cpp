@@ -19,8 +19,8 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Largest number of XML elements in an OpenDRIVE file. A document with more elements would take
-/// gigabytes of memory.
+/// Largest number of XML elements in an OpenDRIVE file. A document with more than 4 million
+/// elements would take gigabytes of memory.
 constexpr std::ptrdiff_t kMaxElements = 4000000;
 
 /// Refuses files of OpenDRIVE whose major version is not 1. A missing header or version is a flaw,
@@ -48,8 +48,8 @@ void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& pro
   }
 }
 
-/// Reads the offset of the header. A wrong offset does not make the roads unusable, so it counts as
-/// missing.
+/// Reads the offset of the header. A wrong header offset does not make the roads unusable, so a
+/// wrong offset counts as missing.
 void ReadOffset(const XMLElement& root, OpenDriveFile& file) {
   XmlProblems ignored("");
   const XMLElement* header = root.FirstChildElement("header");
@@ -67,7 +67,7 @@ void ReadOffset(const XMLElement& root, OpenDriveFile& file) {
   }
 }
 
-/// Reads a junction. Connections with an error are left out.
+/// Reads a junction. Connections of the junction with an error are left out.
 Junction ReadJunction(const XmlFields& fields, RoadNetwork& network) {
   Junction junction{.id = fields.OptionalText("id"), .connections = {}};
   ForEachChild(&fields.element(), "connection", [&](const XMLElement& element, std::size_t index) {
@@ -98,7 +98,7 @@ Junction ReadJunction(const XmlFields& fields, RoadNetwork& network) {
   return junction;
 }
 
-/// Roads or junctions of a file: adds each part to a map, or leaves it out.
+/// Roads or junctions of a file; adds each road or junction to a map, or leaves it out.
 template <typename Part>
 class Parts {
  public:
@@ -106,8 +106,8 @@ class Parts {
         XmlProblems& left_out)
       : kind_(kind), parts_(parts), network_(network), left_out_(left_out) {}
 
-  /// Adds a part with its problems. A part with problems is left out, and so are all parts with the
-  /// same id.
+  /// Adds a road or junction with its problems. A road or junction with problems is left out, and
+  /// so are all parts with the same id.
   void Add(Part part, int line, XmlProblems& problems) {
     const std::string id = part.id;
     const std::string name = fmt::format("{} {}", kind_, id);

@@ -19,7 +19,7 @@ using tinyxml2::XMLElement;
 // Bounds of coordinates [m]; northings of UTM are below 1e7.
 constexpr Bounds kCoordinate{-1e8, 1e8};
 constexpr Bounds kGeometryLength{0.0, 1e6};  // Bounds of a geometry's length [m].
-constexpr Bounds kBend{-1e3, 1e3};           // Bounds of a curvature [1/m].
+constexpr Bounds kBend{-1e3, 1e3};           // Bounds of a geometry's curvature [1/m].
 /// Largest difference between the start station of a geometry and the end station of the previous
 /// geometry [m].
 constexpr double kMaxStationGap = 0.1;

@@ -9,8 +9,8 @@ namespace trackbed {
 /// [m].
 ReferenceLine ReadPlanView(const XmlFields& road, const Vec2& origin);
 
-/// Reads the length of a road [m]. If the attribute is missing or wrong by more than 0.1 m, notes a
-/// flaw, and returns the station at which the reference line ends.
+/// Reads the length of a road [m]. If the attribute `length` is missing or wrong by more than 0.1
+/// m, notes a flaw, and returns the station at which the reference line ends.
 double ReadLength(const XmlFields& road, const ReferenceLine& reference);
 
 }  // namespace trackbed

@@ -153,10 +153,10 @@ CubicValue SineOfSlope(const Road& road, double stretch, double s, double piece_
 
 }  // namespace
 
-// The line is P(s) = R + n N + a T, where R is the reference line with the tangent T, the left
-// normal N and the curvature k. With the roll angle r and the climbing angle c of the reference
-// line, n = t cos(r) and a = -t sin(r) sin(c). Let q = |dR/ds|. The derivative of P is then A T + B
-// N, where A = q (1 - k n) + a' and B = n' + q k a.
+// The line on the road surface is P(s) = R + n N + a T, where R is the reference line with the
+// tangent T, the left normal N and the curvature k. With the roll angle r and the climbing angle c
+// of the reference line, n = t cos(r) and a = -t sin(r) sin(c). With q = |dR/ds|, the derivative of
+// P is A T + B N, where A = q (1 - k n) + a' and B = n' + q k a.
 SurfaceLine SurfaceLineAt(const Road& road, const CubicValue& t, double s, double piece_of) {
   const ReferenceLinePoint reference = road.reference.At(s, piece_of);
   const CubicValue roll = road.superelevation.At(s, piece_of);

@@ -61,7 +61,8 @@ bool IsZero(const PiecewiseCubic& function) {
   });
 }
 
-/// Reads the profiles across a road. Returns none if all heights are 0.
+/// Reads the height profiles across a road. Returns an empty list if all heights of the profiles
+/// are 0.
 std::vector<ShapeProfile> ReadShape(const XMLElement* lateral, const std::string& where,
                                     XmlProblems& problems) {
   struct Record {

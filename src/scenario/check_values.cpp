@@ -106,8 +106,8 @@ class ValueChecker final : public NumberVisitor {
 using Found = std::vector<std::pair<std::string, std::string>>;
 
 /// Checks that the content of a file that the scenario names was read. A program may set the
-/// content without a file name. In this case, the function sets `file` to a placeholder name,
-/// because the key is required.
+/// content of a file without a file name. For such content, CheckContent sets `file` to a
+/// placeholder name, because the key of the file is required.
 void CheckContent(const std::string& key, bool is_read, std::string& file, Found& found) {
   if (is_read && file.empty()) {
     file = "content set by the program";

@@ -18,7 +18,7 @@ namespace {
 constexpr double kObstacleHeight = 1.5;
 
 /// Returns the condition that the car's center is in a region, as a formula over the position of
-/// the rear axle. The car's heading is about `yaw` in the region.
+/// the rear axle. The formula assumes that the car's heading in the region is about `yaw`.
 std::string InRegion(const CommonRoadRegion& region, double yaw) {
   const Vec2 ahead = kCommonRoadCenterAhead * Direction(yaw);
   if (region.corners.empty()) {
@@ -58,9 +58,9 @@ std::string GoalFormula(const CommonRoadScenario& scenario) {
                                      goal.speed->first, goal.speed->second));
   }
   if (goal.orientation) {
-    // Use the interval nearest to the route's heading, and the intervals one turn away. The heading
-    // of a plan begins between -pi and pi; the heading of the initial state may differ by a whole
-    // turn.
+    // Use the goal's yaw interval that is nearest to the route's heading, and this interval shifted
+    // by one turn in either direction. The heading of a plan begins between -pi and pi; the heading
+    // of the initial state may differ by a whole turn.
     const double middle = 0.5 * (goal.orientation->first + goal.orientation->second);
     const double half = 0.5 * (goal.orientation->second - goal.orientation->first);
     const double yaw = scenario.goal_yaw + AngleDifference(middle, scenario.goal_yaw);
@@ -74,8 +74,8 @@ std::string GoalFormula(const CommonRoadScenario& scenario) {
   if (conditions.empty()) {
     conditions.emplace_back("t_s >= 0");
   }
-  // A formula rejects bounds beyond kMaxTimeBound. No run takes that long, so the formula has no
-  // time bounds if the goal's latest time is beyond kMaxTimeBound.
+  // A formula rejects bounds beyond kMaxTimeBound. If the goal's latest time is beyond
+  // kMaxTimeBound, the formula has no time bounds, because no run takes so long.
   constexpr double kMaxTimeBound = 1e6;  // [s]
   const std::string interval =
       goal.time.second <= kMaxTimeBound

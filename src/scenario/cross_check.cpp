@@ -17,8 +17,8 @@
 // 1. Each function Check... tests one condition, and adds its problem at the key that the user
 //    should change.
 // 2. A condition is tested only if its keys could be read, so that one mistake causes one message.
-// 3. CrossProblems calls all of these functions. The conditions of a single method, such as a
-//    planner, are in the registry entry of the method (`check`).
+// 3. The function CrossProblems runs all checks of this file. The conditions of a single method,
+//    such as a planner, are in the registry entry of the method (`check`).
 namespace trackbed {
 namespace {
 

@@ -21,8 +21,8 @@ inline std::string PlannerSection(const Scenario& scenario) {
   return layers ? "plan.global." : "plan.";
 }
 
-/// Returns the name of the first registered planner that has this property, so that an error
-/// message can suggest this planner.
+/// Returns the name of the first registered planner that has the property `property`, so that an
+/// error message can suggest this planner.
 inline const char* NameOfPlannerThat(bool PlannerEntry::*property) {
   const std::vector<PlannerEntry>& planners = Planners();
   return std::find_if(planners.begin(), planners.end(),
@@ -43,8 +43,8 @@ struct Diagnostics {
     return std::all_of(keys.begin(), keys.end(), could_read);
   }
 
-  /// Returns whether the given keys of the global plan were read. A file may contain these keys in
-  /// the section `plan` or in `plan.global`.
+  /// Returns whether the given keys of the global plan were read. A file may contain the keys of
+  /// the global plan in the section `plan` or in `plan.global`.
   [[nodiscard]] bool CouldReadPlan(std::initializer_list<const char*> keys) const {
     return could_read("plan.global") &&
            std::all_of(keys.begin(), keys.end(), [&](const std::string& key) {

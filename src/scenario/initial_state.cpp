@@ -13,7 +13,7 @@ namespace trackbed {
 namespace {
 
 /// Returns the steering angle with which the planner's route begins [rad]. Returns nullopt if the
-/// planner follows no given route, or if the angle exceeds the car's limit.
+/// planner follows no given route, or if the steering angle exceeds the car's limit.
 std::optional<double> RouteSteering(const Scenario& scenario, const VehicleParams& vehicle,
                                     const Pose2& start) {
   if (!scenario.plan) {

@@ -268,7 +268,7 @@ std::vector<Problem> ReadTrackInput(Scenario& scenario, ReaderContext& context,
         track.data = std::make_shared<const Track>(std::move(read.track));
         track.notes = std::move(read.notes);
         if (read.chosen_smoothing) {
-          track.smoothing = read.chosen_smoothing;  // for the track's copy in the run folder
+          track.smoothing = read.chosen_smoothing;  // smoothing of the track's copy in a run folder
         }
       },
       key, context, add_error);

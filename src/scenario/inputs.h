@@ -25,8 +25,8 @@ std::string ImageAccessError(const std::filesystem::path& image,
 
 /// Reads the files that a scenario names: recorded drive, track, map, road network, path to follow
 /// and recording to replay. ReadInputs returns the problems inside the files. Callers must report
-/// these problems after the problems of the scenario file. ReadInputs marks the keys that name
-/// files with problems as unread.
+/// the problems inside the files after the problems of the scenario file. ReadInputs marks the keys
+/// that name files with problems as unread.
 std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
                                 const AddKeyError& add_error);
 

@@ -26,11 +26,11 @@
 #include "trackbed/track/track.h"
 
 // Moves a scenario to its local origin. The function Visit of a scenario declares which keys are
-// coordinates (map_range.h). PlaceVisitor finds all of these keys (place_visitor.h). Further
-// coordinates are in the contents of files: record, track, map, road network, and path. The origin
-// is the middle of the box around all places. The coordinates of the origin are whole meters.
-// Therefore, subtracting the origin from a coordinate of the file and adding the origin again
-// yields exactly the same number.
+// coordinates (map_range.h). PlaceVisitor finds all keys that are coordinates (place_visitor.h).
+// Further coordinates are in the contents of files: record, track, map, road network, and path. The
+// origin is the middle of the box around all places. The coordinates of the origin are whole
+// meters. Therefore, subtracting the origin from a coordinate of the file and adding the origin
+// again yields exactly the same number.
 namespace trackbed {
 namespace {
 
@@ -38,8 +38,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The coordinates of an automatically chosen origin are multiples of this distance [m].
 constexpr double kOriginStep = 1000.0;
 
-/// The smallest axis-aligned rectangle around some points. On an axis without coordinates, low >
-/// high.
+/// The smallest axis-aligned rectangle around some points. Along an axis without any coordinates,
+/// `low` exceeds `high`.
 struct Bounds2 {
   Vec2 low{kInfinity, kInfinity};
   Vec2 high{-kInfinity, -kInfinity};
@@ -272,10 +272,10 @@ void TranslateKeys(Struct& value, const Vec2& by) {
   Visit(visitor, value);
 }
 
-/// Moves the scenario to an origin. Makes the start explicit where it would otherwise differ from
-/// the start in the resolved form. The start would differ in two cases: a start at the default (0,
-/// 0), and a start on a fitted curve. The latter is rounded to a number that the resolved form can
-/// state.
+/// Moves the scenario to an origin. Writes the coordinates of the start into the scenario if the
+/// start would otherwise differ from that of the resolved scenario. The start would differ in two
+/// cases: a start at the default (0, 0), and a start on a fitted curve. A start on a fitted curve
+/// is rounded to coordinates that the resolved scenario can state.
 void Move(Scenario& scenario, const Vec2& origin) {
   const Vec2 before = InitialState(scenario).pose.position();
   TranslateKeys(scenario, -origin);

@@ -10,23 +10,25 @@
 #include "trackbed/track/track.h"
 
 /// The local origin of a scenario. Coordinates of map projections, such as those of UTM, are
-/// millions of meters, too large for MuJoCo's heights and for pictures. Every coordinate of such a
-/// scenario is therefore moved to a local origin, in one step after the scenario was read.
+/// millions of meters, too large for MuJoCo's heights and for pictures. Every coordinate of a
+/// scenario with such large coordinates is therefore moved to a local origin, in one step after the
+/// scenario was read.
 namespace trackbed {
 
 /// Largest distance of a place from the local origin, in x and in y [m]. A scenario whose places
-/// are all this near to (0, 0) needs no local origin.
+/// are all within this distance of (0, 0) needs no local origin.
 inline constexpr double kOriginReach = 1e5;
 
-/// Moves all places of a scenario to its local origin: `scenario.origin` if it is set. Otherwise,
-/// chooses an origin if a coordinate exceeds kOriginReach. Sets Scenario::origin. The start of a
-/// moved scenario becomes explicit, so that the resolved scenario has exactly the same start. The
-/// scenario must have been read without problems. Returns the key and the message of a problem if
-/// the places are in different coordinate systems.
+/// Moves all places of a scenario to its local origin: `scenario.origin` if it is set. Without
+/// `scenario.origin`, chooses an origin if a coordinate exceeds kOriginReach. Sets
+/// Scenario::origin. The start of a moved scenario becomes explicit, so that the resolved scenario
+/// has exactly the same start. The scenario must have been read without problems. Returns the key
+/// and the message of a problem if the places are in different coordinate systems.
 std::optional<std::pair<std::string, std::string>> MoveToLocalOrigin(Scenario& scenario);
 
 /// Returns the scenario in the coordinates of the scenario file: the inverse of MoveToLocalOrigin,
-/// apart from the start. The contents of its files are moved only if `with_files` is true.
+/// apart from the start. The contents of the scenario's files are moved only if `with_files` is
+/// true.
 Scenario InFileCoordinates(const Scenario& scenario, bool with_files);
 
 /// Reads the local origin that the resolved scenario of a run states; (0, 0) if it states none.

@@ -116,8 +116,8 @@ MapCell CellOf(const RosMapKeys& map, const MapImage& image, std::size_t pixel) 
 }
 
 /// Returns the file of the image. The programs map_saver and Cartographer write absolute paths,
-/// which other machines do not have. Such a path is replaced by the file of the same name beside
-/// the map.
+/// which other machines do not have. A missing file with an absolute path is replaced by the file
+/// of the same name beside the map.
 fs::path ImageFile(const fs::path& file, const std::string& image) {
   const fs::path named = file.parent_path() / image;
   std::error_code ignored;

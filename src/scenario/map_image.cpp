@@ -48,7 +48,7 @@ class PgmNumbers {
     return number;
   }
 
-  /// Returns the rest of the file. The rest begins after the blank that follows the last number
+  /// Returns the rest of the image file, which begins after the blank that follows the last number
   /// that Next returned.
   [[nodiscard]] std::string_view AfterBlank() const {
     return rest_.empty() ? rest_ : rest_.substr(1);

@@ -17,7 +17,7 @@ namespace trackbed {
 enum class MapAxis { kX, kY };
 
 /// Calls a function for each coordinate of a place that the keys of a struct contain
-/// (IsCoordinate). The function may change the coordinate.
+/// (IsCoordinate). The called function may change the coordinate.
 class PlaceVisitor final : public NumberVisitor {
  public:
   /// The argument `place` is the dotted key of the place, such as "world.obstacles[0].box" or

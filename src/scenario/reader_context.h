@@ -17,7 +17,7 @@ struct ReaderContext {
   std::string file;
   std::vector<std::string> overridden;  // dotted keys whose values were set by the option --set
   std::vector<Problem> problems;
-  // Dotted keys whose values could not be read, because the file has a problem there.
+  // Dotted keys whose values could not be read, because the file has a problem at the key.
   std::vector<std::string> unread;
   // Returns the factor on default lengths that follow from the size of the car (car_lengths.h); not
   // called if the file gives all of these lengths.
@@ -31,10 +31,11 @@ struct ReaderContext {
   /// Returns whether the key was read; for a list, whether every element was read.
   [[nodiscard]] bool Read(std::string_view dotted) const;
 
-  /// Returns a hint for the key `unknown` of the section `node`. The hint has one of two reasons.
-  /// If the option --set has set the method of the section, the key may belong to the method that
-  /// the file names. If the unknown key is a local planner or a replanner, the global planner needs
-  /// a separate section. Without a hint, returns an empty text.
+  /// Returns a hint for the key `unknown` of the section `node`. There are two reasons for a hint
+  /// about an unknown key. If the option --set has set the method of the section, the key may
+  /// belong to the method that the file names. If the unknown key is a local planner or a
+  /// replanner, the global planner needs a separate section. Returns an empty text if neither
+  /// reason applies.
   [[nodiscard]] std::string MethodHint(const std::string& section, const YAML::Node& node,
                                        const std::string& unknown) const;
 

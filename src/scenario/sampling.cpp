@@ -103,7 +103,8 @@ double NormalQuantile(const Distribution& distribution, double u) {
   const double up_to = std::isinf(distribution.max) ? 1.0 : cdf(normal, distribution.max);
   const double share = below + u * (up_to - below);
   // If both bounds are in the far tail of the normal distribution, their cumulative probabilities
-  // both round to 0 or both to 1. In this case, return the bound that is nearer to the mean.
+  // both round to 0 or both to 1. If both probabilities round to the same value, return the bound
+  // that is nearer to the mean.
   if (!(share > 0.0)) {
     return distribution.max;
   }

@@ -61,7 +61,7 @@ void DropUnusedExpectations(Scenario& scenario) {
 }
 
 /// Returns an error message if the list in the key `origin` is not a local origin, else "". The
-/// reader reports nodes that are not lists.
+/// YAML reader itself reports nodes that are not lists.
 std::string OriginError(const YAML::Node& node) {
   if (!node || !node.IsSequence()) {
     return "";
@@ -73,8 +73,8 @@ std::string OriginError(const YAML::Node& node) {
   return OriginProblem(numbers);
 }
 
-/// Throws InputError if a file is a study. Otherwise, the reader would report each key of the study
-/// as unknown.
+/// Throws InputError if a file is a study. Without this check, the scenario reader would report
+/// each key of a study as unknown.
 void RefuseStudy(const YAML::Node& root, const std::string& file) {
   const YAML::Node named = root["scenario"];
   if (named && !root["mission"] && !root["drive"]) {
@@ -103,7 +103,7 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   Scenario scenario;
   scenario.folder = folder;
   scenario.asset_folders = asset_folders;
-  // This function may use the vehicle, because Visit reads the section `vehicle` before `plan`.
+  // The length scale may use the vehicle, because Visit reads the section `vehicle` before `plan`.
   context.car_length_scale = [&] { return CarLengthScale(scenario); };
   YamlReader reader(context, root, "");
   Visit(reader, scenario);
@@ -266,7 +266,7 @@ std::string OneLine(Options options) {
   YamlWriter writer(out);
   Visit(writer, options);
   out << YAML::EndMap;
-  // The writer encloses the text in braces, which are removed.
+  // Remove the braces in which the YAML emitter encloses the text.
   const std::string text = out.c_str();
   return text.substr(1, text.size() - 2);
 }
@@ -294,9 +294,9 @@ std::string ResolvedYaml(const Scenario& scenario) {
   const StartState start = InitialState(scenario);
   const bool route_sets_steering =
       scenario.plan && PlannerFor(scenario.plan->global).start_curvature != nullptr;
-  // If a recorded drive or the route determines the initial steering angle, write this angle only
-  // if the user has specified it, because SimulateScenario and InitialState compute the angle
-  // again.
+  // If a recorded drive or the route determines the initial steering angle, write only an angle
+  // that the user has specified. SimulateScenario and InitialState compute the initial steering
+  // angle again.
   const std::optional<double> steering =
       scenario.record || route_sets_steering ? scenario.mission.start.steering : start.steering;
   resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed, steering};

@@ -6,8 +6,8 @@
 
 namespace trackbed {
 
-/// Returns the road wheel angle at the start of the run, which is also the angle of the steering
-/// actuator [rad], if the mission or a recording determines this angle.
+/// Returns the road wheel angle at the start of the run [rad], which is also the angle of the
+/// steering actuator. Returns nullopt if neither the mission nor a recording determines this angle.
 std::optional<double> GivenSteering(const Scenario& scenario);
 
 /// Returns the steering angle with which the plan's bicycle model drives straight ahead [rad]; 0

@@ -61,7 +61,7 @@ class Problems {
  private:
   struct Found {
     Problem problem;
-    std::vector<Setting> point;  // settings of the first point that has this problem
+    std::vector<Setting> point;  // settings of the first study point with the problem
     std::size_t count = 0;
   };
 

@@ -14,15 +14,15 @@
 #include "trackbed/core/text_table.h"
 
 // Computes the points of a study. The grid is the Cartesian product of `list` and all lists of
-// values. Grid points are numbered by mixed-radix numbers. The lowest digit is the index in `list`,
-// followed by the value indices of the varied keys, from the last key to the first key. At some
-// points, conditions (`when`) can drop keys. If dropped keys make points equal, only one of the
-// equal points is kept. At each grid point, the values of keys with distributions are quantiles at
-// the coordinates of a sample of the unit cube (sampling.cpp). Keys that take their values from
-// columns of the same CSV file share one coordinate of the sample. The values of derived keys
-// (derived_keys.cpp) are computed last, from the values of the other keys. The scenario of a point
-// is the base scenario with the point's settings as overrides. Each problem of a point is reported
-// at the line of the study file that causes the problem.
+// values. Grid points are numbered by mixed-radix numbers. The lowest digit of a point's number is
+// the index in `list`, followed by the value indices of the varied keys, from the last key to the
+// first key. At some points, conditions (`when`) can drop keys. If dropped keys make points equal,
+// only one of the equal points is kept. At each grid point, the values of keys with distributions
+// are quantiles at the coordinates of a sample of the unit cube (sampling.cpp). Keys that take
+// their values from columns of the same CSV file share one coordinate of the sample. The values of
+// derived keys (derived_keys.cpp) are computed last, from the values of the other keys. The
+// scenario of a point is the base scenario with the point's settings as overrides. Each problem of
+// a point is reported at the line of the study file that causes the problem.
 namespace trackbed {
 namespace {
 
@@ -66,7 +66,7 @@ void CheckOverrides(const Study& study) {
   }
 }
 
-/// Returns whether a condition (`when`) holds at a point with these settings.
+/// Returns whether a condition (`when`) holds at a study point with these settings.
 bool Holds(const Condition& condition, const Study& study, const std::vector<Setting>& point) {
   const auto is_key = [&](const Setting& setting) { return setting.key == condition.key; };
   auto found = std::find_if(point.begin(), point.end(), is_key);

@@ -27,8 +27,8 @@ namespace {
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxValues = 100000;
 constexpr std::size_t kMaxTextBytes = std::size_t{16} << 20U;
-// The limit allows 40 bytes for each of kMaxValues values. The parser yaml-cpp reads about a
-// megabyte per second.
+// The size limit of a YAML text allows 40 bytes for each of kMaxValues values. The parser yaml-cpp
+// reads about a megabyte per second.
 constexpr std::size_t kMaxYamlBytes = std::size_t{4} << 20U;
 
 [[noreturn]] void Fail(const std::string& file, const YAML::Mark& mark, std::string message) {
@@ -283,7 +283,7 @@ SyntaxError Explain(const std::string& text, const YAML::Exception& error,
   if (said == Says::MAP_KEY) {
     return {mark, "text that starts with '? ' must be in quotes"};
   }
-  // Newer versions of yaml-cpp append the name of the anchor.
+  // Newer versions of yaml-cpp append the name of the anchor to this error message.
   if (said.starts_with(Says::UNKNOWN_ANCHOR)) {
     return {mark, "the alias ('*') has no anchor ('&') above"};
   }

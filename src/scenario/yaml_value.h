@@ -16,8 +16,8 @@ namespace trackbed {
 /// Returns whether a value is in quotes.
 bool IsQuoted(const YAML::Node& node);
 
-/// Reads a value of type T. Returns false if the value has another type. A quoted value is text,
-/// even if it looks like a number.
+/// Reads a value of type T. Returns false if the YAML value is not of type T. A quoted value is
+/// text, even if it looks like a number.
 template <typename T>
 bool Decode(const YAML::Node& node, T& value) {
   const ClassicLocale locale;  // yaml-cpp uses the global locale to parse numbers
@@ -45,8 +45,8 @@ std::string NumberProblem(double number, const Range& range);
 /// Returns an error message if a name cannot be the name of a folder, else "".
 std::string FolderNameProblem(const std::string& name);
 
-/// Reads a finite number within the range. If the node is not such a number, returns an error
-/// message and leaves `value` unchanged; else returns "".
+/// Reads a finite number within the range. If the node is no finite number within the range,
+/// returns an error message and leaves `value` unchanged; else returns "".
 std::string ParseNumber(const YAML::Node& node, Range range, double& value);
 
 }  // namespace trackbed

@@ -138,7 +138,8 @@ void NoteFaults(const FoundModel& found, const FoundVehicle& vehicle, Findings& 
   NoteLocked(found, vehicle, findings);
   std::set<std::pair<int, int>> rubbing;  // pairs of a wheel and a geom that it touches
   NoteRubbing(found, vehicle, *found.data, "at rest", rubbing, findings);
-  // Repeat the search with the front wheels at both ends of their steering ranges.
+  // Repeat the search for tyre contacts with the front wheels at both ends of their steering
+  // ranges.
   const mjModel& m = *found.model;
   for (const int side : {0, 1}) {
     const MujocoData data = MakeMujocoData(m);

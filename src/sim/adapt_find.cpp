@@ -20,7 +20,7 @@
 namespace trackbed::adapt {
 namespace {
 
-constexpr double kVertical = 0.7;  // Smallest vertical component of a steering axis.
+constexpr double kVertical = 0.7;  // Smallest vertical component of a steering axis's unit vector.
 constexpr double kSameAxis = 0.9;  // Smallest cosine between the axes of two wheels.
 
 [[noreturn]] void Ask(const FoundModel& found, std::string key, std::string message) {
@@ -109,8 +109,8 @@ void FindCarriers(const FoundModel& found, int base, std::vector<FoundWheel>& wh
   }
 }
 
-/// Returns whether a wheel swivels behind its steering axis, as a caster does. The steering joint
-/// of a caster is not limited. The steering axis is ahead of the wheel by more than a fifth of the
+/// Returns whether a wheel swivels behind its steering axis, as a caster does. A caster's steering
+/// joint is not limited. A caster's steering axis is ahead of the wheel by more than a fifth of the
 /// wheel radius.
 bool IsCaster(const FoundModel& found, const FoundWheel& wheel) {
   if (wheel.steer < 0 || found.model->jnt_limited[wheel.steer] != 0) {
@@ -135,8 +135,8 @@ void RequireParallel(const FoundModel& found, const std::vector<FoundWheel>& whe
   }
 }
 
-/// Sets the axes of V: z up, y along the wheel axes, and x forward or backward. Sorts the wheels
-/// from the rear to the front.
+/// Sets the axes of the vehicle frame V: z up, y along the wheel axes, and x forward or backward.
+/// Sorts the wheels from the rear to the front.
 void AlignFrame(std::vector<FoundWheel>& wheels, FoundVehicle& vehicle) {
   Vector left = Vector::Zero();
   for (const FoundWheel& wheel : wheels) {
@@ -164,16 +164,16 @@ void SortAxle(const FoundVehicle& vehicle, FoundWheel* wheels) {
   }
 }
 
-/// Returns the direction of the base body's x axis along x of V: 1, -1, or 0 if x of the body
-/// points elsewhere.
+/// Returns the direction of the base body's x axis along the x axis of the vehicle frame V: 1, -1,
+/// or 0 if the body's x axis points in another direction.
 int BodyDirection(const FoundModel& found, const FoundVehicle& vehicle) {
   const double along =
       ToMatrix(found.data->xmat + 9 * vehicle.base).col(0).dot(vehicle.turn.col(0));
   return std::abs(along) < kVertical ? 0 : along > 0.0 ? 1 : -1;
 }
 
-/// Returns the names of the hinges between the wheels and the base that are not vertical. A message
-/// names them if no steering joint was found.
+/// Returns the names of the hinges between the wheels and the base that are not vertical. An error
+/// message names these hinges if no steering joint was found.
 std::string OtherHinges(const FoundModel& found, const FoundVehicle& vehicle) {
   const mjModel& m = *found.model;
   std::vector<std::string> names;
@@ -197,8 +197,8 @@ std::string OtherHinges(const FoundModel& found, const FoundVehicle& vehicle) {
                              fmt::join(names, ", "));
 }
 
-/// For a vehicle with four wheels, turns V such that the steered axle is in front. Removes the
-/// steering of the rear axle if `options.steers_front_only` is true.
+/// For a vehicle with four wheels, turns the vehicle frame V such that the steered axle is in
+/// front. Removes the steering of the rear axle if `options.steers_front_only` is true.
 void OrientCar(const FoundModel& found, const AdaptOptions& options, FoundVehicle& vehicle,
                Findings& findings) {
   auto& wheels = vehicle.wheels;

@@ -19,7 +19,7 @@ struct FoundWheel {
   int slide = -1;  ///< Vertical slide joint with a spring, between the wheel and the vehicle.
   RoundGeom round;
   Vector axis = Vector::UnitY();  ///< Axis of the wheel, in world coordinates.
-  std::string name;               ///< Name of the joint or the body, in quotation marks.
+  std::string name;               ///< Quoted name of the wheel's joint or body.
 };
 
 /// A vehicle that was found in the model. The vehicle frame V is that of docs/models.md: its origin
@@ -28,10 +28,10 @@ struct FoundVehicle {
   VehicleKind kind = VehicleKind::kSteered;
   int root = -1;  ///< Body below the world that contains the vehicle.
   int base = -1;  ///< Deepest body that contains all wheels.
-  /// A car: fl, fr, rl, rr. With differential drive: left, right.
+  /// Order of the wheels of a car: fl, fr, rl, rr. Order with differential drive: left, right.
   std::vector<FoundWheel> wheels;
-  Matrix turn = Matrix::Identity();  ///< Columns: the axes of V in world coordinates.
-  Vector origin = Vector::Zero();    ///< Origin of V in world coordinates [m].
+  Matrix turn = Matrix::Identity();  ///< Columns: axes of the vehicle frame V in the world.
+  Vector origin = Vector::Zero();    ///< Origin of the vehicle frame V in the world [m].
   double radius = 0.0;               ///< Wheel radius [m].
   double width = 0.0;                ///< Width of a tyre [m].
   double wheelbase = 0.0;            ///< [m]

@@ -13,16 +13,18 @@
 #include "trackbed/core/error.h"
 
 // Finds the limits of a vehicle in its compiled model.
-//   Steering: the range of a joint that both front wheels follow is the bicycle angle. Otherwise
-//   the ranges of the front wheels are Ackermann angles, cot inner = cot bicycle - track/(2 L).
+//   Steering: the range of a joint that both front wheels follow is the bicycle angle. Without a
+//   joint that both front wheels follow, the ranges of the two front wheels are Ackermann angles:
+//   cot inner = cot bicycle - track/(2 L) with the wheelbase L.
 //   Drive: actuators with a moment about a wheel's joint. The torque of an actuator is limited by
 //   forcerange, by ctrlrange times the gain, and by the friction of the tyres.
 namespace trackbed::adapt {
 namespace {
 
-/// Ranges of steering joints beyond this angle [rad] only keep a joint from turning over.
+/// Ranges of steering joints beyond this angle [rad] are no steering limits; they only keep a joint
+/// from turning over.
 constexpr double kLargestLimit = 1.3;
-/// Ranges below this angle [rad] occur in models whose unit of angles is wrong.
+/// Steering ranges below this angle [rad] occur in models whose unit of angles is wrong.
 constexpr double kSmallestLimit = 0.05;
 
 /// Returns the smaller one of a joint's ranges to both sides [rad]; infinite for an unlimited
@@ -95,8 +97,8 @@ Range SteeringRange(const mjModel& m, const FoundVehicle& vehicle) {
       leader = std::move(own);
     }
   }
-  // A front wheel may be coupled to the other front wheel instead of a joint between the wheels. In
-  // this case, the range is an Ackermann angle of a wheel.
+  // A front wheel may be coupled to the other front wheel instead of a joint between the wheels.
+  // The range of a coupling between the front wheels is an Ackermann angle of a wheel.
   Range wheel{std::min(SmallerSide(m, left), SmallerSide(m, right)),
               fmt::format("the ranges of the joints {} and {}", ObjectName(m, mjOBJ_JOINT, left),
                           ObjectName(m, mjOBJ_JOINT, right))};
@@ -223,7 +225,7 @@ void FindDrive(const FoundModel& found, const FoundVehicle& vehicle, double mass
   const std::string named = fmt::format("{}", fmt::join(motors.names, ", "));
   std::string evidence = "actuators " + named;
   if (motors.names.empty()) {
-    // Assume rear-wheel drive. With differential drive, these are the two driven wheels.
+    // Assume rear-wheel drive. With differential drive, the last two wheels are the driven wheels.
     const std::size_t first = vehicle.wheels.size() - 2;
     limits.driven[first] = limits.driven[first + 1] = true;
     evidence = "assumed: no actuator acts on a wheel";

@@ -24,8 +24,8 @@ struct MassSum {
   Vector center = Vector::Zero();   ///< Center of gravity [m].
   Matrix inertia = Matrix::Zero();  ///< Inertia about the center of gravity [kg m^2].
 
-  /// Adds another group of bodies. With `sign` -1, removes the other group, which must be part of
-  /// this group.
+  /// Adds the mass properties of another group of bodies. With `sign` -1, removes the other group
+  /// of bodies, which must be part of this group.
   void Add(const MassSum& other, double sign = 1.0);
 };
 

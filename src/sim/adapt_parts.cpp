@@ -11,16 +11,16 @@
 
 // Divides the model of another program into the parts of a car (adapt.h).
 // 1. The bodies between the chassis and a wheel become the wheel and its knuckle. If there is no
-//    body between them, the knuckle gets a share of the wheel's mass.
+//    body between chassis and wheel, the knuckle gets a share of the wheel's mass.
 // 2. The rack is a small scaled copy of the chassis, so that the inertias of both stay physical.
-// 3. Masses and inertias of the parts add up to those of the model; a wheel that is too light for
-//    tyre forces gets a share of the chassis.
+// 3. Masses and inertias of the parts add up to those of the model. A wheel that is too light for
+//    tyre forces gets a share of the chassis mass.
 // 4. CopyLooks copies the visible geoms as MJCF text; meshes with many faces become boxes.
 namespace trackbed::adapt {
 namespace {
 
 /// Share of the vehicle's mass below which a wheel is too light to be simulated with tyre forces. A
-/// wheel that is too light gets the share kProposedWheel instead.
+/// wheel that is too light gets the mass share kProposedWheel instead.
 constexpr double kLightWheel = 0.001;
 constexpr double kProposedWheel = 0.01;
 /// Share of a wheel's mass that becomes the mass of its knuckle if the model has no body for the

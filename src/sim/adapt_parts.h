@@ -13,12 +13,12 @@ struct PartMasses {
   MassSum total;
   MassSum chassis;
   MassSum rack;                   ///< Part of cars only.
-  std::vector<MassSum> knuckles;  ///< One for each wheel; mass 0 without a knuckle.
+  std::vector<MassSum> knuckles;  ///< Knuckle of each wheel; mass 0 if the wheel has none.
   std::vector<MassSum> wheels;
 };
 
 /// Splits the mass of the model among the parts. Wheels and knuckles become symmetric about their
-/// axes; the chassis makes up the difference.
+/// axes; the chassis gets the remaining mass and inertia.
 PartMasses SplitMasses(const FoundModel& found, const FoundVehicle& vehicle, bool has_springs,
                        Findings& findings);
 
@@ -35,14 +35,15 @@ Footprint FindFootprint(const FoundModel& found, const FoundVehicle& vehicle);
 /// Returns the position of a wheel's center in the proposed file, in the vehicle frame V.
 Vector HubOf(const FoundVehicle& vehicle, std::size_t wheel);
 
-/// MJCF text of the geoms that only show the vehicle.
+/// MJCF text of the vehicle's visible geoms, which are copied only for drawing.
 struct CopiedLooks {
   std::string meshes;               ///< For <asset>.
   std::vector<std::string> wheels;  ///< One for each wheel.
   std::string chassis;
 };
 
-/// Copies the visible geoms. Meshes become boxes if `as_boxes` is true, or if they have many faces.
+/// Copies the vehicle's visible geoms. Meshes become boxes if `as_boxes` is true, or if they have
+/// many faces.
 CopiedLooks CopyLooks(const FoundModel& found, const FoundVehicle& vehicle, bool as_boxes);
 
 }  // namespace trackbed::adapt

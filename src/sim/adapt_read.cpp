@@ -21,7 +21,7 @@
 #include "trackbed/sim/mujoco_error.h"
 #include "trackbed/sim/scene.h"
 
-// Reads a model that was written for another program. MJCF goes through ComposeScene. MuJoCo's own
+// Reads a model that was written for another program. ComposeScene reads MJCF files. MuJoCo's own
 // URDF reader reads URDF files. Before MuJoCo reads a URDF file, mesh paths are replaced by plain
 // names of checked files. Meshes that MuJoCo cannot read are removed.
 namespace trackbed::adapt {
@@ -143,7 +143,7 @@ class MeshReader {
   fs::path own_;                   // Folder of the URDF file, absolute.
   std::vector<fs::path> folders_;  // Folders from which meshes may be read.
   Scene& scene_;
-  std::map<std::string, std::string> names_;  // Name in the file, and name of the asset.
+  std::map<std::string, std::string> names_;  // Name of a mesh in the file, and name of its asset.
   std::size_t bytes_ = 0;
 };
 

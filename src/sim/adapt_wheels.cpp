@@ -14,7 +14,7 @@
 namespace trackbed::adapt {
 namespace {
 
-constexpr double kHorizontal = 0.35;  // Largest vertical component of a wheel axis.
+constexpr double kHorizontal = 0.35;  // Largest vertical component of a wheel axis's unit vector.
 constexpr double kOnGround = 0.3;     // Largest height of a tyre above the lowest tyre [radii].
 
 /// Finds the wheels of a model.

@@ -13,8 +13,8 @@
 // Writes the file of an adapted car, with the names and conventions of docs/models.md.
 // 1. Each function returns the MJCF text of one part: head, defaults, assets, chassis, wheels,
 //    steering linkage, numbers, actuators.
-// 2. Numbers that the model does not state are computed from its masses and sizes: the servo is
-//    critically damped, bearings take a thousandth of the weight on the wheels.
+// 2. Numbers that the model does not state are computed from its masses and sizes. The servo is
+//    critically damped. The bearing friction is a thousandth of the weight on the wheels.
 // 3. Comments in the file give the source of each number.
 namespace trackbed::adapt {
 namespace {
@@ -280,8 +280,8 @@ std::string WriteWheelPair(const FoundVehicle& vehicle, const Proposal& proposal
   const double track = vehicle.track[1];
   const double torque = 0.5 * proposal.limits.drive_torque;
   // The inertia of a motor is an eighth of the vehicle's inertia at the wheel. While the wheel
-  // slips, the servo responds within two steps of 2 ms. The integral term is critically damped
-  // against the yaw inertia.
+  // slips, the servo responds within two steps of 2 ms. The servos' integral term is critically
+  // damped against the yaw inertia.
   const double own = 0.125 * total.mass * radius * radius;
   const double armature = std::max(0.0, own - proposal.masses.wheels[0].inertia(1, 1));
   const double gain = std::max(own / 0.004, 4.0 * torque / proposal.limits.wheel_speed);

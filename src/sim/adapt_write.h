@@ -16,8 +16,8 @@ struct Proposal {
   CopiedLooks looks;
   double gravity = 9.81;  ///< [m/s^2]
   bool has_springs = false;
-  /// Positions in V at which a vehicle with differential drive stands on casters or skids [m]; z is
-  /// the radius of the ball that represents the support.
+  /// Positions in the vehicle frame V at which a vehicle with differential drive stands on casters
+  /// or skids [m]; z is the radius of the ball that represents the support.
   std::vector<Vector> supports;
 };
 

@@ -63,8 +63,8 @@ LongitudinalForces Forces(const CarModel& car) {
   forces.brake_force =
       2.0 * (parts.brake_torque_front + parts.brake_torque_rear) / params.wheel_radius;
   // In VehicleParams, the limit of the braking deceleration does not include the rolling
-  // resistance, whereas the limit of the driving acceleration is the limit after subtracting the
-  // rolling resistance.
+  // resistance. The limit of the driving acceleration is the limit after subtracting the rolling
+  // resistance.
   forces.rolling_mass = forces.brake_force / params.braking.by_force;
   forces.rolling_resistance =
       std::max(0.0, forces.drive_force - forces.rolling_mass * params.driving.by_force);

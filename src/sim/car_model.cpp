@@ -61,8 +61,8 @@ Stand RestPoseOn(const VehicleParams& params, const Pose2& pose, const Ground& g
 }
 
 /// Returns yaw, pitch and roll of a trailer relative to its car, such that both wheels of the
-/// trailer touch the ground. The car stands at `stand`. The ground's height is sampled at the
-/// positions that the wheels would have on level ground.
+/// trailer touch the ground. The height and orientation of the car are given by `stand`. The
+/// ground's height is sampled at the positions that the wheels would have on level ground.
 std::array<double, 3> RestingHitch(const TrailerParts& trailer, const Pose2& car, double angle,
                                    const Stand& stand, const Ground& ground) {
   if (IsFlat(ground)) {
@@ -74,8 +74,8 @@ std::array<double, 3> RestingHitch(const TrailerParts& trailer, const Pose2& car
       stand.turn * Eigen::Vector3d(-params.hitch, 0.0, params.hitch_height);
   const double left = GroundHeight(ground, ToWorld(axle, {0.0, 0.5 * params.track}));
   const double right = GroundHeight(ground, ToWorld(axle, {0.0, -0.5 * params.track}));
-  // The ground under the axle is below the hitch by hitch_height minus tongue times the pitch,
-  // which is positive for a lowered nose.
+  // The ground under the trailer axle is below the hitch by hitch_height minus tongue times the
+  // pitch, which is positive for a lowered nose.
   const double below = stand.height + hitch.z() - 0.5 * (left + right);
   const double pitch = (params.hitch_height - below) / params.tongue;
   const double roll = (left - right) / params.track;

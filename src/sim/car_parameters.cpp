@@ -36,8 +36,8 @@ using tinyxml2::XMLElement;
 /// gravity or inertia of the chassis.
 enum class Mass { kMass, kCgToRear, kCgHeight, kYawInertia };
 
-/// A car parameter that is stored as the control or activation range of an actuator. The value of
-/// the parameter is the upper end of the range; a range may be symmetric about 0.
+/// A car parameter that is stored as the control or activation range of an actuator. The
+/// parameter's value is the upper end of the actuator's range, which may be symmetric about 0.
 struct ActuatorRange {
   const char* actuator;
   const char* attribute;
@@ -226,7 +226,7 @@ void SetNumeric(const CarModel& car, XMLElement& root, const CarParameter& param
     element = Custom(root).InsertNewChildElement("numeric");
     element->SetAttribute("name", name.c_str());
   } else {
-    // an earlier parameter may already have changed these numbers
+    // an earlier parameter may already have changed numbers of this <numeric>
     data = ParseNumbers(element->Attribute("data"));
     data.resize(NumericData(car, name).size());
   }
@@ -299,8 +299,8 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   }
   inertial->SetAttribute("mass", new_chassis_mass);
   inertial->SetAttribute("pos", Numbers({new_x, position[1], new_z}).c_str());
-  // The chassis's roll and pitch inertia are scaled in proportion to the mass of the chassis. Roll
-  // and pitch inertia are then increased if necessary, since each principal moment of inertia of a
+  // The chassis's roll and pitch inertia are scaled in proportion to the mass of the chassis. If
+  // necessary, roll and pitch inertia are increased, since each principal moment of inertia of a
   // body is at most the sum of the other two.
   const double heavier = new_chassis_mass / own;
   double roll = inertia[0] * heavier;

@@ -16,11 +16,11 @@
 #include "trackbed/core/error.h"
 
 // Reads the parts and parameters of a car with steered front wheels from its compiled model. First,
-// all parts are looked up by name; if parts are missing, only the missing parts are reported. Then
-// the types, positions, axes and ranges of the parts are checked against docs/models.md. Finally,
-// the parameters of the car are computed: masses, steering, tyres and acceleration limits.
-// Positions are evaluated in the model's initial configuration qpos0. All problems are collected
-// and thrown as one InputError.
+// all parts are looked up by name; if parts are missing, only the missing parts are reported. After
+// this lookup, the types, positions, axes and ranges of the parts are checked against
+// docs/models.md. Finally, the parameters of the car are computed: masses, steering, tyres and
+// acceleration limits. Positions are evaluated in the model's initial configuration qpos0. All
+// problems are collected and thrown as one InputError.
 namespace trackbed {
 namespace {
 
@@ -189,7 +189,7 @@ class CarReader final : private PartsReader {
       AddError("steer", "must act on the joint 'rack'");
     }
     // When the command of a servo changes at a constant rate, the joint lags behind by a constant
-    // time. This time is the total damping of the joints that the servo turns, divided by the
+    // time. This lag time is the total damping of the joints that the servo turns, divided by the
     // servo's stiffness.
     double damping = m_.dof_damping[m_.jnt_dofadr[rack_]];
     for (const int joint : steer_) {
@@ -336,7 +336,7 @@ class CarReader final : private PartsReader {
   struct Towed {
     double rolling_mass = 0.0;  // [kg]
     double rolling = 0.0;       // Rolling resistance [N].
-    // Additional AxleGrip::weight of the front and the rear axle.
+    // Increase of AxleGrip::weight of the front and the rear axle by the trailer's nose load.
     std::array<double, 2> weight{};
     // Additional load transfer factors of the front and the rear axle, as fractions of the car's
     // mass; positive if the transfer grows.
@@ -345,7 +345,7 @@ class CarReader final : private PartsReader {
 
   /// The trailer has no brakes. While the car brakes with the deceleration a, the trailer of mass
   /// m_t pushes the hitch forward with m_t a. The nose of the trailer becomes heavier by m_t a (z_t
-  /// - h)/l, with the height z_t of its center of gravity and the height h of the hitch.
+  /// - h)/l, with its center of gravity height z_t, the hitch height h and the tongue length l.
   Towed ReadTowed() {
     const std::optional<TrailerParts> trailer = FindTrailer(m_);
     if (!trailer) {

@@ -163,7 +163,7 @@ class CarPlant final : public MujocoPlant {
   std::array<double, 4> bearing_friction_{};  // Friction torque of the bearing of each wheel [N m].
   // Maximum dry friction torque of bearing and brake on each wheel in this step [N m].
   std::array<double, 4> dry_friction_{};
-  std::optional<DriverAids> aids_;  // nullopt if the car has no driver aids.
+  std::optional<DriverAids> aids_;  // Driver aids of the car; nullopt if the car has none.
 };
 
 void CarPlant::Steer(double wanted) {
@@ -175,9 +175,9 @@ void CarPlant::Steer(double wanted) {
 }
 
 /// Disables the model's coupling of the front wheels to the rack. The model's coupling is an
-/// approximate polynomial; its error would make the front tyres push against each other. The
-/// function FollowRack sets exact Ackermann angles instead of this coupling. Returns false if the
-/// model has no joint equalities that couple both front wheels to the rack.
+/// approximate polynomial; its error would make the front tyres push against each other. In place
+/// of the model's coupling, FollowRack sets exact Ackermann angles. Returns false if the model has
+/// no joint equalities that couple both front wheels to the rack.
 bool CarPlant::ReleaseLinkage() {
   const CarParts& parts = car().parts();
   const auto follows_rack = [&](int joint_dof) {
@@ -208,8 +208,8 @@ bool CarPlant::ReleaseLinkage() {
   return true;
 }
 
-/// Applies the torques of the front wheels about their steering axes to the rack. Uses the wheel
-/// torques of the previous step.
+/// Applies the torques of the front wheels about their steering axes to the rack. These steering
+/// torques are those of the previous step.
 void CarPlant::LoadRack() {
   const CarParts& parts = car().parts();
   const mjtNum* acceleration = data().qacc;
@@ -286,7 +286,8 @@ void CarPlant::Brake(double torque, bool hold) {
 }
 
 /// Returns the sum of the torques on a wheel about its spin axis, without dry friction [N m]. The
-/// sum contains the drive torque of the previous step, which is small while the brakes are applied.
+/// returned sum contains the drive torque of the previous step, which is small while the brakes are
+/// applied.
 double CarPlant::SpinTorque(std::size_t wheel) const {
   const int dof = car().parts().spin_dof[wheel];
   return data().qfrc_applied[dof] + data().qfrc_passive[dof] - data().qfrc_bias[dof] +

@@ -56,7 +56,7 @@ struct Compiled {
 };
 
 Compiled CompileInProcess(const std::string& xml, const std::vector<SceneAsset>& assets) {
-  // needed because MuJoCo parses numbers with the program's global locale
+  // set the classic locale, because MuJoCo parses numbers with the program's global locale
   const ClassicLocale locale;
   const Vfs vfs = MakeVfs();
   Add(*vfs, "model.xml", xml);
@@ -81,8 +81,8 @@ std::string SizeLimitMessage() {
   return fmt::format("takes more than {} MB of memory", kMemory >> 20);
 }
 
-// The first byte that the compiling process sends is one of these letters. After the letter, the
-// process sends the bytes of the model, or the text of an error.
+// The first byte that the compiling process sends is one of these status letters. After the status
+// letter, the compiling process sends the bytes of the model, or the text of an error.
 constexpr char kModelFollows = 'M';
 constexpr char kErrorFollows = 'E';
 

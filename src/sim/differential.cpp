@@ -33,7 +33,8 @@ double CouplingTorque(const AxleWheel& left, const AxleWheel& right, double most
   // Transmitted torques at which each wheel, without dry friction, would end the step at rest.
   const double to_rest_left = -(left.speed * left.inertia / timestep + left.torque);
   const double to_rest_right = right.speed * right.inertia / timestep + right.torque;
-  // At this torque, the sign of the speed difference has changed in any case.
+  // Transmitted torque at which the difference of the wheel speeds has changed its sign in any
+  // case.
   const double enough =
       std::abs(to_rest_left) + left.friction + std::abs(to_rest_right) + right.friction;
   const double last = std::min(most, enough);

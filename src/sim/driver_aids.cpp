@@ -12,8 +12,9 @@
 namespace trackbed {
 namespace {
 
-// Default parameters of a limited-slip differential. The ramp is a quarter of the drive torque, as
-// for the plate differentials of road cars. The preload is 0.02 m g R: 80 N m for a car of 1300 kg.
+// Default parameters of a limited-slip differential. The differential's ramp is a quarter of the
+// drive torque, as for the plate differentials of road cars. The preload is 0.02 m g R: 80 N m for
+// a car of 1300 kg.
 constexpr double kPreload = 0.02;
 constexpr double kRamp = 0.25;
 
@@ -81,8 +82,8 @@ void DriverAids::Update(const CarMotion& motion, const std::array<WheelMotion, 4
   for (std::size_t w = 0; w < wheels.size(); ++w) {
     const double wanted = std::min(brakes[w] + asked[w], largest_[w]);
     if (options_.abs || asked[w] > 0.0) {
-      // Stability control knows the friction factor of the road. It therefore keeps the slip of the
-      // braked wheel at the peak of the tyre force, in turns too.
+      // Stability control knows the friction factor of the road. Stability control therefore keeps
+      // the slip of the braked wheel at the peak of the tyre force, in turns too.
       const double least_use = asked[w] > 0.0 ? std::min(1.0, wheels[w].road) : 0.0;
       slip_[w].Update(wheels[w], wanted, pull / mass_, least_use, timestep);
     } else {
@@ -92,7 +93,8 @@ void DriverAids::Update(const CarMotion& motion, const std::array<WheelMotion, 4
   const std::array<double, 2> axle{FrontTorque(timestep), RearTorque()};
   for (std::size_t w = 0; w < wheels.size(); ++w) {
     const double wanted = std::min(brakes[w] + asked[w], largest_[w]);
-    // A wheel that stability control brakes has only its own limit, not the limit of its axle.
+    // A wheel that stability control brakes has only its own torque limit, not the torque limit of
+    // its axle.
     const double shared = asked[w] > 0.0 ? kUnlimited : axle[w / 2];
     torque_[w] = std::min({wanted, slip_[w].limit(), shared});
     limited_[w] = torque_[w] < wanted;

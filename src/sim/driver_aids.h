@@ -18,7 +18,7 @@ class DriverAids {
  public:
   /// An axle whose two wheels are driven.
   struct DrivenAxle {
-    std::size_t first = 0;     ///< Left wheel; the right wheel is the next one.
+    std::size_t first = 0;     ///< Index of the left wheel; the right wheel has the next index.
     double drive_share = 0.0;  ///< Torque on both wheels per unit of the drive control.
   };
 
@@ -52,18 +52,18 @@ class DriverAids {
 
   AidOptions options_;
   std::vector<DrivenAxle> coupled_;
-  double preload_ = 0.0;  // Largest torque difference without drive torque [N m].
+  double preload_ = 0.0;  // Largest torque difference of the two wheels without drive torque [N m].
   double ramp_ = 0.0;
   double coupling_ = 0.0;
   double mass_;
   std::array<double, 4> largest_{};  // Largest brake torque of each wheel [N m].
   std::vector<WheelSlipControl> slip_;
-  // Excess of brake torque of one front wheel that anti-lock control permits (FrontTorque) [N m].
+  // Permitted excess of one front wheel's brake torque over that of the other (FrontTorque) [N m].
   double front_excess_ = 0.0;
   std::optional<StabilityControl> esc_;
   std::array<double, 4> esc_torque_{};  // Brake torque that stability control adds [N m].
   std::array<double, 4> torque_{};
-  std::array<bool, 4> limited_{};  // Whether the torque is limited below the command.
+  std::array<bool, 4> limited_{};  // Whether a wheel's brake torque is limited below its command.
 };
 
 }  // namespace trackbed

@@ -27,8 +27,9 @@ LinkagePolynomials FitLinkage(const VehicleParams& params) {
   const Eigen::Vector3d c = powers.colPivHouseholderQr().solve(rest);
   LinkagePolynomials fit{.left = {0.0, 1.0, c[0], c[1], c[2]},
                          .right = {0.0, 1.0, -c[0], c[1], -c[2]}};
-  // The error of the steering polynomial is evaluated only at the nodes. The outermost nodes are
-  // within 1e-4 of the ends of the steering range, where the error is largest.
+  // The error of the steering polynomials is evaluated only at the nodes of the fit. The outermost
+  // nodes of the fit are within 1e-4 of the ends of the steering range, where the error of the
+  // polynomials is largest.
   fit.error = (powers * c - rest).cwiseAbs().maxCoeff();
   return fit;
 }

@@ -59,12 +59,12 @@ class Relaxation {
   double gain_;   // Increase of the slip during one step, per unit of slip speed [s/m].
 };
 
-/// Returns the value of tau that critically damps an oscillation of angular frequency `omega`.
+/// Returns the damping time tau that critically damps an oscillation of angular frequency `omega`.
 /// Consider a mass on a spring with damping tau, integrated with timestep dt, and let W = omega dt.
 /// The eigenvalues of a step solve
 ///   l^2 - (2 - W^2 - W omega tau) l + 1 - W omega tau = 0.
-/// With omega tau = 2 - W, both eigenvalues are 1 - W. For W > 1, tau is chosen such that omega tau
-/// = 1/W, which yields the eigenvalues 0 and 1 - W^2.
+/// With omega tau = 2 - W, both eigenvalues are 1 - W. For W = omega dt > 1, tau is chosen such
+/// that omega tau = 1/W, which yields the eigenvalues 0 and 1 - W^2.
 double Damping(double omega, double timestep) {
   const double step = omega * timestep;
   return (step < 1.0 ? 2.0 - step : 1.0 / step) / omega;
@@ -163,7 +163,7 @@ MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, const mjModel& model,
 }
 
 /// Checks that the numerical integration of the tyres is stable. The rotation of a wheel against
-/// its tyre's stiffness is stable up to omega dt = sqrt(2); the check assumes that one wheel
+/// its tyre's stiffness is stable up to omega dt = sqrt(2). CheckTimestep assumes that one wheel
 /// carries the load of the whole axle. The vertical motion of a wheel of mass m, on a tyre of
 /// stiffness k and damping c, is stable up to k/m dt^2 + 2 c/m dt = 4.
 void MagicFormulaTyres::CheckTimestep(const CarModel& car) const {
@@ -258,15 +258,15 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data, std::span<cons
     const double c_alpha = CorneringStiffness(tyre, load);
     const double spin_omega = SpinFrequency(tyre, load, radius, wheel.spin_inertia);
     const double side_omega = std::sqrt(c_alpha * gravity_ / (sigma_y * load));
-    // tau_x is limited to the time constant of the slip, sigma_x/speed.
+    // The damping time tau_x is limited to the time constant of the slip, sigma_x/speed.
     const double damping = Damping(spin_omega, timestep_);
     const double tau_x = speed * damping > sigma_x ? sigma_x / speed : damping;
     const double tau_y =
         speed < kWalkingPace ? Damping(side_omega, timestep_) * (1.0 - speed / kWalkingPace) : 0.0;
     const Relaxation along(speed, sigma_x, timestep_);
     const double kappa = along.Step(slip.x, contact.slip_speed_x, tau_x);
-    // In most tyres, both relaxation lengths are equal. In this case, evaluate the exponential
-    // function only once.
+    // If both relaxation lengths are equal, as in most tyres, evaluate the exponential function
+    // only once.
     const Relaxation across = sigma_x == sigma_y ? along : Relaxation(speed, sigma_y, timestep_);
     const double tangent = across.Step(slip.y, contact.slip_speed_y, tau_y);
     // Limits the slip to the largest deflection that friction can hold; otherwise a larger

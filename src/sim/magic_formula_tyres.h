@@ -17,9 +17,9 @@ struct TyreWheel {
   int frame = -1;                   ///< Index of the body that carries the suspension.
   double unsprung = 0.0;            ///< Mass that moves with the wheel on its spring [kg].
   double radius = 0.0;              ///< Radius of the wheel [m].
-  double spin_inertia = 0.0;        ///< Moment of inertia about the spin axis [kg m^2].
+  double spin_inertia = 0.0;        ///< Wheel's moment of inertia about the spin axis [kg m^2].
   double hub_height = 0.0;          ///< Height of the wheel center above the origin of `frame` [m].
-  double load_at_rest = 0.0;        ///< Load F_z0 at rest [N].
+  double load_at_rest = 0.0;        ///< Wheel load F_z0 at rest [N].
   double vertical_stiffness = 0.0;  ///< [N/m]
   double vertical_damping = 0.0;    ///< [N s/m]
   double camber_gain = 0.0;         ///< Same as CarTyres::camber_gain [rad/m].
@@ -52,10 +52,10 @@ std::vector<TyreWheel> TyreWheelsOfTrailer(const CarModel& car, const mjModel_& 
 /// solution is also valid at standstill, where s is the deflection of the tyre divided by sigma.
 ///
 /// The argument of the Magic Formula is s + tau ds/dt. The term tau ds/dt represents the damping of
-/// the tyre's carcass, which has no effect in steady slip. In the longitudinal direction, tau
-/// critically damps the wheel's rotation against the tyre's stiffness at any speed. In the lateral
-/// direction, tau decreases to zero as the speed rises to walking pace, since rolling then damps
-/// lateral motion.
+/// the tyre's carcass, which has no effect in steady slip. In the longitudinal direction, the
+/// damping time tau critically damps the wheel's rotation against the tyre's stiffness at any
+/// speed. In the lateral direction, the damping time tau decreases to zero as the speed rises to
+/// walking pace, since rolling then damps lateral motion.
 class MagicFormulaTyres {
  public:
   /// `wheels` has at most four wheels, on one or two axles, each with the left wheel before the

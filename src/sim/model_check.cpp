@@ -15,9 +15,9 @@
 #include "trackbed/core/error.h"
 
 // Checks every number of a compiled model against a table of bounds. The arrays to check come from
-// MuJoCo's macro MJMODEL_POINTERS; numbers under <custom> are checked by name. Checks the options,
-// the joint names and the actuators afterwards. Throws one InputError that lists up to 20 problems,
-// each with the name of its object.
+// MuJoCo's macro MJMODEL_POINTERS; numbers under <custom> are checked by name. After the arrays,
+// checks the options, the joint names and the actuators. Throws one InputError that lists up to 20
+// problems, each with the name of its object.
 namespace trackbed {
 namespace {
 
@@ -38,15 +38,15 @@ constexpr std::array kCustomBounds{
     Bound{"side_area", 1e2}, Bound{"center_of_pressure", 1e2}, Bound{"F_z0", 1e6},
     Bound{"tyre_vertical_stiffness", 1e8}, Bound{"tyre_vertical_damping", 1e6},
     Bound{"relaxation_length", 1e1}, Bound{"rolling_resistance", 1.0},
-    // The following two coefficients multiply the square of the camber, which is at most 0.1.
+    // The coefficients r_bx3 and r_by4 multiply the square of the camber, which is at most 0.1.
     Bound{"r_bx3", 1e6}, Bound{"r_by4", 1e6}, Bound{"camber_gain_front", 1e1},
     Bound{"camber_gain_rear", 1e1}};
 // bound of a tyre's Magic Formula coefficients, such as "p_cx1"
 constexpr double kMaxCoefficient = 1e3;
 
 /// Bounds for the arrays of the compiled model whose numbers come from the model file, in SI units.
-/// MuJoCo computes all other arrays from these arrays, or uses them only for drawing. Arrays that
-/// the installed version of MuJoCo does not have are skipped.
+/// MuJoCo computes all other arrays from the arrays in this table, or uses them only for drawing.
+/// Arrays that the installed version of MuJoCo does not have are skipped.
 constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
                                   Bound{"qpos_spring", kMaxMagnitude},
                                   Bound{"body_pos", 1e5},
@@ -298,7 +298,7 @@ class ModelChecker {
 
   /// Joint names become column names of CSV files, followed by the unit.
   void CheckJointNames() {
-    // names that are taken by the columns of the chassis position
+    // column names that are reserved for the chassis position
     std::set<std::string, std::less<>> taken{"x", "y", "z"};
     for (int joint = 0; joint < m_.njnt; ++joint) {
       const int type = m_.jnt_type[joint];

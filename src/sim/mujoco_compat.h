@@ -75,7 +75,7 @@ int ActivationAddress(const Model& model, int actuator) {
 }
 
 /// Returns the largest torque that all actuators together may exert on a joint; infinite without a
-/// limit. MuJoCo has this limit since version 2.3.7.
+/// limit. MuJoCo has this limit of the torque on a joint since version 2.3.7.
 template <std::same_as<mjModel> Model>
 mjtNum JointForceLimit([[maybe_unused]] const Model& model, [[maybe_unused]] int joint) {
   if constexpr (requires { model.jnt_actfrclimited; }) {
@@ -108,10 +108,10 @@ mjtNum ActuatorMoment([[maybe_unused]] const mjModel& model, const Data& data, i
 /// at rest in its initial configuration.
 ///
 /// MuJoCo's constraint solver scales its tolerance by the trace of the inertia matrix. Since MuJoCo
-/// 3.17, the trace includes an armature inertia that is set after compilation; in earlier versions
-/// the trace does not. LockJoints therefore divides the solver's tolerance by the factor by which
-/// the trace grows. Without this correction of the tolerance, contacts would be solved a thousand
-/// times less accurately.
+/// 3.17, the trace of the inertia matrix includes an armature inertia that is set after
+/// compilation; in earlier versions, the trace excludes this inertia. LockJoints therefore divides
+/// the solver's tolerance by the factor by which the inertia matrix's trace grows. Without this
+/// correction of the tolerance, contacts would be solved a thousand times less accurately.
 inline void LockJoints(mjModel& model, std::span<const int> dofs, double armature) {
 #if mjVERSION_HEADER >= 3017000
   const double trace = std::accumulate(model.dof_M0, model.dof_M0 + model.nv, 0.0);
@@ -127,7 +127,7 @@ inline void LockJoints(mjModel& model, std::span<const int> dofs, double armatur
 template <std::same_as<mjData> Data>
 int SolverIterations(const Data& data) {
   if constexpr (requires { data.solver_niter; }) {
-    // with islands disabled, the first entry is the count for all constraints
+    // with islands disabled, the first entry of solver_niter is the count for all constraints
     return data.solver_niter[0];
   } else {
     return data.solver_iter;
@@ -145,11 +145,11 @@ inline const char* WarningText(int warning, int info) {
 /// Sets options such that all MuJoCo versions compute the same motion.
 ///
 /// Constraint islands, which are on by default since MuJoCo 3.3.6, are disabled. With islands, the
-/// solver stops separately for each island: a laden car would creep, and runs would differ from
-/// those of 2.2.2 by millimeters instead of rounding errors. The mid-phase of collision detection,
-/// introduced in 2.3.3, is also disabled. The mid-phase uses the bounding boxes of the compiled
-/// model; as RoadContact moves planes out of these boxes, a car on contact tyres would fall through
-/// terrain.
+/// solver stops separately for each island. A laden car would creep, and runs would differ from
+/// those of MuJoCo 2.2.2 by millimeters instead of rounding errors. The mid-phase of collision
+/// detection, introduced in MuJoCo 2.3.3, is also disabled. The mid-phase uses the bounding boxes
+/// of the compiled model; as RoadContact moves planes out of these boxes, a car on contact tyres
+/// would fall through terrain.
 inline void SetCommonOptions([[maybe_unused]] mjModel& model) {
 #if mjVERSION_HEADER >= 233
   model.opt.disableflags |= mjDSBL_MIDPHASE;

@@ -4,9 +4,9 @@
 
 #include "trackbed/core/error.h"
 
-// Functions of MuJoCo that set the error and warning handlers of the calling thread; these take
-// precedence over the global handlers. MuJoCo exports these functions, for example for its Python
-// bindings, but mujoco.h does not declare them.
+// Functions of MuJoCo that set the error and warning handlers of the calling thread. The handlers
+// of a thread take precedence over the global handlers. MuJoCo exports these functions, for example
+// for its Python bindings, but mujoco.h does not declare them.
 extern "C" {
 #if mjVERSION_HEADER >= 3010000
 // returns the thread's previous handler

@@ -15,11 +15,12 @@
 
 // Simulates a vehicle with MuJoCo. A step of the plant has five parts:
 //   1. The derived class sets actuators and brakes (Act). The planes under the tyres are moved
-//      along the ground, moving obstacles are set to their planned state, and the road's friction
-//      is set on the tyre contacts.
-//   2. mj_step1 computes the positions and velocities on which the forces of part 3 depend.
+//      along the ground. Moving obstacles are set to their planned state, and the tyre contacts to
+//      the road's friction.
+//   2. MuJoCo's mj_step1 computes the positions and velocities on which the forces of part 3
+//      depend.
 //   3. The forces of the air, of the lateral push and of the wheels (ApplyWheelForces) are applied.
-//   4. mj_step2 integrates the motion.
+//   4. MuJoCo's mj_step2 integrates the motion.
 //   5. The derived class ends the step (Finish).
 namespace trackbed {
 namespace {
@@ -128,7 +129,7 @@ void MujocoPlant::RollWheels(std::span<const int> spin_dof, const StartState& st
 void MujocoPlant::Begin() {
   const MujocoErrorScope errors;
   if (!HasCollidableGeoms(*model_)) {
-    // saves the search for contacts, which would take 11 % of a step's run time
+    // disables the search for contacts, which would take 11 % of a step's run time
     model_->opt.disableflags |= mjDSBL_CONTACT;
   }
   ground_.Place(*model_, *data_);

@@ -57,7 +57,7 @@ class PartsReader {
   /// must be equal" if the size of the tyre differs from that of the geom `first`.
   void CheckWheel(const std::string& wheel, int spin, int tyre, int first, const char* all);
   /// Checks that in the configuration qpos0 the wheel touches the model's own ground, with a
-  /// tolerance of half the wheel's radius. The check is skipped if the ground is not level.
+  /// tolerance of half the wheel's radius. CheckStand skips ground that is not level.
   void CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius);
   void ReadFootprint(int site);
   void ReadAerodynamics();

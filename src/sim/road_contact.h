@@ -14,7 +14,7 @@ namespace trackbed {
 inline constexpr std::size_t kMaxWheels = 6;
 
 /// Returns the collision bit (conaffinity) of the plane under a wheel. The wheels 4 and 5 are those
-/// of a trailer. The models of cars must not use the collision bits of these planes.
+/// of a trailer. The models of cars must not use the collision bits of the planes under the wheels.
 constexpr int WheelPlaneBit(std::size_t wheel) {
   return 1 << (wheel < 4 ? 24 + wheel : 25 + wheel);  // bit 28 is kOtherGeomsBit
 }
@@ -30,10 +30,10 @@ enum class TyreSupport {
 /// In MuJoCo, a height field consists of prisms with flat facets, and a rigid tyre bounces from
 /// facet to facet. Consider a car at 10 m/s on a hump of 8 m length and 0.1 m height, with steps of
 /// 2 ms. From one step to the next, wheel loads jump by 832 N on the facets, but only by 7 N on the
-/// exact ground. On the facets, the car also loses twice as much speed as on the exact ground. With
-/// RoadContact, each tyre touches only a single plane (`ground_fl`, …). Before every step, the
-/// plane is moved to be tangent to the exact ground under the tyre. MuJoCo still computes the
-/// contacts, friction and forces.
+/// exact ground. On the facets of a height field, the car also loses twice as much speed as on the
+/// exact ground. With RoadContact, each tyre touches only a single plane (`ground_fl`, …). Before
+/// every step, the plane is moved to be tangent to the exact ground under the tyre. MuJoCo still
+/// computes the contacts, friction and forces.
 ///
 /// With TyreSupport::kSprings, MuJoCo computes no contacts between tyres and ground.
 class RoadContact {
@@ -50,7 +50,7 @@ class RoadContact {
  private:
   const CarModel& car_;
   bool has_planes_;
-  std::vector<int> tyres_;  // collision geoms of the wheels of the car, then of its trailer
+  std::vector<int> tyres_;  // Collision geoms of the wheels of the car, then of its trailer.
   // For each wheel, the index of the plane geom under the wheel.
   std::array<int, kMaxWheels> plane_{};
   std::array<TyreShape, kMaxWheels> shape_;

@@ -81,9 +81,9 @@ bool HasOnly(const XMLElement* element, std::string_view name, const char* attri
          element->Attribute(attribute) != nullptr && element->Attribute(attribute) == value;
 }
 
-/// Sets the maximum steering rate in the model. For a car, this rate is the control range of the
-/// steering actuator. A vehicle with differential drive has no steering actuator, so its steering
-/// rate is a number under <custom>.
+/// Sets the maximum steering rate in the model. For a car, the maximum steering rate is the control
+/// range of the steering actuator. A vehicle with differential drive has no steering actuator, so
+/// its steering rate is a number under <custom>.
 void SetSteeringRate(XMLElement& root, double rate) {
   if (XMLElement* steer = FindNamed(root, "actuator", "steer")) {
     steer->SetAttribute("ctrlrange", Numbers({-rate, rate}).c_str());
@@ -189,7 +189,7 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
 
   scene.xml = Print(document);
   ForEachElement(root, [&](const XMLElement& element) {
-    scene.lines.push_back(element.GetLineNum());  // the line is 0 for included and added elements
+    scene.lines.push_back(element.GetLineNum());  // 0 for an included or added element
   });
   return scene;
 }

@@ -28,7 +28,7 @@ tinyxml2::XMLElement* FindInWorld(tinyxml2::XMLElement& parent, std::string_view
 /// Returns the composed model with the compiler option that makes MuJoCo discard visual geoms. The
 /// option discardvisual discards geoms that collide with nothing and that no other element refers
 /// to. The line numbers of the model do not change.
-/// Versions of MuJoCo before 3.16 also discard the masses of these geoms, unless the body has an
+/// Versions of MuJoCo before 3.16 also discard the masses of visual geoms, unless the body has an
 /// <inertial> element.
 std::string DiscardLooks(const std::string& xml);
 

@@ -15,7 +15,7 @@ constexpr double kLargestReference = 0.85;
 constexpr double kBand = 0.05;
 /// Factor in the sideslip limit atan(kSideslip mu g) [s^2/m] (Rajamani 2012, 8.3).
 constexpr double kSideslip = 0.02;
-/// Time in which the commanded yaw moment would remove the excess [s].
+/// Time in which the commanded yaw moment would remove the excess of the yaw rate [s].
 constexpr double kMomentTime = 0.02;
 /// Times in which the drive torque decreases to 0 and increases to its full value [s].
 constexpr double kCutTime = 0.1;
@@ -84,7 +84,7 @@ void StabilityControl::Update(const CarMotion& motion, double timestep) {
   const double moment = acts ? Moment(motion) : 0.0;
   std::array<double, 4> wanted{};
   if (moment != 0.0) {
-    // If the car oversteers, the moment is opposite to the yaw rate.
+    // If the car oversteers, the commanded yaw moment is opposite to the yaw rate.
     const bool oversteers = moment * motion.yaw_rate < 0.0;
     const std::size_t side = moment > 0.0 ? 0 : 1;
     const double arm = 0.5 * (oversteers ? params_.track_front : params_.track_rear);

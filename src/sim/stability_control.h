@@ -13,7 +13,7 @@ struct CarMotion {
   double yaw_rate = 0.0;  ///< Yaw rate [rad/s].
   double sideslip = 0.0;  ///< Sideslip angle at the center of gravity [rad].
   double steering = 0.0;  ///< Steering angle of the bicycle model at the front wheels [rad].
-  double road = 1.0;      ///< Friction factor of the road, the mean over the wheels' loads.
+  double road = 1.0;      ///< Friction factor of the road, averaged with the wheel loads.
 };
 
 /// Electronic stability control (Rajamani 2012, ch. 8; van Zanten 2000).
@@ -21,13 +21,14 @@ struct CarMotion {
 /// The driver demands the yaw rate of the linear single-track model in a steady turn,
 ///   r_s = v tan(delta)/(L + K v^2),  limited to |r_s| <= 0.85 mu g/v,
 /// with the understeer gradient K of the unladen car, and with mu = friction_lateral times the
-/// road's friction factor. The reference r follows r_s with a lag equal to the delay of the linear
-/// single-track model at low frequencies. The control acts if the yaw rate leaves the band of 0.05
-/// mu g/v about the reference. The control also acts if the sideslip angle exceeds atan(0.02 s^2/m
-/// mu g) while the heading turns away from the direction of the velocity. For an excess e, the
-/// control commands the yaw moment I_z e/0.02 s. Against oversteer, the outer front wheel brakes.
-/// Against understeer, the inner rear wheel brakes. While a wheel brakes, the drive torque is cut.
-/// The control does not act below the speed sqrt(g L), nor in reverse.
+/// road's friction factor. The yaw rate reference r follows r_s with a lag equal to the delay of
+/// the linear single-track model at low frequencies. The control acts if the yaw rate leaves the
+/// band of 0.05 mu g/v about the reference r. The control also acts if the sideslip angle exceeds
+/// atan(0.02 s^2/m mu g) while the heading turns away from the direction of the velocity. For a yaw
+/// rate beyond the band by e, the control commands the yaw moment I_z e/0.02 s. A sideslip angle
+/// beyond its limit, divided by 0.02 s, contributes to e. Against oversteer, the outer front wheel
+/// brakes. Against understeer, the inner rear wheel brakes. While stability control brakes a wheel,
+/// it cuts the drive torque. The control does not act below the speed sqrt(g L), nor in reverse.
 class StabilityControl {
  public:
   StabilityControl(const CarModel& car, double gravity);
@@ -47,7 +48,7 @@ class StabilityControl {
   double gravity_;
   double understeer_;  // K [rad s^2/m]
   EscState state_;
-  bool runs_ = false;  // Whether the reference was computed in an earlier step.
+  bool runs_ = false;  // Whether the yaw rate reference was computed in an earlier step.
 };
 
 }  // namespace trackbed

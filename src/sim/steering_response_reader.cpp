@@ -51,8 +51,8 @@ std::vector<Vec2> ReadCurve(const Numerics& numerics) {
   return curve;
 }
 
-/// Adds the number steering_offset to the angles of the curve. If the model has no curve, makes a
-/// curve that adds the offset to each commanded angle up to the limit.
+/// Adds the number steering_offset to the angles of the steering curve. If the model has no
+/// steering curve, makes a curve that adds the offset to each commanded angle up to the limit.
 void AddOffset(const Numerics& numerics, double limit, std::vector<Vec2>& curve) {
   const std::string name = "steering_offset";
   double offset = 0.0;

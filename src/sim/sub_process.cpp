@@ -62,8 +62,8 @@ std::size_t AddressSpace() {
   // The child process must end together with its parent, because it has inherited the parent's file
   // locks.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Redirects standard streams to /dev/null. Without the redirection, a library that calls exit()
-  // would flush buffers copied from the parent process, and might print an error.
+  // Redirects standard streams to /dev/null. Without redirected streams, a library that calls
+  // exit() would flush buffers copied from the parent process, and might print an error.
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     ::dup2(nowhere, stream);

@@ -86,8 +86,8 @@ class TrailerWriter {
     return *body;
   }
 
-  /// Adds a joint without forces. All attributes are set, so that the defaults in the car's file do
-  /// not apply.
+  /// Adds a joint without forces. All attributes of the joint are set, so that the defaults in the
+  /// car's file do not apply.
   static XMLElement& AddJoint(XMLElement& body, const std::string& name, const char* type,
                               const char* axis) {
     XMLElement* joint = body.InsertNewChildElement("joint");
@@ -263,8 +263,8 @@ class TrailerWriter {
   const mjModel& model_;
   TrailerParams trailer_;
   bool sprung_;
-  double scale_;               // Unsprung mass per wheel, divided by that of the car's rear wheel.
-  double size_;                // Radius of a wheel, divided by that of the car's wheel.
+  double scale_;               // Unsprung mass per trailer wheel over that of the car's rear wheel.
+  double size_;                // Radius of a trailer wheel, divided by that of the car's wheel.
   double hub_z_;               // Height of the wheel centers above the hitch [m].
   double wheel_mass_ = 0.0;    // [kg]
   double carrier_mass_ = 0.0;  // Mass of the body that carries a wheel [kg].

@@ -25,8 +25,8 @@ class Numerics {
   /// Returns all numbers of the <numeric> element with this name; empty if there is no such
   /// element.
   [[nodiscard]] std::span<const double> List(const std::string& name) const;
-  /// Sets `value` to the number of the <numeric> element with this name. If the model has no such
-  /// element, `value` is unchanged.
+  /// Sets `value` to the number of the <numeric> element with this name. If the model has no
+  /// <numeric> element with this name, `value` is unchanged.
   void Read(const std::string& name, double& value) const;
 
   [[nodiscard]] const mjModel_& model() const { return model_; }

@@ -11,7 +11,7 @@ namespace trackbed {
 /// The point of a tyre that is nearest to the ground or deepest in the ground, in the world frame.
 struct TyreTouch {
   Eigen::Vector3d lowest_W;  ///< Lowest point of the tyre, measured along the ground's normal.
-  Eigen::Vector3d normal_W;  ///< Normal of the ground at this point.
+  Eigen::Vector3d normal_W;  ///< Normal of the ground at the lowest point.
   /// Distance of the tyre's lowest point from the ground, along the normal [m].
   double gap = 0.0;
 };

@@ -78,8 +78,8 @@ std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel
   up.fill(Vector3d::Zero());
   point.fill(Vector3d::Zero());
   std::array<double, 4> weight{};
-  // On a rough road, a wheel may have several contact points. The position of the contact is the
-  // mean of these points, weighted by penetration depth.
+  // On a rough road, a wheel may have several contact points. The position of a wheel's contact is
+  // the mean of its contact points, weighted by penetration depth.
   ForEachRoadContact(car, model, data,
                      [&](std::size_t w, const mjContact& contact, int, double sign) {
                        const double depth = std::max(contact.includemargin - contact.dist, 1e-9);

@@ -40,7 +40,8 @@ struct WheelContact {
 WheelContact ContactAt(const mjModel_& model, const mjData_& data, int body, double radius,
                        const Eigen::Vector3d& point, const Eigen::Vector3d& up);
 
-/// As above, for the wheel with the index `wheel` of a car.
+/// Computes the motion of the car's wheel with the index `wheel`, which touches the road at
+/// `point`.
 WheelContact ContactAt(const CarModel& car, const mjModel_& model, const mjData_& data,
                        std::size_t wheel, const Eigen::Vector3d& point, const Eigen::Vector3d& up);
 

@@ -14,8 +14,8 @@ namespace {
 
 /// A vehicle with two driven wheels, each controlled by a speed servo with an integral part. In a
 /// turn, the motors must apply the yaw moment m l_g v psi', because the center of gravity is at a
-/// distance l_g from the axle. Without the servos' integral part, turns would therefore be too
-/// wide.
+/// distance l_g from the axle. A servo without integral part would apply this yaw moment only at a
+/// speed error, so turns would be too wide.
 class WheelPairPlant final : public MujocoPlant {
  public:
   explicit WheelPairPlant(const PlantSetup& setup)

@@ -9,11 +9,12 @@ namespace {
 
 /// Time constant with which the slip approaches its target [s].
 constexpr double kSlipTime = 0.02;
-/// Fraction of the largest target slip that does not depend on the used friction. This fraction
-/// lets the wheel slip before its force has built up over the relaxation length.
+/// Fraction of the largest target slip that does not depend on the used friction. The fixed part of
+/// the target slip lets the wheel slip before the tyre force has built up over the relaxation
+/// length.
 constexpr double kSlipAtOnce = 0.1;
-/// Longest time in which a tyre rolls over its relaxation length while the control acts [s]. For a
-/// relaxation length of 0.3 m, the control acts from 1.5 m/s on.
+/// Longest time in which a tyre rolls over its relaxation length while slip control acts [s]. For a
+/// relaxation length of 0.3 m, slip control acts from 1.5 m/s on.
 constexpr double kLongestRelaxation = 0.2;
 
 }  // namespace

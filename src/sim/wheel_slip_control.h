@@ -7,21 +7,21 @@ namespace trackbed {
 /// The motion of a wheel and the forces on its tyre in the present step.
 struct WheelMotion {
   double rolling_speed = 0.0;       ///< Forward speed v of the hub [m/s].
-  double spin = 0.0;                ///< Angular speed omega about the spin axis [rad/s].
+  double spin = 0.0;                ///< Angular speed omega of the wheel [rad/s].
   double load = 0.0;                ///< Normal force F_z [N], >= 0.
   double longitudinal_force = 0.0;  ///< Force F_x on the car along the wheel's heading [N].
   double road = 1.0;                ///< Friction factor of the road under the wheel.
 };
 
-/// The constants of a wheel that its slip control knows.
+/// Constant parameters of a wheel that its slip control uses.
 struct BrakedWheel {
-  double radius = 0.0;   ///< Radius R [m].
-  double inertia = 0.0;  ///< Moment of inertia I about the spin axis [kg m^2].
+  double radius = 0.0;   ///< Wheel radius R [m].
+  double inertia = 0.0;  ///< Wheel's moment of inertia I about the spin axis [kg m^2].
   double largest = 0.0;  ///< Largest brake torque [N m].
   /// Brake slip at the largest braking force on a dry road, and that force divided by the load.
   double peak_slip = 0.0;
   double peak_friction = 0.0;
-  double slowest = 0.0;  ///< Speed below which the control does not act [m/s].
+  double slowest = 0.0;  ///< Speed below which slip control does not act [m/s].
 };
 
 /// Returns the constants of a wheel whose tyre carries `load` [N] at rest. The largest braking
@@ -33,25 +33,26 @@ BrakedWheel MakeBrakedWheel(const MagicFormula& tyre, double load, double radius
 ///
 /// The target of the brake slip is kappa* = kappa_p (0.1 + 0.9 u), where kappa_p is the slip at the
 /// largest braking force on a dry road. The used friction u is |F_x|/F_z, divided by the largest
-/// |F_x|/F_z on a dry road. A road with the friction factor lambda scales the curve u(kappa) of the
-/// tyre by lambda along both axes. Below the peak of this curve, the target exceeds the slip, and
-/// beyond the peak, the slip exceeds the target. The control therefore finds the peak without
-/// knowing lambda. In a turn, the lateral slip reduces F_x and thus the target, so that the tyre
-/// can still generate lateral force.
+/// |F_x|/F_z on a dry road. A road with the friction factor lambda scales the tyre's curve
+/// u(kappa), used friction over slip, by lambda along both axes. Below the peak of u(kappa), the
+/// target slip exceeds the slip; beyond the peak, the slip exceeds the target slip. The control
+/// therefore finds the peak without knowing the road's friction factor lambda. In a turn, the
+/// lateral slip reduces F_x and thus the target slip, so that the tyre can still generate lateral
+/// force.
 ///
-/// The control limits the driver's brake torque to T = |F_x| R - I omega'. Here, omega' is the spin
-/// acceleration at which the slip approaches its target with a time constant of 20 ms. The limit
-/// changes at the rates of a hydraulic unit.
+/// The control limits the driver's brake torque to T = |F_x| R - I omega'. At the wheel's spin
+/// acceleration omega', the slip approaches its target with a time constant of 20 ms. The brake
+/// torque limit changes at the rates of a hydraulic unit.
 class WheelSlipControl {
  public:
   explicit WheelSlipControl(const BrakedWheel& wheel) : wheel_(wheel) {}
 
-  /// Updates the limit for a step of `timestep` [s] in which the brake torque `wanted` [N m] is
-  /// commanded. `acceleration` is the car's acceleration along x [m/s^2]. A used friction below
-  /// `least_use` is replaced by `least_use`, a number from 0 to 1.
+  /// Updates the brake torque limit for a step of `timestep` [s] in which the brake torque `wanted`
+  /// [N m] is commanded. `acceleration` is the car's acceleration along x [m/s^2]. A used friction
+  /// u below `least_use` (0 to 1) is replaced by `least_use`.
   void Update(const WheelMotion& motion, double wanted, double acceleration, double least_use,
               double timestep);
-  /// Ends the control of the wheel.
+  /// Ends the slip control of the wheel.
   void Release() { active_ = false; }
 
   /// Whether the control limits the brake torque.
@@ -65,9 +66,9 @@ class WheelSlipControl {
   double limit_ = 0.0;  // [N m]
 };
 
-/// Moves the torque `from` [N m] toward `to` at the rates of a hydraulic unit. The unit raises the
-/// brake torque from 0 to `largest` in 0.1 s, and lowers the brake torque from `largest` to 0 in
-/// 0.05 s.
+/// Moves the torque `from` [N m] toward `to` at the rates of a hydraulic unit. The hydraulic unit
+/// raises the brake torque from 0 to `largest` in 0.1 s, and lowers the brake torque from `largest`
+/// to 0 in 0.05 s.
 double MoveBrakeTorque(double from, double to, double largest, double timestep);
 
 }  // namespace trackbed

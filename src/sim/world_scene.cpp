@@ -176,7 +176,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   int count = 0;
   const auto add = [&](const OrientedBox& box, const HeightField& field, const char* rgba) {
     if (field.highest == field.lowest) {
-      return;  // the ground is flat, for example a side slope of 0
+      return;  // the height field is flat, for example at a side slope of 0
     }
     const std::string name = fmt::format("ground_{}", count);
     const std::string file = name + ".hfield";
@@ -210,8 +210,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     add(Extent(side_slope), Sample(side_slope, ground), nullptr);
   }
   if (count > 0) {
-    // The list contains the wheel names of cars, of vehicles with differential drive and of
-    // trailers.
+    // The list of wheel names covers cars, vehicles with differential drive, and trailers.
     for (const auto& [wheel, index] :
          {std::pair("fl", 0), std::pair("fr", 1), std::pair("rl", 2), std::pair("rr", 3),
           std::pair("left", 0), std::pair("right", 1), std::pair(kTrailerSides[0], 4),
@@ -222,7 +221,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
       XMLElement& geom = AddLike(*plane, fmt::format("ground_{}", wheel));
       geom.SetAttribute("contype", 0);
       geom.SetAttribute("conaffinity", WheelPlaneBit(static_cast<std::size_t>(index)));
-      geom.SetAttribute("group", 4);  // geoms of this group are not drawn
+      geom.SetAttribute("group", 4);  // geoms of group 4 are not drawn
     }
   }
   scene.xml = Print(document);

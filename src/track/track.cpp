@@ -121,7 +121,8 @@ void Track::BuildPath(const CenterLine& line) {
   const double extra = std::min(0.5 * length_, 100.0);
   auto begin = std::find_if(lap.begin(), lap.end(),
                             [&](const CurvePoint& p) { return p.s >= length_ - extra; });
-  // If no point of the lap is within `extra` of its end, begin at the last point of the lap.
+  // If no point is within the distance `extra` of the lap's end, begin at the last point of the
+  // lap.
   begin = begin == lap.end() ? std::prev(begin) : begin;
   extra_ = length_ - begin->s;
   std::vector<CurvePoint> all;

@@ -114,8 +114,9 @@ void CheckFolds(TrackRows& rows, std::optional<double> smoothing) {
   rows.problems.ThrowIfAny();
 }
 
-/// Limit for a default smoothing, as a fraction of the narrowest width of the track. The limit
-/// applies to the shift of each point, and to the deviation from the straight line of a long step.
+/// Limit for a default smoothing, as a fraction of the narrowest width of the track. The smoothing
+/// limit applies to the shift of each point, and to the deviation of the smoothed line from the
+/// straight line of a long step.
 constexpr double kMaxShift = 0.1;
 
 /// Returns the largest distance by which a default smoothing may move a point of this track [m].

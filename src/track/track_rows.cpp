@@ -27,8 +27,8 @@ constexpr double kMaxWidth = 1000.0;  // Largest permitted track width on either
 /// Quantities in the columns of a track.
 enum Quantity { kX, kY, kRight, kLeft, kWidth };
 
-/// Usual names of the columns of each quantity, in order of preference. The first name is that of
-/// TUM's track files.
+/// Usual names of the columns of each quantity, in order of preference. The first name of each
+/// quantity is that of TUM's track files.
 const std::array<std::vector<const char*>, kTrackQuantities>& UsualNames() {
   static const std::array<std::vector<const char*>, kTrackQuantities> names{
       {{"x_m", "x", "x [m]", "pos_x", "position_x", "center_x", "x_center", "easting"},

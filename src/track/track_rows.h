@@ -19,22 +19,22 @@ using TrackNumbers = std::array<double, kTrackQuantities>;
 
 /// Parameters for reading a file without columns of widths as the log of a drive.
 struct LogReading {
-  double spacing = 0.0;     // Distance between points; rows in between are skipped [m].
+  double spacing = 0.0;     // Distance between track points; rows in between are skipped [m].
   double half_width = 0.0;  // Width of the road to either side [m].
 };
 
 /// Rows of a track file.
 class TrackRows {
  public:
-  /// Reads the rows of a file. Throws InputError if a row or the header has a problem. Drops the
-  /// first point if the file repeats it at its end. If `log` is given, the file needs no widths.
+  /// Reads the rows of a track file. Throws InputError if a row or the header has a problem. Drops
+  /// the last points if they repeat the first point. If `log` is given, the file needs no widths.
   TrackRows(const std::filesystem::path& file, const TrackReading& reading,
             std::optional<LogReading> log = {});
 
   /// Returns whether the file was read as the log of a drive.
   [[nodiscard]] bool is_log() const { return log_.has_value(); }
 
-  /// Adds a problem of a point.
+  /// Adds a problem of the track point with the index `point`.
   void Add(std::size_t point, std::string key, std::string message) {
     problems.Add({name_, lines[point], 0, std::move(key), std::move(message)});
   }

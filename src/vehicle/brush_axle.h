@@ -22,8 +22,9 @@ struct AxleOperation {
 /// force mu F_z at q = 1. Solving the model for q gives
 ///   q = 1 - cbrt(1 - F/(mu F_z)),  S = C (1 - q + q^2/3),  T = C (1 - q)^2
 /// with the secant stiffness S = F/sigma and the tangent stiffness T = dF/dsigma. The slip angle of
-/// the axle is the lateral force divided by S. At constant longitudinal force, the lateral
-/// stiffness is S T/(S c^2 + T (1 - c^2)) where c is the ratio of the lateral force to F.
+/// the axle is the lateral force divided by the secant stiffness S. At constant longitudinal force,
+/// the lateral stiffness is S T/(S c^2 + T (1 - c^2)) where c is the ratio of the lateral force to
+/// F.
 ///
 /// The parameter `stiffness` is C [N/rad], and `friction_force` is mu F_z [N]; both must be > 0.
 /// Forces of more than 0.95 mu F_z are scaled down to 0.95 mu F_z, because a sliding axle has no

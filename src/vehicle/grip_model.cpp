@@ -78,7 +78,7 @@ struct AxleGripState {
   // Slip angle at the required lateral force or, if the axle cannot generate this force, at the
   // largest lateral force [rad].
   double angle = 0.0;
-  // Lateral force of the outer wheel minus that of the inner wheel at `angle` [N].
+  // Lateral force of the outer wheel minus that of the inner wheel at the slip angle `angle` [N].
   double difference = 0.0;
 };
 
@@ -225,21 +225,23 @@ class SteadyState {
   /// Lateral forces of the front and the rear axle, perpendicular to their wheels [N].
   using AxleLoads = std::array<double, 2>;
 
-  /// Returns the forces without a steering angle. Each axle carries its fraction of the weight.
+  /// Returns the lateral axle forces without a steering angle. Each axle carries the same fraction
+  /// of the lateral force as of the weight.
   [[nodiscard]] AxleLoads StraightAhead(double lateral) const {
     const double force = car_.forces.mass * lateral;
     return {force * car_.axles[0].weight, force * car_.axles[1].weight};
   }
 
-  /// Returns the forces in a steady turn with the slip angles and force differences of `axles`.
-  /// `along` is the longitudinal force of each front wheel [N].
+  /// Returns the lateral axle forces in a steady turn with the slip angles and force differences of
+  /// `axles`. `along` is the longitudinal force of each front wheel [N].
   [[nodiscard]] AxleLoads InTheTurn(double lateral, double along,
                                     const std::array<AxleGripState, 2>& axles) const {
     const double steering = std::clamp(
         std::atan(car_.wheelbase * lateral / (speed_ * speed_)) + axles[0].angle - axles[1].angle,
         0.0, car_.steering_limit);
-    // The outer front wheel exerts more lateral force than the inner one. At a steering angle, this
-    // difference has a component along the car, whose moment turns the car out of the bend.
+    // The outer front wheel exerts more lateral force than the inner one. At a steering angle, the
+    // difference of the front wheel forces has a component along the car, whose moment turns the
+    // car out of the bend.
     const double outwards =
         0.5 * axles[0].difference * std::sin(steering) * car_.axles[0].track / car_.wheelbase;
     const AxleLoads straight = StraightAhead(lateral);
@@ -342,10 +344,10 @@ std::vector<double> Interpolate(const std::vector<double>& from, const std::vect
   return values;
 }
 
-/// Returns the sections of a car that steers. `slow` and `fast` are sections without steering
-/// angle, at speed 0 and at the largest speed. The steering angle reduces the largest lateral
-/// acceleration. At each fraction of the largest lateral acceleration, the limits of driving and
-/// braking are those without steering angle.
+/// Returns the sections of the g-g-v diagram of a car that steers. `slow` and `fast` are sections
+/// without steering angle, at speed 0 and at the largest speed. The steering angle reduces the
+/// largest lateral acceleration. At each fraction of the largest lateral acceleration, the limits
+/// of driving and braking are those without steering angle.
 std::vector<GgvSection> SteeredSections(const GripModel& car, const GgvSection& slow,
                                         const GgvSection& fast) {
   std::vector<GgvSection> sections;

@@ -5,8 +5,8 @@
 #include <numbers>
 
 // Evaluates the Magic Formula: forces of a tyre at given slips, load, camber and road friction.
-// 1. On a slippery road, the slips are multiplied by up to 1/road, so that the force curves keep
-//    their shape (similarity method, section 4.2).
+// 1. On a slippery road, the slips are multiplied by up to the reciprocal of the road's friction
+//    factor, so that the force curves keep their shape (similarity method, section 4.2).
 // 2. Pure slip: both forces are F = D sin(C atan(u - E (u - atan u))) + S_v with u = B (slip +
 //    S_h).
 // 3. Combined slip: each force is multiplied by a weight G that depends on the slip in the other
@@ -26,9 +26,9 @@ double Shape(double c, double e, double u) {
   return c * std::atan(u - e * (u - std::atan(u)));
 }
 
-/// Returns the weighting factor for combined slip. The factor describes how the slip in the other
-/// direction, `slip`, reduces a tyre force. The weighting factor is 1 if the slip in the other
-/// direction is zero.
+/// Returns the weighting factor for combined slip. The weighting factor describes how the slip in
+/// the other direction, `slip`, reduces a tyre force. The weighting factor is 1 if the slip in the
+/// other direction is zero.
 double Weight(double b, double c, double e, double shift, double slip) {
   const double kept = std::cos(Shape(c, e, b * (slip + shift)));
   return shift == 0.0 ? kept : kept / std::cos(Shape(c, e, b * shift));
@@ -36,9 +36,9 @@ double Weight(double b, double c, double e, double shift, double slip) {
 
 /// Returns the factor by which slips on a road with the friction factor `road` are multiplied to
 /// get similar slips on a road with the factor 1. The slips are divided by the friction factor
-/// `road`. The division enlarges them at most to the slip of a locked wheel (abs(kappa) = 1) or of
-/// a wheel that moves sideways (abs(alpha) = pi/2). Both slips have the same factor, because their
-/// ratio is the direction in which the tyre slides.
+/// `road`. The division enlarges the slips at most to the slip of a locked wheel (abs(kappa) = 1)
+/// or of a wheel that moves sideways (abs(alpha) = pi/2). Both slips have the same factor, because
+/// their ratio is the direction in which the tyre slides.
 double SimilarSlip(const TyreSlip& slip, double road) {
   if (road >= 1.0) {
     return 1.0 / road;
@@ -89,8 +89,8 @@ double LateralCamber(const MagicFormula& tyre, double gamma) {
   return IsVersion6(tyre) ? std::sin(gamma) : gamma;
 }
 
-/// Returns the factor by which the camber changes friction or stiffness, 1 - `change`. The factor
-/// is at least a tenth, because tyre files are valid for small cambers only.
+/// Returns the factor by which the camber changes friction or stiffness, 1 - `change`. The camber
+/// factor is at least a tenth, because tyre files are valid for small cambers only.
 double CamberFactor(double change) {
   return std::max(1.0 - change, 0.1);
 }
@@ -296,9 +296,10 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
     const double norm = std::hypot(x.force / x.peak, y.force / y.peak);
     return {x.force / std::max(1.0, norm), y.force / std::max(1.0, norm)};
   }
-  // On a slippery road, a tyre slides at smaller slips. The pure forces account for the road by B =
-  // K/(C D), and the weighting factors of combined slip by similar slips. The similarity factor
-  // multiplies the sums kappa + S_hx and alpha + S_hy, because the shifts are parts of the slips.
+  // On a slippery road, a tyre slides at smaller slips. The forces of pure slip account for the
+  // road's friction by the factor B = K/(C D). The weighting factors of combined slip are evaluated
+  // at similar slips (SimilarSlip). The similarity factor multiplies the sums kappa + S_hx and
+  // alpha + S_hy, because the shifts S_hx and S_hy are parts of the slips.
   const double similar = SimilarSlip(slip, road);
   const double kappa = similar * slip.ratio + (similar - 1.0) * x.shift;
   const double alpha = similar * LateralSlip(t, slip.angle) + (similar - 1.0) * y.shift;

@@ -60,7 +60,8 @@ FrontAngles AckermannAngles(const VehicleParams& params, double steering) {
   const double sine = std::sin(steering);
   const double cosine = std::cos(steering);
   // In a left turn, the left wheel is the inner wheel. The cotangent of the inner wheel's angle is
-  // cot(delta) - k, where delta is the steering angle of the bicycle model.
+  // cot(delta) - k, where delta is the steering angle of the bicycle model and k = 0.5
+  // track/wheelbase.
   return {std::atan2(sine, cosine - k * sine), std::atan2(sine, cosine + k * sine)};
 }
 

@@ -104,8 +104,8 @@ void SingleTrackCar::Advance(const MotionPiece& piece) {
   }
 }
 
-/// Returns the matrix Decay of the equations of motion |u| z' = B tan(delta) - Decay z. Here u is
-/// the forward speed, v the lateral speed, r the yaw rate, and z = (v/u, r/u).
+/// Returns the matrix Decay of the equations of motion |u| z' = B tan(delta) - Decay z. With the
+/// forward speed u, the lateral speed v and the yaw rate r, z is the pair of ratios (v/u, r/u).
 Eigen::Matrix2d SingleTrackCar::Decay(double speed, double acceleration_along) const {
   Eigen::Matrix2d decay = slip_rate_ + acceleration_along * Eigen::Matrix2d::Identity();
   decay(0, 1) += speed * std::abs(speed);

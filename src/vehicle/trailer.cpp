@@ -151,7 +151,8 @@ VehicleParams TrailerBody(const TrailerParams& trailer) {
 double JackknifeAngle(const TrailerParams& trailer, const VehicleParams& car) {
   // Car and trailer first touch where a corner of one outline meets a side of the other outline.
   // Relative to the other outline, a corner moves on a circle about the hitch, so each angle of
-  // contact has a closed form. The outlines are symmetric, so only positive angles are searched.
+  // contact has a closed form. The outlines are symmetric, so only positive hitch angles are
+  // searched.
   const double near = trailer.hitch - car.rear_overhang;
   const double half_width = 0.5 * car.width;
   const std::vector<Vec2> car_corners{{near, half_width},
@@ -200,7 +201,7 @@ double RolledHitchAngle(const TrailerParams& trailer, double angle, double curva
   const double c = -0.5 * curvature * (1.0 - ratio);
   const double square = half_b * half_b - a * c;
   const double root = std::sqrt(std::abs(square));
-  // exp(M s) up to a positive factor, which does not change p/q nor the quadrant of (q, p)
+  // compute exp(M s) up to a positive factor, which changes neither p/q nor the quadrant of (q, p)
   double even = 1.0;
   double odd = distance;
   if (root * std::abs(distance) > 1e-12) {

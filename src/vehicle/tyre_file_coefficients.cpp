@@ -11,7 +11,7 @@
 // 1. ReadCoefficients copies the coefficients by their names, such as PCX1 to p_cx1, and lists
 //    missing ones.
 // 2. NormalizeSigns corrects pairs of coefficients that some files give with both signs reversed.
-//    The correction does not change the forces.
+//    The correction of signs does not change the tyre forces.
 // 3. ApplyScaleFactors and ApplyPressure fold scale factors and the change of pressure into the
 //    coefficients.
 // 4. ApplySide mirrors the tyre of a right wheel.
@@ -92,9 +92,9 @@ void TyreFileReader::ReadLoadAndCamber() {
   }
 }
 
-/// Some files give pairs of coefficients with both signs reversed, which leaves the forces
-/// unchanged: F = D sin(C atan(K/(C D) slip)) is even in D, and sin(2 atan(F_z/(p_ky2 F_z0))) is
-/// odd in p_ky2.
+/// Some files give pairs of coefficients with both signs reversed. The reversal leaves the forces
+/// unchanged, because F = D sin(C atan(K/(C D) slip)) is even in D, and sin(2 atan(F_z/(p_ky2
+/// F_z0))) is odd in p_ky2.
 void TyreFileReader::NormalizeSigns() {
   MagicFormula& tyre = result_.tyre;
   if (tyre.p_dx1 < 0.0) {

@@ -87,7 +87,7 @@ class Splitter {
       return;
     }
     if (content.front() == '{' || IsRowOfNumbers(content)) {
-      return;  // a table, such as the shape of the tyre
+      return;  // skips the row of a table, such as the table of the tyre's shape
     }
     const std::size_t equal = content.find('=');
     if (equal != std::string_view::npos) {

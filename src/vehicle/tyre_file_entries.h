@@ -13,9 +13,9 @@ namespace trackbed {
 struct TyreFileEntry {
   std::string section;  ///< Name of the section in capitals; empty before the first section.
   std::string key;      ///< In capitals.
-  std::string text;     ///< The value without quotes.
+  std::string text;     ///< Value of the entry without quotes.
   int line = 0;         ///< Line number from 1.
-  std::optional<double> number;  ///< The value, if it is a number.
+  std::optional<double> number;  ///< Value of the entry, if it is a number.
 };
 
 /// Splits a tyre property file into its entries, in the order of the file. Entries without a value

@@ -50,8 +50,8 @@ void Pace::SetSpeed(double speed, double simulated, double wall) {
 }
 
 void Pace::KeepUp(double simulated, double wall) {
-  // longest lag behind the wall clock that is made up later [s]; such small lags are due to the
-  // scheduler
+  // longest lag behind the wall clock for which the simulation catches up later [s]; the scheduler
+  // causes such small lags
   constexpr double kMaxLag = 0.1;
   if (!paused_ && !std::isinf(speed_) && AllowedAt(wall) - simulated > kMaxLag * speed_) {
     CountFrom(simulated, wall);

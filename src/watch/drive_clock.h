@@ -47,7 +47,7 @@ class Pace {
   bool paused_;
   // Largest simulated time that is allowed while the clock is paused.
   double until_ = 0.0;
-  double from_simulated_ = 0.0;  // Simulated time from which the present speed applies.
+  double from_simulated_ = 0.0;  // Simulated time from which the clock's present speed applies.
   double from_wall_ = 0.0;
 };
 
@@ -60,8 +60,8 @@ class DriveClock {
   /// `period` is the control period of the run [s].
   DriveClock(std::size_t plants, double period, double speed, bool paused);
 
-  /// Called by the thread of a plant that has reached the simulated time `time` [s]. Blocks until
-  /// the plant may simulate the next control period.
+  /// Advance() is called by the thread of a plant that has reached the simulated time `time` [s].
+  /// Blocks until the plant may simulate the next control period.
   void Advance(std::size_t plant, double time);
   /// Removes a plant from the synchronization, so that other plants no longer wait for it.
   void End(std::size_t plant);

@@ -170,7 +170,7 @@ double MaxRelativeMotion(const World& world, const VehicleParams& vehicle,
          reach * std::abs(to.pose.yaw - from.pose.yaw) + fastest * (to.time - from.time);
 }
 
-/// Largest number of bisections in the search for the smallest clearance. This number of bisections
+/// Largest number of bisections in the search for the smallest clearance. The number kMaxBisections
 /// suffices for any real motion of a car, and limits the computing time if a simulation has
 /// diverged.
 constexpr long kMaxBisections = 100000;
@@ -185,8 +185,8 @@ void Approach(const World& world, const VehicleParams& vehicle, const ClearanceS
   constexpr double kDepth = 1e-3;  // [m]
   const double least = 0.5 * (from.clearance + to.clearance - moved);
   const double near = best.clearance - std::max(kTolerance, kShare * best.clearance);
-  // If the car may touch an obstacle, ignore the tolerance and continue until `moved` is less than
-  // kDepth.
+  // If the car may touch an obstacle, ignore the tolerance and continue until the clearance changes
+  // by less than kDepth between the samples.
   if (best.clearance == 0.0 || moved < kDepth || (least > 0.0 && least >= near) || --looks < 0) {
     return;
   }

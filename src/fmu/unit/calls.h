@@ -45,7 +45,8 @@ void RequireGiven(const Value* pointer, const char* name) {
   }
 }
 
-/// Converts the value of a C function. Doubles hold all integers up to 2^53.
+/// Converts an argument value of a C function to a double. Throws InputError for integers beyond
+/// 2^53, which a double may not hold exactly.
 template <typename Value>
 double ToDouble(Value value) {
   const auto converted = static_cast<double>(value);
@@ -82,8 +83,8 @@ void GetAll(Unit& unit, Type type, const std::uint32_t* references, std::size_t 
   }
 }
 
-/// Converts a URI such as "file:///tmp/fmu/resources" to a path. Throws InputError for another
-/// scheme.
+/// Converts a URI such as "file:///tmp/fmu/resources" to a path. Throws InputError for a URI with
+/// another scheme.
 std::filesystem::path PathOfUri(const std::string& uri);
 
 /// Copies a serialized state. Throws InputError if `size`, the room at `target`, is too small.

@@ -25,7 +25,7 @@ struct Instance : trackbed::fmu::InstanceBase {
 
   void Log(fmi2Status status, const char* category, const std::string& message) const {
     if (functions.logger != nullptr) {
-      // The message may contain percent signs.
+      // Pass the message as an argument of "%s", because the message may contain percent signs.
       functions.logger(functions.componentEnvironment, name.c_str(), status, category, "%s",
                        message.c_str());
     }

@@ -38,7 +38,7 @@ struct Instance : trackbed::fmu::InstanceBase {
 
 using Shared = trackbed::fmu::Functions<Instance>;
 
-/// Refuses a function with the given parameter types.
+/// Defines a C function that always fails, with the given parameter types.
 #define TRACKBED_REFUSE(name, ...)                      \
   fmi3Status name(fmi3Instance instance, __VA_ARGS__) { \
     return Shared::Refuse(instance, #name);             \
@@ -47,7 +47,7 @@ using Shared = trackbed::fmu::Functions<Instance>;
   fmi3Status name(fmi3Instance instance) {  \
     return Shared::Refuse(instance, #name); \
   }
-/// Refuses the functions that get and set values of a type that no variable has.
+/// Defines failing C functions to get and set values of a type that no variable has.
 #define TRACKBED_REFUSE_TYPE(name)                                                                 \
   TRACKBED_REFUSE(fmi3Get##name, const fmi3ValueReference*, std::size_t, fmi3##name*, std::size_t) \
   TRACKBED_REFUSE(fmi3Set##name, const fmi3ValueReference*, std::size_t, const fmi3##name*,        \

@@ -12,21 +12,22 @@
 
 namespace trackbed::fmu {
 
-/// Base of the instances of FMI 2 and FMI 3. `Own` is the type derived from this one. `Own` defines
-/// `Status`, the constants kOk and kError of this type, kStateName, the name of the argument with a
-/// state, and Fail(message), which passes a message to the host.
+/// Base of the instances of FMI 2 and FMI 3. The derived type `Own` must define the type `Status`
+/// with the constants kOk and kError. The type `Own` must also define kStateName, the name of the
+/// argument with a state, and Fail(message), which passes a message to the host.
 struct InstanceBase {
   std::unique_ptr<Unit> unit{};
   bool logging = false;
 };
 
-/// The bodies of the C functions that FMI 2 and FMI 3 share. Each returns kError and passes a
-/// message to the host if it fails; a null instance is an error without a message.
+/// The bodies of the C functions that FMI 2 and FMI 3 share. If one of the shared functions fails,
+/// it passes a message to the host and returns kError. A null instance is an error without a
+/// message.
 template <typename Own>
 struct Functions {
   using Status = typename Own::Status;
 
-  /// Calls `call` with the instance.
+  /// Calls `call` with the instance, and converts an exception to the status kError.
   template <typename Call>
   static Status With(void* instance, const Call& call) noexcept {
     auto* const own = static_cast<Own*>(instance);

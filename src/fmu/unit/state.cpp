@@ -14,8 +14,8 @@
 // serialized, but a simulation is reproducible bit for bit. A hash of the last row of the log shows
 // whether the repeated simulation had the same result.
 //
-// Layout: kMark, the token, numbers and counts of 8 bytes in the byte order of the machine, the
-// hash of the row, and the hash of all bytes before it.
+// A serialized state consists of kMark, the token, numbers and counts of 8 bytes in the machine's
+// byte order, the hash of the row, and a hash of all preceding bytes.
 namespace trackbed::fmu {
 namespace {
 
@@ -61,7 +61,8 @@ class Reader {
     return number;
   }
 
-  /// Reads the number of elements of `size` bytes each. Throws InputError if fewer bytes follow.
+  /// Reads the number of elements of `size` bytes each. Throws InputError if the remaining bytes
+  /// are too few for these elements.
   std::size_t Count(std::size_t size) {
     const auto count = Read<std::uint64_t>();
     if (count > left_.size() / size) {

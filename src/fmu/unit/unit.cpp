@@ -14,12 +14,13 @@
 
 // The behavior of an FMU, independent of the version of FMI.
 // 1. The resources of the FMU contain the scenario and all files that it names.
-// 2. Parameters are overrides of the scenario. Exiting the initialization plans the mission and
-//    makes the loop, so an FMU without a plan fails there.
-// 3. Step advances the loop by a whole number of control periods. The periods are counted, so that
-//    rounding errors of the host's times do not add up.
+// 2. Parameters of the FMU override numbers of the scenario. When the host exits the initialization
+//    mode, the FMU plans the mission and makes the loop. The exit from the initialization mode
+//    fails if planning fails.
+// 3. Step advances the loop by a whole number of control periods. Step counts the control periods,
+//    so that rounding errors of the host's times do not add up.
 // 4. Get returns values of the present row of the log, or of the commands.
-// 5. A state of the FMU is a copy of the loop, so a host can return to it.
+// 5. A state of the FMU is a copy of the loop, so a host can return to an earlier state.
 namespace trackbed::fmu {
 
 namespace fs = std::filesystem;
@@ -63,8 +64,8 @@ Commands StartCommands(const std::map<std::uint32_t, double>& parameters) {
           .plan_sets_speed = parameters.contains(kPlanSetsSpeed)};
 }
 
-/// Reads the scenario with the values of parameters. Messages about a parameter name its key, but
-/// no option of the program.
+/// Reads the scenario with the values of parameters. Error messages about a parameter name the key
+/// of the parameter, but no file, line or command line option.
 Scenario ReadWithParameters(const fs::path& file, const std::vector<Override>& overrides) {
   try {
     return ReadScenario(file, overrides);
@@ -110,7 +111,7 @@ void StepOnce(SteppedLoop& loop, const Commands& commands) {
 }
 
 Table PresentRow(const SteppedLoop& loop) {
-  // The log ends with the last period; its present row is not part of the log yet.
+  // The log ends with the last control period; the present row is not part of the log yet.
   RunLog log = loop.log();
   log.rows = {loop.row()};
   return ToTable(log);
@@ -203,7 +204,8 @@ StepEnd Unit::Step(double time, double step) {
   }
   // Communication points and step sizes of callers carry rounding errors, which grow with the
   // number of steps. The loop counts periods, so that rounding errors do not reach the simulation.
-  // The checks accept rounding errors that are too small to change the number of periods.
+  // The checks of the time and the step size accept rounding errors that are too small to change
+  // the number of periods.
   const double periods = std::round(step / period_);
   if (!(periods >= 1.0 && std::abs(step / period_ - periods) < 1e-6 * periods && periods < 1e9)) {
     Refuse(fmt::format("the step size is {} s; must be a multiple of the control period, {} s",
@@ -304,7 +306,8 @@ double Unit::Get(Type type, std::uint32_t reference) {
       outputs_[row.columns()[column]] = row.at(0, column);
     }
   }
-  // A parameter may have removed a column, such as the noise of the measured pose.
+  // A parameter, such as the noise of the measured pose, may have removed the variable's column
+  // from the log.
   const auto found = outputs_.find(variable.name);
   return found == outputs_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
 }

@@ -18,10 +18,10 @@ namespace trackbed::fmu {
 
 /// The commands of a control period.
 struct Commands {
-  double steering = 0.0;           ///< [rad]
-  double acceleration = 0.0;       ///< [m/s^2]
-  bool controller_steers = false;  ///< The scenario's controller drives.
-  bool plan_sets_speed = false;    ///< The plan sets the speed.
+  double steering = 0.0;           ///< Steering angle [rad].
+  double acceleration = 0.0;       ///< Acceleration [m/s^2].
+  bool controller_steers = false;  ///< Whether the scenario's controller steers.
+  bool plan_sets_speed = false;    ///< Whether the plan sets the speed.
 };
 
 enum class Phase : std::uint8_t { kInstantiated, kInitialization, kStepping, kTerminated };
@@ -29,11 +29,11 @@ enum class Phase : std::uint8_t { kInstantiated, kInitialization, kStepping, kTe
 /// Everything in an FMU instance that changes.
 struct State {
   Phase phase = Phase::kInstantiated;
-  double start_time = 0.0;                     ///< [s]
-  std::map<std::uint32_t, double> parameters;  ///< Values that differ from the start values.
+  double start_time = 0.0;                     ///< Start time of the simulation [s].
+  std::map<std::uint32_t, double> parameters;  ///< Parameter values other than the start values.
   Commands commands;                           ///< Present values of the inputs.
-  std::vector<Commands> history;               ///< The commands of all periods since the start.
-  std::optional<SteppedLoop> loop;             ///< Empty before the initialization.
+  std::vector<Commands> history;               ///< Commands of all periods since the start.
+  std::optional<SteppedLoop> loop;             ///< Control loop; empty before the initialization.
 
   [[nodiscard]] State Copy() const;
 };
@@ -44,13 +44,13 @@ struct StepEnd {
   double time = 0.0;   ///< Time at the end of the step [s].
 };
 
-/// An instance of an FMU, independent of the version of FMI. Functions throw InputError for a value
-/// or a call that is not allowed. One thread may use an instance at a time; different instances are
-/// independent.
+/// An instance of an FMU, independent of the version of FMI. The functions of Unit throw InputError
+/// for a value or a call that is not allowed. One thread may use an instance at a time; different
+/// instances are independent.
 class Unit {
  public:
-  /// `warn` receives notes about the plan. Reads the resources; throws InputError if they do not
-  /// belong to the FMU with this token, and RunError if they cannot be read.
+  /// Reads the resources. Throws InputError if the resources do not belong to the FMU with this
+  /// token, and RunError if they cannot be read. The callback `warn` receives notes about the plan.
   Unit(std::filesystem::path resources, std::string token,
        std::function<void(const std::string&)> warn);
 
@@ -58,10 +58,10 @@ class Unit {
 
   /// Begins the initialization at time `start` [s].
   void EnterInitialization(double start);
-  /// Plans, and makes the loop.
+  /// Plans the mission, and makes the control loop.
   void ExitInitialization();
   void Terminate();
-  /// Returns to the state after instantiation.
+  /// Returns the FMU to its state after instantiation.
   void Reset();
 
   /// Advances the loop by whole control periods, with the present inputs. `time` and `step` [s] are
@@ -76,10 +76,10 @@ class Unit {
 
   [[nodiscard]] State Save() const { return state_.Copy(); }
   void Restore(const State& state);
-  /// Returns a state as bytes: parameters, and the commands of all periods.
+  /// Returns a state as bytes: the parameters, and the commands of all control periods.
   [[nodiscard]] std::string Serialize(const State& state) const;
-  /// Simulates the commands in `bytes` again. Throws InputError unless the result is the state that
-  /// was serialized.
+  /// Restores a serialized state by simulating the commands in `bytes` again. Throws InputError
+  /// unless the result is the state that was serialized.
   [[nodiscard]] State Deserialize(std::string_view bytes) const;
 
  private:

@@ -44,8 +44,8 @@ constexpr double kCurveSpacing = 0.1;
 /// plan [m].
 constexpr double kStep = 1e-6;
 
-/// Returns whether the curvature jumps from the plan to the end point `curve` of a sampled curve.
-/// The jump must exceed the change from this end point to the next sample `next`.
+/// Returns whether the curvature jumps from the plan to the end point `curve` of a sampled curve. A
+/// jump of the curvature must exceed the change from the end point to the next sample `next`.
 bool Jumps(const PathPoint& plan, const CurvePoint& curve, const CurvePoint& next) {
   constexpr double kRounding = 1e-9;  // [1/m]
   return std::abs(plan.curvature - curve.curvature) >
@@ -117,7 +117,7 @@ class AroundObstacles {
   }
 
   void SetSpeed(double start_speed, double open_loop_end) {
-    plan_.stops.clear();  // the new speeds have no stops
+    plan_.stops.clear();  // The new speed profile has no stops.
     plan_.waits.clear();
     plan_.reference.speed = StopAtEnd(path().length(), start_speed, request_.speed, plan_.caps);
     plan_.schedule_speed = StopAtEnd(open_loop_end, start_speed, request_.speed, plan_.caps);
@@ -237,7 +237,7 @@ class AroundObstacles {
   }
 
   /// Ends the plan where the obstacle comes closer than the safe distance SD. If the car cannot
-  /// stop there in time, ends the plan at the stopping distance.
+  /// stop before that place, ends the plan at the car's stopping distance.
   void StopBefore(const Conflict& conflict, double from, const std::string& why) {
     SpeedsToCaps();
     const double start_speed = plan_.reference.speed.SpeedAt(0.0);

@@ -92,8 +92,9 @@ BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline);
 /// crosses the axis.
 double CrossingY(const Vec2& a, const Vec2& b);
 
-/// Returns whether a polyline passes an obstacle on the required side. The polyline then crosses
-/// the lateral axis of the obstacle's frame on this side an odd number of times.
+/// Returns whether a polyline passes an obstacle on the required side. A polyline that passes on
+/// the required side crosses the lateral axis of the obstacle's frame on this side an odd number of
+/// times.
 bool GoesThrough(const PassageConstraint& passage, const std::vector<Vec2>& polyline);
 
 }  // namespace trackbed::avoidance

@@ -68,8 +68,8 @@ TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceO
   problem.turn_angle = 0.5 * kPi;
   problem.reduction = problem.turn_angle - turn.sweep();
   if (std::abs(problem.reduction) < kRounding) {
-    // For a right angle the reduction must be exactly zero, because listing F.2 then has special
-    // rules.
+    // For a turn by a right angle, the reduction must be exactly zero, because listing F.2 has
+    // special rules for a reduction of zero.
     problem.reduction = 0.0;
   }
   problem.side = turn.curvature > 0.0 ? TurnSide::kLeft : TurnSide::kRight;

@@ -22,7 +22,7 @@ namespace trackbed::avoidance {
 namespace {
 
 /// Spacing of the stations at which a curve may return to the path [m]. Behind a bend, the spacing
-/// of these stations is doubled.
+/// of the return stations is doubled.
 constexpr double kReturnStep = 2.0;
 /// Ratio of each speed that the search tries to the previous speed.
 constexpr double kSpeedRatio = 0.6;
@@ -88,11 +88,12 @@ class StretchFinder {
     for (const Demand& demand : Demands()) {
       for (const SidePath& side_path : side_paths) {
         if (demand.speed < full && side_path.tree.status == RrtStarStatus::kNotReached) {
-          // Skip this side: RRT* found no path here, and a lower speed does not change this.
+          // Skip a side of the obstacle on which RRT* found no path, because a lower speed does not
+          // help.
           continue;
         }
         for (const double leave : leaves) {
-          // Sets up the problem of a curve from `leave` to `back` with this demand.
+          // Sets up the problem of a curve from station `leave` to station `back` for the demand.
           const auto problem_to = [&](double back) {
             CurveProblem problem = ProblemFor(leave, back, demand, from);
             problem.passage = {SideFrame(conflict), LateralSign(bend, side_path.passing_side)};

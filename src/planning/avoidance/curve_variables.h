@@ -35,7 +35,7 @@ using Points = std::array<Vec2, kDegree + 1>;
 /// Maps variables to the control points P_0 to P_7, in the mirror frame of the start. The control
 /// point P_1 lies on the tangent at the start of the curve. The offset h of P_2 from the tangent
 /// follows from the curvature at the start: kappa = (6/7) h/|P_0 P_1|^2. The offset of P_5 from the
-/// tangent at the end follows in the same way from the curvature at the end.
+/// tangent at the end follows from the curvature at the end by the same equation.
 class EndConditions {
  public:
   explicit EndConditions(const CurveProblem& problem);

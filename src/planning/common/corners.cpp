@@ -16,9 +16,9 @@
 // Rounds each corner of a polyline by a clothoid, an arc and a second clothoid. The maximum
 // steering rate and the speed in the corner determine the sharpness of the clothoids, so the curve
 // gets shorter at a lower speed. The curve at a corner may use half of each of the two adjacent
-// legs. For each corner, bisection finds the highest speed at which the curve fits on these halves
-// of the legs, and passes close enough to a waypoint at the corner. While the resulting path is too
-// close to an obstacle, the algorithm slows the corner nearest to the collision by a fifth.
+// legs. For each corner, bisection finds the highest speed at which the curve fits on half of each
+// leg, and passes close enough to a waypoint at the corner. While the resulting path is too close
+// to an obstacle, the algorithm slows the corner nearest to the collision by a fifth.
 
 namespace trackbed {
 namespace {

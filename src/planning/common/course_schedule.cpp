@@ -16,8 +16,8 @@ SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<
                                 double speed, const std::vector<SpeedCap>& caps,
                                 const std::vector<double>& stops) {
   // Length of the steering ramp for wheels that turn at standstill [m]; not zero, because the
-  // steering schedule is a function of the distance. A ramp that is less than half as long stems
-  // from rounding of the curvature, and adds no knot.
+  // steering schedule is a function of the distance. A ramp shorter than half of kMinRampLength
+  // stems from rounding of the curvature, and adds no knot.
   constexpr double kMinRampLength = 1e-6;
   // Spacing of the schedule's knots, chosen so that linear interpolation reproduces the arctangent
   // of the curvature within 1e-5 rad [m].

@@ -36,8 +36,8 @@ class WorstExcess {
   WorstExcess(std::string what, std::string unit, Remedy remedy)
       : excess_{.what = std::move(what), .unit = std::move(unit), .remedy = remedy} {}
 
-  /// Considers the value `required`; a limit of 0 means that the limit is unknown and cannot be
-  /// exceeded.
+  /// Records by how much the value `required` exceeds the limit, if this is the largest excess so
+  /// far. A limit of 0 is unknown and cannot be exceeded.
   void Take(double required, double limit, double station) {
     if (limit > 0.0 && required > limit * (1.0 + feasible_speeds::kRounding) &&
         required / limit > ratio_) {
@@ -280,7 +280,7 @@ struct SlowerPlan {
   [[nodiscard]] bool ok() const { return left.empty(); }
 };
 
-/// Slows a plan down where it has the excesses `first`.
+/// Slows down a plan that exceeds limits; `first` contains the excesses of the plan.
 SlowerPlan SlowDown(const Plan& plan, const PlanRequest& request,
                     const std::vector<Excess>& first) {
   const std::vector<SpeedCap> caps = feasible_speeds::CapsFor(plan, request);

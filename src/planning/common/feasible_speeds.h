@@ -54,12 +54,12 @@ std::string FrictionForSlope(const Excess& slope, const Path& path, const PlanRe
 /// turn at standstill.
 bool EndsAtStop(const std::vector<Stations>& legs, double s);
 
-/// Returns the car whose steering the plan requires. A plan at the limit is steered for the slip of
-/// the tyres, any other plan for a car that does not slip.
+/// Returns the parameters of the car for which the steering of a plan is computed. For a plan at
+/// the limit, the tyres of this car slip; for any other plan, they do not slip.
 VehicleParams SteeredCar(const Plan& plan, const PlanRequest& request);
 
-/// Returns the steering rate that a plan may use [rad/s]. If the plan drives at the limit, this is
-/// a share of the car's steering rate, because the controllers need the rest.
+/// Returns the steering rate that a plan may use [rad/s]. A plan at the limit may use only a share
+/// of the car's steering rate, because the controllers need the rest.
 double UsableSteeringRate(const PlanRequest& request);
 
 /// Returns the motion on a piece of a path between the speeds of its ends [m/s]: the larger speed,
@@ -78,7 +78,7 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request);
 /// the caller repeats the computation.
 std::vector<SpeedCap> CapsForSteering(const Plan& plan, const PlanRequest& request);
 
-/// Returns the smallest speed of the caps, at most `speed` [m/s].
+/// Returns the speed of the lowest cap, or `speed` if no cap is lower [m/s].
 double MinSpeedOf(const std::vector<SpeedCap>& caps, double speed);
 
 /// Returns `limits`, lowered to the smallest acceleration and deceleration of the sections.
@@ -109,15 +109,16 @@ inline constexpr GripShares kBendShares{0.7, 0.7};
 /// the checks for every position of the edge of a slippery patch.
 std::vector<AccelerationCap> GripAlong(const Path& path, const PlanRequest& request);
 
-/// Returns the sections of the path on which the given shares of GripAlong are less than the limits
-/// of the request.
+/// Returns the sections of the path on which the given shares of the road's grip (GripAlong) are
+/// less than the limits of the request.
 std::vector<AccelerationCap> SectionsOfLessGrip(const Path& path, const PlanRequest& request,
                                                 const GripShares& shares);
 
 /// Returns speed caps for each bend in which the plan exceeds the friction ellipse. A bend here is
 /// a stretch of the path between two straights. With these caps, the car stays within the friction
-/// ellipse in the bend, even while it speeds up or slows down. The acceleration is then at most the
-/// limit of the request, and at most the share kBendShares of the road's grip.
+/// ellipse in the bend, even while it speeds up or slows down. In the capped bends, the
+/// acceleration along the path is at most the limit of the request, and at most the share
+/// kBendShares of the road's grip.
 std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request);
 
 }  // namespace trackbed::feasible_speeds

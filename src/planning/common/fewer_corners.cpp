@@ -63,9 +63,9 @@ class SlowCorners {
 
 /// Cost of a polyline up to a leg, compared from the first member to the last.
 struct Cost {
-  std::size_t tight = 0;     // corners that do not fit
-  std::size_t left_out = 0;  // points
-  double distance = 0.0;     // sum over the points left out [m]
+  std::size_t tight = 0;     // Number of corners that do not fit on their legs.
+  std::size_t left_out = 0;  // Number of points left out.
+  double distance = 0.0;     // Sum of the distances of the points left out [m].
 
   bool operator<(const Cost& other) const {
     return std::tie(tight, left_out, distance) <
@@ -73,11 +73,11 @@ struct Cost {
   }
 };
 
-/// The cheapest polyline that ends with a leg.
+/// The cheapest polyline up to the end of a leg.
 struct Leg {
   bool exists = false;
-  Cost cost;               // cost of the whole polyline
-  std::size_t before = 0;  // index of the point at which the previous leg begins
+  Cost cost;               // Cost of the whole polyline.
+  std::size_t before = 0;  // Index of the point at which the previous leg begins.
 };
 
 class CornerChoice {
@@ -208,7 +208,7 @@ class CornerChoice {
   const WaypointChoice& limits_;
   std::vector<bool> is_waypoint_;
   std::vector<std::vector<Leg>>
-      legs_;  // indexed by the end of the leg, then by the number of points before it
+      legs_;  // Indexed by a leg's end point, then by the number of points between its ends.
 };
 
 }  // namespace

@@ -7,7 +7,8 @@
 namespace trackbed {
 namespace {
 
-/// The function G of LimitJerk at each station, with its slopes before and after the station.
+/// The function G of LimitJerk, with G'' = K = 2 jerk/v, at each station, and the slopes of G
+/// before and after the station.
 struct Bound {
   std::vector<double> value;
   std::vector<double> left;

@@ -9,13 +9,14 @@ namespace trackbed {
 ///
 /// With da/dt = v d^2w/ds^2/2 the limit is |w''| <= K(s) = 2 jerk/v. LimitJerk computes K from the
 /// speed v before lowering, which is safe because a lower speed only increases K. Let G be a
-/// function with G'' = K; the limit holds if w + G is convex and w - G is concave. LimitJerk makes
-/// w + G convex and w - G concave in two steps. Step 1 computes w1, the minimum of w and of one
-/// curve with the second derivative K through w(t) for each station t with w'' > K. At t, the curve
-/// has the slope that is closest to 0 among all values between the slopes of w just before and just
-/// after t. On each side of t, the curve extends to the point where it meets w. Step 2 computes w2,
-/// for which w2 + G is the lower convex hull of w1 + G. The hull does not raise the second
-/// derivative, so the upper bound w'' <= K from step 1 still holds.
+/// function with G'' = K; the jerk limit holds if w + G is convex and w - G is concave. LimitJerk
+/// makes w + G convex and w - G concave in two steps. Step 1 lowers w to w1: through w(t) at each
+/// station t with w'' > K, it draws a curve with the second derivative K. The squared speed w1 is
+/// the minimum of w and these curves. At t, the curve of step 1 has the slope that is closest to 0
+/// among all values between the slopes of w just before and just after t. On each side of t, the
+/// curve of step 1 extends to the point where it meets w. Step 2 lowers w1 to w2, for which w2 + G
+/// is the lower convex hull of w1 + G. The hull does not raise the second derivative, so the upper
+/// bound w'' <= K from step 1 still holds.
 ///
 /// Speeds that already satisfy the jerk limit stay unchanged. Step 2 never changes the first and
 /// the last squared speed. The computing time is O(n) plus the total length of the curves in step

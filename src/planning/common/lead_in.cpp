@@ -34,14 +34,14 @@ std::vector<Segment> Straightening(const PlanRequest& request) {
 }
 
 /// Returns the length of a straight from a pose on which a car at the start speed slows down to
-/// `speed` [m]. On a slippery road, the car uses the share of the grip that leaves room for bends,
-/// because a plan with a bend on this road uses no more.
+/// `speed` [m]. On a slippery road, the car brakes with the share kBendShares of the grip, because
+/// a plan with a bend on this road may use no larger share.
 double BrakingLength(const PlanRequest& request, const Pose2& from, double speed) {
   const double deceleration = request.speed.deceleration;
   const double squares = std::max(0.0, request.start_speed * request.start_speed - speed * speed);
   const double shortest = squares / (2.0 * deceleration);
   const RoadHold road(request);
-  constexpr double kLongest = 50.0;  // times the shortest length
+  constexpr double kLongest = 50.0;  // Multiple of the shortest length.
   const Path straight(from, {{.length = kLongest * shortest + feasible_speeds::kCheckSpacing}});
   const auto braking = [&](double s) {
     const double grip = road.Braking(straight, s);

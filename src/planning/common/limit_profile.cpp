@@ -126,8 +126,8 @@ double Capability::MaxSquared(const LimitStation& at, double most) const {
 }
 
 /// Returns the largest squared speed, at most `most`, that a car can have at one end of an interval
-/// of `length` [m]. The squared speed at the other end is `from`. The function `can` returns the
-/// available acceleration or deceleration at a squared speed.
+/// of `length` [m]. The squared speed at the other end of the interval is `from`. The function
+/// `can` returns the available acceleration or deceleration at a squared speed.
 template <typename Can>
 double Reach(double from, double length, double most, const Can& can) {
   const auto spare = [&](double squared) {
@@ -185,8 +185,8 @@ class Passes {
   }
 
   /// If the squared speed `start` of the car is above the profile, raises the first squared speeds
-  /// of the profile. On this stretch, the car brakes as hard as it can until its speed meets the
-  /// profile.
+  /// of the profile. At the raised speeds, the car brakes as hard as it can until its speed meets
+  /// the profile.
   void BrakeFrom(double start, Squares& squares) const {
     squares[0] = start;
     for (std::size_t i = 0; i + 1 < squares.size(); ++i) {

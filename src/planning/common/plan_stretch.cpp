@@ -111,7 +111,7 @@ Plan RemainingPlan(const Plan& plan, double station, double start_speed, const S
   rest.schedule = SteeringSchedule::Through(std::move(knots));
   rest.caps = Moved(plan.caps, ahead, -station);
   rest.turns = Moved(plan.turns, ahead, -station);
-  rest.stops.clear();  // the speeds of the rest have no stops
+  rest.stops.clear();  // The remaining speed profile has no stops.
   rest.waits.clear();
   for (double& line : rest.laps.lines) {
     line -= station;

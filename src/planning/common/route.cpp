@@ -15,9 +15,9 @@
 #include "trackbed/planning/common/turn_behind.h"
 #include "trackbed/world/world.h"
 
-// Planners of routes share these checks of their requests, stops at waypoints, and keys. A stop
-// without a given heading faces along the circle through the stop before, the waypoint and the next
-// waypoint; the goal faces away from the last stop.
+// Functions that the planners of routes share: checks of requests, stops at waypoints, and option
+// keys. A stop without a given heading faces along the circle through the previous stop, the
+// waypoint and the next waypoint. A goal without a given heading faces away from the last stop.
 
 namespace trackbed {
 namespace {
@@ -83,7 +83,8 @@ Plan CheckPoses(const PlanRequest& request) {
   if (request.headings.empty() || request.waypoints.size() < 2) {
     return CheckRoute(request);
   }
-  // Rounding of a pose, in turning radii and radians, below which curves have no pieces.
+  // Largest difference of two poses, in turning radii and radians, that counts as rounding: the
+  // curve between such poses has no pieces.
   constexpr double kSame = 1e-12;
   const std::vector<Pose2> stops = PlannedStops(request);
   for (std::size_t i = 1; i < stops.size(); ++i) {

@@ -23,8 +23,8 @@ double LargerOf(double a, double b) {
   return std::abs(a) > std::abs(b) ? a : b;
 }
 
-/// Returns stations along path segments, each with the path's curvature. The first station is at
-/// `from`.
+/// Returns stations along path segments, each with the path's curvature. The stations begin at
+/// `from` [m].
 std::vector<LimitStation> Nodes(const std::vector<Segment>& segments, double from, double spacing) {
   std::vector<LimitStation> nodes;
   double start = from;
@@ -99,8 +99,8 @@ class Surface {
   bool flat_ = true;
 };
 
-/// Applies speed caps to stations. A car that brakes from its start at the request's deceleration
-/// may be faster than a cap. A cap that is not strict is then raised to the speed of this car.
+/// Applies speed caps to stations. A rolling car that brakes at the request's deceleration may be
+/// faster than a cap. If the cap is not strict, it is raised to the speed of the braking car.
 void ApplyCaps(const std::vector<SpeedCap>& caps, const PlanRequest& request,
                std::vector<LimitStation>& stations) {
   const auto allowed = [&](const SpeedCap& cap, double s) {

@@ -17,7 +17,7 @@ namespace {
 /// Tolerance of the start position [m]; for a wheelbase below 1 m, multiplied by the wheelbase in
 /// meters.
 constexpr double kSamePlace = 1e-3;
-constexpr double kSameHeading = 1e-3;  // [rad]
+constexpr double kSameHeading = 1e-3;  // Tolerance of the start heading [rad].
 /// Tolerance of the start steering [rad].
 constexpr double kSteeringTolerance = 1e-3;
 

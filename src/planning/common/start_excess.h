@@ -21,9 +21,9 @@ std::vector<Excess> At(const Plan& plan, const PlanRequest& request);
 /// `cause` is the limit that the car exceeds, and `station` is the place of the excess [m].
 Excess TooFast(double start_speed, double highest, const std::string& cause, double station);
 
-/// Returns the excess that remains if the car brakes from its start as hard as it can. Returns
-/// nullopt if braking is hard enough for all limits of steering rate, speed and lateral
-/// acceleration.
+/// Returns the excess over a limit that remains even if the car brakes from its start as hard as it
+/// can. Returns nullopt if braking is hard enough for all limits of steering rate, speed and
+/// lateral acceleration.
 std::optional<Excess> LeftAfterBraking(const Plan& plan, const PlanRequest& request);
 
 /// Returns the highest start speed from 0 to `start_speed` [m/s] for which `is_feasible` returns

@@ -13,10 +13,11 @@
 // the path leaves out the waypoints that it passes within the bound anyway. A curve on the inner
 // side of a sharp turn passes far from the waypoint, and no curve joins legs that point in opposite
 // directions. At a sharp turn, the path therefore leads straight through the waypoint, and makes
-// one or two quarter turns behind the waypoint. The path then returns to the next point of the
-// polyline. The added legs have just the length that the curves of the added corners need. The
-// corners are driven at the highest speed at which a quarter turn still reaches the largest
-// curvature. If the turn is too wide at this speed, the corners are driven at the lowest speed.
+// one or two quarter turns behind the waypoint. After the quarter turns, the path returns to the
+// next point of the polyline. The added legs have just the length that the curves of the added
+// corners need. The corners are driven at the highest speed at which a quarter turn still reaches
+// the largest curvature. If a turn at this highest speed is too wide, its corners are driven at the
+// lowest speed.
 
 namespace trackbed {
 namespace {
@@ -24,7 +25,8 @@ namespace {
 constexpr double kQuarter = 0.5 * kPi;
 
 /// Returns the highest speed at which the curve of a quarter turn reaches the largest curvature
-/// [m/s]. At this speed v, kappa^2 = h sigma with h = pi/2 and sigma = omega_delta/(L v).
+/// [m/s]. This highest speed v follows from kappa^2 = h sigma, with the heading change h = pi/2 and
+/// the sharpness sigma = omega_delta/(L v).
 double CompactSpeed(const VehicleParams& vehicle, const CornerLimits& limits) {
   const double speed = kQuarter * vehicle.steering_rate /
                        (vehicle.wheelbase * limits.max_curvature * limits.max_curvature);
@@ -44,7 +46,8 @@ struct TurnShape {
 std::optional<std::vector<Vec2>> CornersBehind(const VehicleParams& vehicle, double max_curvature,
                                                const TurnShape& shape, const Vec2& at,
                                                const Vec2& ahead, const Vec2& next) {
-  // Each curve may use half of each of its legs. The margin exceeds the rounding errors of halves.
+  // Each curve may use half of each of its legs. The margin kMargin covers the rounding errors of
+  // halving the legs.
   constexpr double kMargin = 1.0 + 1e-6;
   const auto leg = [&](double heading_change) {
     return 2.0 * kMargin *
@@ -80,8 +83,8 @@ std::optional<std::vector<Vec2>> CornersBehind(const VehicleParams& vehicle, dou
   return std::nullopt;
 }
 
-/// Returns the turns behind a waypoint in the order in which to try them. The side of the next
-/// point is `side`.
+/// Returns the turns behind a waypoint in the order in which to try them. The argument `side` says
+/// on which side of the car the next point lies.
 std::vector<TurnShape> TurnShapes(const VehicleParams& vehicle, const CornerLimits& limits,
                                   double side) {
   std::vector<TurnShape> shapes;

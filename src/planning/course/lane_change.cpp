@@ -14,8 +14,8 @@
 // Plans the double lane changes of ISO 3888-1 and ISO 3888-2.
 // 1. MakeCourse computes the lengths, widths and offsets of the gates from the width of the car
 //    (tables in lane_change.h).
-// 2. Inside a gate, the path is straight. Between two gates, it is a quintic Bezier curve without
-//    curvature at its ends.
+// 2. Inside a gate, the path is straight. Between two gates, the path is a quintic Bezier curve
+//    without curvature at its ends.
 // 3. The plan is refused if a curve needs more than the steering limit.
 // 4. GateMargins measures the distance of the corners of the footprint from the edges of each gate.
 namespace trackbed {

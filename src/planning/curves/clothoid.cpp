@@ -90,7 +90,7 @@ Vec2 FresnelPerLength(double angle) {
 }
 
 double ChordPerLength(double angle) {
-  constexpr double kShortSeriesLimit = 1.0;  // the first omitted term is below 1e-18 here [rad]
+  constexpr double kShortSeriesLimit = 1.0;  // Largest angle [rad]; first omitted term below 1e-18.
   if (std::abs(angle) <= kShortSeriesLimit) {
     return ChordSeries<10>(angle * angle);
   }

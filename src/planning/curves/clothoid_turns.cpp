@@ -7,14 +7,14 @@
 namespace trackbed {
 namespace {
 
-/// Returns the arc for an angle, which counts modulo a full circle.
+/// Returns the sweep of the arc that turns by `angle`, which counts modulo a full circle.
 double ArcFor(double angle, bool both_ways) {
   const double arc = WrapPositive(angle);
   return both_ways && arc > kPi ? arc - 2.0 * kPi : arc;
 }
 
-/// A turn with two ends of curvature 0 may be too short for the full curvature. Replaces such a
-/// turn by two clothoids between the same ends, if these are shorter.
+/// A turn with two ends of curvature 0 may be too short for the full curvature. Replaces a turn
+/// that is too short by two clothoids between the same ends, if the clothoids are shorter.
 void ShortenSmallTurn(const TurnCircle& circle, double deflection, ClothoidTurn& turn) {
   if (deflection >= 2.0 * circle.least) {
     return;

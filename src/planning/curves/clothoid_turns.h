@@ -11,7 +11,7 @@ namespace trackbed {
 
 inline constexpr double kNoCurve = std::numeric_limits<double>::infinity();
 
-/// Angles and lengths this close to a limit count as being on the limit.
+/// Tolerance of angles and lengths: a value this close to a limit counts as being on the limit.
 inline constexpr double kTurnRounding = 1e-12;
 
 /// Wraps an angle to [0, 2 pi); an angle that equals 2 pi up to rounding becomes 0.
@@ -30,8 +30,8 @@ Vec2 ClothoidTo(double curvature, double sharpness);
 /// Returns the circle for the largest sharpness `sharpness`, in 1/r^2.
 TurnCircle MakeTurnCircle(double sharpness);
 
-/// A way to leave a state: a clothoid to the curvature 0 or none, then a turn to one side. The way
-/// to arrive at a state is the way to leave it in the opposite direction.
+/// A way to leave a state: a clothoid to the curvature 0, or no clothoid, and then a turn to one
+/// side. The way to arrive at a state is the way to leave it in the opposite direction.
 struct TurnEnd {
   int side = 1;       // +1: to the left
   int direction = 1;  // of motion on the turn, away from the state
@@ -64,13 +64,14 @@ TurnEnd LeaveAfter(const TurnCircle& circle, const CurveState& state, double beg
 
 /// A turn with two ends.
 struct ClothoidTurn {
-  double length = kNoCurve;  // length of the clothoids and the arc
-  double arc = 0.0;          // length of the arc, negative against the turn's direction
-  double peak = 1.0;         // magnitude of the curvature of the arc
-  double sharpness = 1.0;    // sharpness of the clothoids; 0: the turn is a straight
+  double length = kNoCurve;  // Length of the clothoids and the arc.
+  double arc = 0.0;          // Length of the arc, negative against the turn's direction.
+  double peak = 1.0;         // Magnitude of the curvature of the arc.
+  double sharpness = 1.0;    // Sharpness of the clothoids; 0: the turn is a straight.
 };
 
-/// Which ends of a turn have the curvature 0. Any other end has the full curvature.
+/// Which ends of a turn have the curvature 0. An end of the turn without curvature 0 has the full
+/// curvature.
 struct ZeroEnds {
   bool first = true;
   bool last = true;

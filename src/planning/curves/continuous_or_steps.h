@@ -15,8 +15,8 @@ inline constexpr double kMostTime = 1.2;
 /// less time. Plans with steps are much faster on short legs where the car can only turn its wheels
 /// at rest. A returned plan with steps gets a note that says why its curvature steps. If the car
 /// can drive neither of the plans, returns `steps`. The function `faster` makes plans of continuous
-/// curvature faster, and the caller passes the result to it. If `faster` is not empty, the plan
-/// `continuous` is judged by the driving time after `faster`.
+/// curvature faster; the caller applies `faster` to the returned plan. If `faster` is not empty,
+/// the plan `continuous` is judged by the driving time after `faster`.
 Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request,
                        const std::function<Plan(Plan)>& faster = {});
 

@@ -2,13 +2,14 @@
 //
 // For a leg at the speed u, the largest sharpness is sigma = f omega/(L u). The plan may use the
 // fraction f of the steering rate omega; L is the wheelbase. Since the steering angle is atan(L
-// kappa), its rate is at most L u sigma = f omega. The curvature is also limited by the tyres' grip
-// at u. On straights, the car may drive faster than u.
+// kappa), its rate is at most L u sigma = f omega. The tyres' grip at the speed u limits the
+// curvature, too. On straights, the car may drive faster than the leg's speed u.
 //
-// The objective `length` takes the mission's speed, and lower speeds only where all words at a
+// The objective `length` uses the mission's speed, and lower speeds only where all words at a
 // higher speed are blocked. The objective `time` compares several speeds for each leg, and pairs of
-// speeds for its first and last turn, by an estimate of the driving time. The planner then compares
-// the best combination with the one at the mission's speed, by the speed profile of the whole path.
+// speeds for its first and last turn, by an estimate of the driving time. By the speed profile of
+// the whole path, the planner compares the best combination of speeds with the mission's speed on
+// all legs.
 //
 // A car that rolls at the start drives its first turns at its present speed, or straightens its
 // wheels first and slows down on a straight.
@@ -40,8 +41,9 @@ constexpr double kCuspPenalty = 5.0;
 /// Share of the tyres' grip on turns; the rest is left for braking and for corrections.
 constexpr double kGripShare = 0.5;
 
-/// Ratio of neighboring choices of speeds: fine above the given fraction of the mission's speed,
-/// where most turns are fastest, and coarse down to the lowest speed.
+/// The candidate speeds of a leg form a geometric sequence. The ratio of this sequence is
+/// kSpeedRatio down to the fraction kFineChoices of the mission's speed, where the best speeds of
+/// most turns are. At lower candidate speeds, the ratio is kCoarseSpeedRatio.
 constexpr double kSpeedRatio = 0.8;
 constexpr double kFineChoices = 0.2;
 constexpr double kCoarseSpeedRatio = 0.6;
@@ -50,16 +52,16 @@ constexpr double kCoarseSpeedRatio = 0.6;
 struct Leg {
   std::vector<Segment> segments;
   CurveFindings findings;
-  double speed = 0.0;    // speed on the turns [m/s]
-  std::size_t lead = 0;  // number of segments before the turns, on which a rolling car slows down
+  double speed = 0.0;    // Speed on the turns [m/s].
+  std::size_t lead = 0;  // Number of segments before the turns, on which a rolling car slows down.
   double cost = kNoCurve;
 };
 
 /// The place where the turns of a leg begin.
 struct LegStart {
   CurveState state;
-  double speed = 0.0;  // speed on the turns [m/s]
-  LeadIn lead{};       // straight on which a rolling car slows down to this speed
+  double speed = 0.0;  // Speed on the turns [m/s].
+  LeadIn lead{};       // Straight on which a rolling car slows down to `speed`.
 };
 
 /// The legs of a route with their total cost.

@@ -3,7 +3,7 @@
 namespace trackbed {
 namespace {
 
-/// The clothoid between a state and the turn behind it.
+/// Returns the clothoid between a state and the turn that follows the state.
 CurvePiece ClothoidBefore(const TurnCircle& circle, const TurnEnd& end) {
   return {.bend = end.state + end.begin < 0.0 ? Bend::kRight : Bend::kLeft,
           .ramps = {.first = end.state,

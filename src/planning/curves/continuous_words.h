@@ -19,17 +19,17 @@ enum class CurveMotion {
 
 /// The place between two turns, with a straight if that has a length.
 struct TurnJunction {
-  double yaw = 0.0;         // heading of the car [rad]
-  bool zero_before = true;  // the turn before ends with curvature zero, not with the full one
-  bool zero_after = true;   // the turn behind begins with curvature zero
-  double straight = 0.0;    // length of a straight
-  int direction = 1;        // of motion on the straight
+  double yaw = 0.0;         // Heading of the car [rad].
+  bool zero_before = true;  // Whether the turn before ends with curvature 0, not the full one.
+  bool zero_after = true;   // Whether the turn behind begins with curvature 0.
+  double straight = 0.0;    // Length of the straight.
+  int direction = 1;        // Direction of motion on the straight.
 };
 
 /// A chain of turns. The first turn leaves a state, and the last turn arrives at another state.
 struct TurnChain {
   const TurnEnd* first = nullptr;
-  const TurnEnd* last = nullptr;  // leaves the goal in the opposite direction
+  const TurnEnd* last = nullptr;  // Last turn, driven from the goal in the opposite direction.
   int turns = 2;
   std::array<int, 4> side{};
   std::array<int, 4> direction{};
@@ -39,7 +39,8 @@ struct TurnChain {
   double length = kNoCurve;
 };
 
-/// Solves the turns and adds their lengths; stops early at `limit`.
+/// Returns the length of a chain: solves its turns and adds their lengths, until the sum exceeds
+/// `limit`.
 double ChainLength(const TurnCircle& circle, const TurnChain& chain, bool both_ways, double limit);
 
 /// Returns the pieces of a chain.
@@ -114,9 +115,9 @@ class ChainFinder {
 
   TurnCircle circle_;
   CurveMotion motion_;
-  double radius_;     // radius of the circle on which turns end
-  double mu_;         // angle between the heading and the circle's tangent
-  double cusp_link_;  // distance of the centers of two turns at a cusp
+  double radius_;     // Radius of the circle on which turns end.
+  double mu_;         // Angle between the heading and the circle's tangent.
+  double cusp_link_;  // Distance of the centers of two turns at a cusp.
 };
 
 inline TurnChain ChainFinder::Chain(const Centers& centers, int turns) {
@@ -175,8 +176,8 @@ void ChainFinder::WithStraight(const Centers& centers, const Limit& limit,
       return;
     }
     double along = along_sign * std::sqrt(std::max(square, 0.0));
-    // Turns that touch need no straight. The square root would amplify the rounding errors of the
-    // squares.
+    // Turns that touch need no straight. Compare squares, because a square root would amplify the
+    // rounding errors.
     if (direction * (along - turns) < 0.0 && along * turns > 0.0 &&
         std::abs(square - turns * turns) <= kTurnRounding * std::sqrt(centers.square)) {
       along = turns;

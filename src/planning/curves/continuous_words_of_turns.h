@@ -78,7 +78,7 @@ void ChainFinder::OfThreeTurns(const Centers& centers, bool first_cusp, bool las
   if (distance > (one + two) * (1.0 + kTurnRounding) || distance < std::abs(one - two)) {
     return;
   }
-  // Law of cosines; the centers of the outer turns differ unless both links are equal.
+  // Apply the law of cosines. The centers of the outer turns coincide only if both links are equal.
   const double unequal =
       one == two ? 0.0 : (one - two) * (one + two) / (2.0 * std::max(distance, kTurnRounding));
   const auto angle = [](double cos) { return std::acos(std::clamp(cos, -1.0, 1.0)); };
@@ -121,7 +121,8 @@ void ChainFinder::OfFourTurns(const Centers& centers, bool outer_cusps, bool inn
     consider(chain);
   };
   if (outer_cusps) {
-    // The centers form a parallelogram with the middle of the line in its middle.
+    // The four centers of the turns form a parallelogram around the middle of the line between the
+    // outer centers.
     const double cos = distance > 0.0
                            ? (0.25 * distance * distance + outer * outer - 0.25 * inner * inner) /
                                  (distance * outer)
@@ -137,7 +138,8 @@ void ChainFinder::OfFourTurns(const Centers& centers, bool outer_cusps, bool inn
     }
     return;
   }
-  // The centers form a trapezoid whose inner link is parallel to the line.
+  // The four centers of the turns form a trapezoid: the inner link is parallel to the line between
+  // the outer centers.
   for (const double along : {1.0, -1.0}) {
     const double cos = 0.5 * (distance - along * inner) / outer;
     if (std::abs(cos) <= 1.0 + kTurnRounding) {

@@ -41,9 +41,9 @@ struct FoundCurve {
   std::vector<Segment> segments;
   ShortestCurve curve;
   std::ptrdiff_t shorter_ones_blocked = 0;
-  double length = 0.0;  // [m]
-  double radius = 0.0;  // of the sharpest arc [m]
-  double cost = 0.0;    // [m]
+  double length = 0.0;  // Length of the curve [m].
+  double radius = 0.0;  // Radius of the sharpest arc [m].
+  double cost = 0.0;    // Cost of the curve [m].
 };
 
 double Length(const std::vector<Segment>& segments) {
@@ -93,8 +93,8 @@ std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionC
 }
 
 /// Returns the cheapest first curve of a rolling car. The curve begins at the car if the wheels
-/// have the curve's steering angle. A curve with another steering angle begins where the wheels are
-/// straight, or behind a straight line on which the car slows down.
+/// have the curve's steering angle. If the wheels have another steering angle, the curve begins
+/// where the wheels are straight, or behind a straight line on which the car slows down.
 template <typename Words>
 std::optional<FoundCurve> FirstRolling(const PlanRequest& request, const CollisionChecker& clear,
                                        const Pose2& to, const Words& words, CurveDrive drive) {

@@ -125,7 +125,8 @@ class DetourPlanner {
     return IsDetour(plan, request_) || Stops(plan) > 0 || !IsDrivable(plan);
   }
 
-  /// Returns whether the car can drive a plan from its start speed. The plan may slow down later.
+  /// Returns whether the car can drive a plan from its start speed. Behind its start, the plan may
+  /// slow the car down.
   [[nodiscard]] bool IsDrivable(const Plan& plan) const {
     PlanRequest request = request_;
     request.infeasible = InfeasiblePolicy::kSlowDown;
@@ -143,18 +144,18 @@ class DetourPlanner {
             DrivingTime(plan, request_.vehicle) <= DrivingTime(best, request_.vehicle));
   }
 
-  /// Whether a plan through these stops may be better than `best`. No path is shorter than the
-  /// shortest curves of the smallest radius, so a plan is made only if the shortest curves are
-  /// short enough.
+  /// Returns whether a plan through the given stops may be better than `best`. No path is shorter
+  /// than the shortest curves of the smallest radius, so a plan is made only if the shortest curves
+  /// are short enough.
   [[nodiscard]] bool MayBeBetter(const std::vector<Pose2>& stops, const Plan& best) const {
     return !IsDrivable(best) || Stops(best) > 0 ||
            RouteLength(stops, radius_, length_) + radius_ <= PlanLength(best);
   }
 
-  /// Replaces `own` by a shorter plan for the request with other headings, if this plan may be
-  /// better than `best`, too. The headings are those of the shortest route of arcs with a radius.
-  /// Ramps of the steering need more room than arcs, so larger radii are tried as long as a detour
-  /// is left.
+  /// Replaces `own` by a shorter plan for the request with other headings, if the shorter plan may
+  /// be better than `best`, too. The tried headings are those of the shortest route whose arcs have
+  /// a given radius. Steering ramps need more room than arcs, so larger radii are tried as long as
+  /// the plan has a detour.
   void TryOtherHeadings(Plan& own, const PlanRequest& request, const Plan& best) const {
     const std::vector<Pose2> stops = PlannedStops(request);
     std::vector<double> tried;
@@ -220,8 +221,8 @@ class DetourPlanner {
 
   /// Returns the room of a corner at a speed [m/s]: the tangent of an arc, or half of a leg on
   /// which the car corrects a heading error e without leaving the leg at its ends. The car corrects
-  /// e by two triangular lobes of curvature with opposite signs. The ratio of their lengths is the
-  /// golden ratio phi. With the sharpness sigma, the lobes need a leg of length sqrt(4 phi^3
+  /// e by two triangular lobes of curvature with opposite signs. The ratio of the lobes' lengths is
+  /// the golden ratio phi. With the sharpness sigma, the lobes need a leg of length sqrt(4 phi^3
   /// e/sigma).
   [[nodiscard]] CornerRoom RoomOf(double turn, double speed) const {
     const VehicleParams& car = request_.vehicle;

@@ -4,9 +4,9 @@
 // yaw - alpha, where the signs count, because an arc can change its side as it becomes longer. The
 // arcs and the straight form a curve if f(alpha) = 0, where f is the distance between the two arcs
 // perpendicular to the straight. Let u be the length of the straight, g the ratio kGentleness, and
-// l_1 and l_2 the lengths of the arcs. Then f' = -(u + (1/4 - 1/(2 g)) (l_1 + l_2)). The straight
-// is at least as long as each ramp, l/g, and as (l_1 + l_2)/4. The iteration alpha <- alpha + f/u
-// then at least halves the error for g = 4.
+// l_1 and l_2 the lengths of the arcs. The derivative of f is f' = -(u + (1/4 - 1/(2 g)) (l_1 +
+// l_2)). The straight is at least as long as each ramp, l/g, and as (l_1 + l_2)/4. For g = 4, each
+// step alpha <- alpha + f/u of the iteration therefore at least halves the error of alpha.
 #include "trackbed/planning/curves/drivable_curve.h"
 
 #include <algorithm>
@@ -19,14 +19,14 @@
 namespace trackbed {
 namespace {
 
-/// A sweep this small is rounding of an angle that is zero [rad], as in ToSegments.
+/// Largest sweep that counts as a rounding error of a zero angle [rad], as in ToSegments.
 constexpr double kNoTurn = 1e-12;
 
 /// Ratio between the length of a gentler arc and the length of its ramps. For the ratio g, an arc
-/// and half of both ramps have the length (sqrt(g) + 1/sqrt(g)) S, where S belongs to g = 1. The
-/// offset due to the steps of curvature is proportional to g^(-3/2). The ratio 4 needs a quarter
-/// more room than 1, has an eighth of the offset, and lets a controller correct errors while the
-/// wheels are at rest.
+/// and half of both ramps have the length (sqrt(g) + 1/sqrt(g)) S, where S is the length of a ramp
+/// for g = 1. The offset due to the steps of curvature is proportional to g^(-3/2). Compared with g
+/// = 1, the ratio g = 4 needs a quarter more room and has an eighth of the offset. The longer arc
+/// lets a controller correct errors while the wheels are at rest.
 constexpr double kGentleness = 4.0;
 
 /// The length of a ramp from straight to `curvature` [m], at StepSpeed or at `speed` if lower.
@@ -38,12 +38,12 @@ double SharpRamp(const VehicleParams& vehicle, double curvature, double speed, d
 
 /// One end of a word.
 struct WordEnd {
-  double sweep = 0.0;        // angle of the arc [rad], positive to the left
-  double curvature = 0.0;    // curvature of the arc [1/m]
-  double beyond = 0.0;       // curvature of the path outside [1/m]
-  double start_speed = 0.0;  // speed of a car that slows down on the straight outside [m/s]
-  bool continues = false;    // whether the arc continues the arc of the path outside
-  bool is_gentle = false;    // whether the arc may have another radius
+  double sweep = 0.0;        // Angle of the arc [rad], positive to the left.
+  double curvature = 0.0;    // Curvature of the arc [1/m].
+  double beyond = 0.0;       // Curvature of the path outside the word [1/m].
+  double start_speed = 0.0;  // Speed of a car that slows down on the straight outside [m/s].
+  bool continues = false;    // Whether the arc continues an arc of the path outside the word.
+  bool is_gentle = false;    // Whether the arc may get another radius.
 
   [[nodiscard]] bool IsShort() const { return is_gentle && std::abs(sweep) > kNoTurn; }
 };
@@ -64,7 +64,8 @@ class GentleWord {
 
   [[nodiscard]] bool HasShortArc() const { return first_.IsShort() || last_.IsShort(); }
 
-  /// The speed at which the car passes the short arcs of the word itself; 0: it stops there.
+  /// Returns the speed at which the car can pass the word's short arcs unchanged; 0 if the car must
+  /// stop at these arcs.
   [[nodiscard]] double ShortestSpeed() const {
     double speed = drive_.speed;
     for (const WordEnd* end : {&first_, &last_}) {
@@ -105,12 +106,12 @@ class GentleWord {
   }
 
  private:
-  /// The arc and the straight outside it.
+  /// A turn at one end of the word: an arc, and the straight outside the arc.
   struct Turn {
-    double sweep = 0.0;      // [rad]
-    double curvature = 0.0;  // signed [1/m]; 0 with a sweep of 0
-    double ramp = 0.0;       // from straight to the arc [m]
-    double outside = 0.0;    // straight outside the arc [m]
+    double sweep = 0.0;      // Angle of the arc [rad].
+    double curvature = 0.0;  // Signed curvature of the arc [1/m]; 0 with a sweep of 0.
+    double ramp = 0.0;       // Length of the ramp from straight to the arc [m].
+    double outside = 0.0;    // Length of the straight outside the arc [m].
 
     [[nodiscard]] bool IsNothing() const { return std::abs(sweep) <= kNoTurn; }
     [[nodiscard]] double Length() const { return IsNothing() ? 0.0 : sweep / curvature; }
@@ -123,7 +124,8 @@ class GentleWord {
       const double half = std::sin(0.5 * sweep);
       return outside * std::sin(sweep) + (IsNothing() ? 0.0 : 2.0 * half * half / curvature);
     }
-    /// A long arc stays on its side, and has room for its ramp.
+    /// Returns whether an arc whose radius must not change keeps its side and has room for its
+    /// ramp; true for other arcs.
     [[nodiscard]] bool Keeps(const WordEnd& end) const {
       return end.is_gentle || Length() >= (end.continues ? 0.0 : ramp);
     }
@@ -135,7 +137,8 @@ class GentleWord {
     WordEnd end{.sweep = side * sweep, .curvature = side / drive_.radius};
     end.beyond = beyond.direction == direction_ ? beyond.curvature : 0.0;
     // An arc that continues an arc of the path outside never counts as short. Where the word has no
-    // arc, the curve may need one as its other end changes.
+    // arc, the curve may need a gentle arc, because the changed arc at the other end turns the
+    // straight.
     end.continues = end.beyond == end.curvature;
     const bool is_short =
         !end.continues && !HasRoomForRamps(vehicle_, sweep * drive_.radius, drive_);
@@ -143,8 +146,9 @@ class GentleWord {
     return end;
   }
 
-  /// The sharpest arc whose steps of curvature lead off the path by kStepDeviation at most (see
-  /// StepSpeed), on which the tyres hold, and which the car can turn on.
+  /// Returns the curvature of the sharpest arc that the car can drive at `speed` [1/m]. On this
+  /// arc, the tyres hold, and the steps of curvature displace the car by at most kStepDeviation
+  /// (see StepSpeed).
   [[nodiscard]] double SharpestAt(double speed) const {
     const double step = std::pow(
         vehicle_.steering_rate * std::sqrt(24.0 * kStepDeviation) / (vehicle_.wheelbase * speed),
@@ -165,7 +169,7 @@ class GentleWord {
         std::min(SharpestAt(speed), std::sqrt(std::abs(sweep) / (kGentleness * rolled)));
     const double ramp = rolled * curvature;
     const double beyond = SharpRamp(vehicle_, end.beyond, speed, drive_.min_speed);
-    // The car slows down before its ramp, half of which is outside the arc.
+    // The car slows down before the steering ramp, half of which lies outside the arc.
     const double excess = end.start_speed * end.start_speed - speed * speed;
     const double braking =
         excess > 0.0 ? 0.5 * excess / drive_.deceleration * kMore + 0.5 * ramp : 0.0;
@@ -192,7 +196,7 @@ class GentleWord {
   int direction_;
   WordEnd first_;
   WordEnd last_;
-  CurveGoal goal_;  // of a car that goes forwards [m]
+  CurveGoal goal_;  // Goal of a car that drives forwards [m].
 };
 
 /// Whether the word is arc, straight, arc, all in one direction.
@@ -230,7 +234,7 @@ std::vector<Segment> DrivablePieces(const VehicleParams& vehicle, const Pose2& f
   if (slow < fast) {
     pieces = gentle.PiecesAt(slow);
   }
-  constexpr int kHalvings = 20;  // to a millionth of the speed
+  constexpr int kHalvings = 20;  // Accurate to a millionth of the speed.
   for (int i = 0; i < kHalvings && !pieces.empty(); ++i) {
     const double speed = 0.5 * (slow + fast);
     std::vector<Segment> faster = gentle.PiecesAt(speed);

@@ -17,7 +17,7 @@ namespace {
 /// Number of parts of equal driving time of a leg; ends of segments add further parts.
 constexpr double kParts = 8.0;
 
-/// Gain in driving time below which a leg stays, as a fraction.
+/// Smallest relative gain in driving time for which a leg is changed.
 constexpr double kLeastGain = 0.01;
 
 /// Lowest speed between pieces of a leg [m/s]; a slower car could not follow its path.
@@ -135,7 +135,8 @@ class RouteRefiner {
     const double chord = Path({}, own.segments).At(length).pose.position().norm();
     const double least = LegTime(limits_, {{chord, limits_.speed.speed}}, leg.speeds.front(),
                                  profile.SpeedAt(from + length));
-    // Nothing is faster than the straight line. A small gain is not worth a search.
+    // No path is faster than the straight line. Skip the search if even this line would gain
+    // little.
     if (!std::isfinite(duration) || duration <= least * (1.0 + kLeastGain)) {
       return std::nullopt;
     }
@@ -143,7 +144,7 @@ class RouteRefiner {
     for (const Segment& segment : own.segments) {
       const double start = TimeAt(station);
       const double end = TimeAt(station + segment.length);
-      // Equal segments have equally many parts in spite of rounding.
+      // Round with a tolerance, so that equal segments get equally many parts.
       constexpr double kShareRounding = 1e-3;
       const double parts =
           std::clamp(std::ceil(kParts * (end - start) / duration - kShareRounding), 1.0, kParts);

@@ -3,7 +3,7 @@
 // The knots 0 to n separate n pieces. On the piece i, the steering angle delta and the speed v
 // change linearly over the time h_i. The fastest motion mostly turns its wheels and changes its
 // speed at a limit, so that few pieces suffice. With the acceleration a, the deceleration d, the
-// steering rate omega, the wheelbase L and kappa = tan(delta)/L:
+// steering rate omega, the wheelbase L and kappa = tan(delta)/L, the program is:
 //   minimize    sum of h_i
 //   subject to  -d h_i <= v_(i+1) - v_i <= a h_i,  |delta_(i+1) - delta_i| <= omega h_i,
 //               v_i^2 |kappa_i| <= lateral acceleration,  and the pose of the goal.
@@ -12,8 +12,8 @@
 // The end of the path is a sum of integrals over the parts, by Gaussian quadrature. The solution
 // meets the goal to the tolerance of the program; Gauss-Newton steps of the least change of lengths
 // and curvatures meet the goal exactly. The search amplifies rounding errors of its inputs.
-// Therefore it gets rounded inputs, and a leg whose first turn is to the left, so that a moved or
-// mirrored leg has the same solution. Source of the transcription: Betts 2010.
+// Therefore the inputs are rounded, and the leg is mirrored if its first turn is to the right: a
+// moved or mirrored leg then has the same solution. Source of the transcription: Betts 2010.
 #include "src/planning/curves/fastest_leg.h"
 
 #include <Eigen/QR>
@@ -29,12 +29,13 @@ namespace trackbed {
 namespace {
 
 /// Tolerance of the program, relative to the radius and to the time from lock to straight wheels.
-/// The end is corrected, and the speeds follow from the path.
+/// This coarse tolerance suffices, because the end of the path is corrected afterwards, and the
+/// speeds are computed from the path.
 constexpr double kTolerance = 1e-3;
-constexpr double kLeastTime = 1e-3;  // least duration of a piece, in units of the program
+constexpr double kLeastTime = 1e-3;  // Least duration of a piece, in units of the program.
 constexpr double kInputGrid =
-    0x1p-20;  // inputs are rounded to multiples of this, in units of the program
-constexpr Eigen::Index kPathParts = 16;  // parts of a piece; the curvature is linear on each part
+    0x1p-20;  // Inputs are rounded to multiples of kInputGrid, in units of the program.
+constexpr Eigen::Index kPathParts = 16;  // Parts per piece; the curvature is linear on each part.
 
 double RoundedInput(double value) {
   return std::round(value / kInputGrid) * kInputGrid;
@@ -58,7 +59,7 @@ class LegProgram {
         direction_(leg.start.front().direction) {
     const Path path({}, leg.start);
     const Pose2 end = path.At(path.length()).pose;
-    // A leg that is driven backwards is mirrored to a forward leg. The heading of the goal counts
+    // A leg that is driven backwards is mirrored to a forward leg. The heading of the goal includes
     // full turns.
     goal_ = {direction_ * end.x / radius_, end.y / radius_, 0.0};
     for (const Segment& segment : leg.start) {
@@ -95,8 +96,8 @@ class LegProgram {
     return program;
   }
 
-  /// Changes the path of x by Newton steps of least norm until it ends at the goal, except for
-  /// rounding errors, and returns it; nullopt if the steps do not converge.
+  /// Returns the path of the variables x, changed by Newton steps of least norm until it ends at
+  /// the goal, except for rounding errors. Returns nullopt if the Newton steps do not converge.
   [[nodiscard]] std::optional<std::vector<Segment>> PathOf(const Eigen::VectorXd& x) const {
     constexpr int kMostSteps = 10;
     constexpr double kGoalRounding = 1e-13;
@@ -119,7 +120,7 @@ class LegProgram {
           found.rows.col(k).setZero();
         }
       }
-      // Lengths change in proportion to themselves, so that short parts remain.
+      // The change of a length is proportional to the length, so that short parts remain.
       found.rows.rightCols(count) *= parts.lengths.asDiagonal();
       const Eigen::Matrix3d square = found.rows * found.rows.transpose();
       const Eigen::VectorXd step =
@@ -234,8 +235,8 @@ class LegProgram {
     return segments;
   }
 
-  /// Adds the derivative with respect to the steering or the speed at a knot, unless these are
-  /// fixed.
+  /// Adds the derivative with respect to the steering or the speed at a knot, unless the steering
+  /// or the speed is fixed.
   template <typename Row>
   void AddSteering(Row&& row, Eigen::Index knot, double value) const {
     if (IsSteered(knot)) {
@@ -327,8 +328,9 @@ class LegProgram {
   Eigen::Vector3d goal_;  // x, y and yaw
 };
 
-/// Returns the leg with a further part at each end at rest. On the further part, the car reaches
-/// the speed at which it starts to steer, or brakes from the speed at which it stops steering.
+/// Returns the leg with an additional part at each end at which the car is at rest. On the
+/// additional part, the car reaches the speed at which it starts to steer, or brakes from the speed
+/// at which it stops steering.
 FastestLeg WithPartsAtRest(FastestLeg leg) {
   const double speed = std::min(leg.held_speed, leg.limits.speed.speed);
   const auto part = [speed](double acceleration, double most) {

@@ -14,19 +14,19 @@ namespace trackbed {
 
 /// A leg to be driven in the least time, with the limits on its motion.
 struct FastestLeg {
-  std::vector<Segment> start;     ///< The leg before the search, in one direction of motion.
-  std::vector<double> lengths{};  ///< Parts of `start`; none crosses the end of a segment [m].
+  std::vector<Segment> start;     ///< Initial leg of the search, in one direction of motion.
+  std::vector<double> lengths{};  ///< Lengths of the leg's parts, each within one segment [m].
   std::vector<double> speeds{};   ///< Speeds between the parts, with those at both ends [m/s].
   double curvature = 1.0;         ///< Largest curvature [1/m].
   double min_speed = 0.1;         ///< Lowest speed between the parts [m/s], > 0.
-  double held_speed = 0.1;        ///< Lowest speed at which the car steers at an end at rest [m/s].
+  double held_speed = 0.1;        ///< Lowest speed at which the car steers near a stop [m/s].
   LegLimits limits;
 };
 
 /// Returns a leg at a local minimum of the driving time near `leg.start`; nullopt if the search
 /// finds none. The leg has the pose and curvature of `leg.start` at both ends, to 1e-10 m and rad.
-/// At an end at rest, the curvature stays constant below `leg.held_speed`. Costs 1 to 140 ms for 7
-/// to 16 parts.
+/// Near an end at which the car is at rest, the curvature stays constant below `leg.held_speed`.
+/// Costs 1 to 140 ms for 7 to 16 parts.
 std::optional<std::vector<Segment>> FindFasterLeg(const FastestLeg& leg);
 
 }  // namespace trackbed

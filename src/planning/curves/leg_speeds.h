@@ -22,9 +22,9 @@ struct LegLimits {
 
 /// A piece of a leg with one speed limit.
 struct LegPiece {
-  double length = 0.0;  // length of the piece [m]
-  double speed = 0.0;   // largest speed [m/s], at most LegLimits::speed
-  bool stops = false;   // the car changes its direction of motion before the piece
+  double length = 0.0;  // Length of the piece [m].
+  double speed = 0.0;   // Largest speed [m/s], at most LegLimits::speed.
+  bool stops = false;   // Whether the car changes its direction of motion before the piece.
 };
 
 /// Splits segments into pieces, each clothoid into `parts` of equal length. The speed of a piece is

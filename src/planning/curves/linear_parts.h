@@ -9,7 +9,7 @@ namespace trackbed {
 
 /// A path of clothoids, with the smallest radius as the unit of length.
 struct LinearParts {
-  Eigen::VectorXd curvatures;  // curvature between the parts and at both ends
+  Eigen::VectorXd curvatures;  // Curvatures at the joints of the parts and at both ends.
   Eigen::VectorXd lengths;
 };
 

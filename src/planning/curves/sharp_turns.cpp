@@ -38,13 +38,13 @@ struct HalvedAngle {
 
 /// A turn between curvatures of 0.
 struct ZeroTurn {
-  double along = 0.0;   // distance from start to end along the heading of the end
-  double across = 0.0;  // distance across the heading of the end, positive to the outside
+  double along = 0.0;   // Distance from start to end along the heading of the end.
+  double across = 0.0;  // Distance across the heading of the end, positive to the outside.
   double length = 0.0;
-  double slope = 0.0;  // along minus the derivative of across by the angle, exact for full turns
+  double slope = 0.0;  // Value of along - d(across)/d(angle), exact for full turns.
 };
 
-/// The turn by a >= 0, with the cosine and sine of a/2.
+/// Returns the turn with the deflection a >= 0; `cos` and `sin` are the cosine and sine of a/2.
 ZeroTurn TurnByAngle(const TurnCircle& circle, double a, double cos, double sin) {
   ZeroTurn turn;
   double chord = 0.0;
@@ -92,13 +92,13 @@ class SharpEnd {
 
   struct Side {
     int side = 1;
-    Vec2 zero{0, 0};    // position where the curvature is 0
-    double yaw = 0.0;   // heading where the curvature is 0
-    Vec2 half{1, 0};    // direction of half this heading
-    double done = 0.0;  // length of the clothoid from `zero` to the state
+    Vec2 zero{0, 0};    // Position where the curvature is 0.
+    double yaw = 0.0;   // Heading where the curvature is 0.
+    Vec2 half{1, 0};    // Direction of half the heading `yaw`.
+    double done = 0.0;  // Length of the clothoid from `zero` to the state.
   };
 
-  /// Returns the end with full circles added to the heading, at most one to either side.
+  /// Returns the end of the word with `circles` full turns added to its heading: -1, 0 or 1.
   [[nodiscard]] SharpEnd Wound(int circles) const {
     SharpEnd wound = *this;
     const double turns = circles * 2.0 * kPi;
@@ -113,8 +113,9 @@ class SharpEnd {
   [[nodiscard]] const Side& SideFor(double alpha) const {
     return sides_[order_ * (alpha - neutral_) < 0.0 ? 0 : 1];
   }
-  /// Returns the deflection from the curvature 0. Where a turn changes its side, a deflection that
-  /// is only rounding is 0, since the length of the smallest turn is the root of its deflection.
+  /// Returns the deflection of the turn, measured from curvature 0. Where a turn changes its side,
+  /// a tiny deflection is set to 0: the length of a small turn, a square root of the deflection,
+  /// would amplify its rounding error.
   [[nodiscard]] double Deflection(const Side& side, double alpha) const {
     const double deflection = order_ * side.side * (alpha - side.yaw);
     const double least = side.done > 0.0 ? 0.0 : kTurnRounding;
@@ -154,7 +155,7 @@ class SharpEnd {
 };
 
 /// The words to a goal, as functions of alpha, in an interval of alpha in which no turn changes its
-/// side. The heading of the goal counts full turns.
+/// side. The heading of the goal includes full turns.
 class SharpWords {
  public:
   SharpWords(const SharpEnd& first, const SharpEnd& last, double from, double to)
@@ -174,14 +175,14 @@ class SharpWords {
 
   struct Word {
     double alpha = 0.0;
-    Vec2 half{1, 0};                // direction of alpha/2
-    double across = 0.0;            // f
-    double straight = 0.0;          // u, length of the straight
-    double length = 0.0;            // length of the word
-    double slope = 0.0;             // -f' = u + g, for small turns approximately
-    Vec2 apart{0, 0};               // from the first turn to the last, seen along alpha
-    std::array<double, 2> along{};  // extents of the turns along alpha
-    std::array<double, 2> turns{};  // lengths of the turns
+    Vec2 half{1, 0};                // Direction of alpha/2.
+    double across = 0.0;            // Value of f.
+    double straight = 0.0;          // Length u of the straight.
+    double length = 0.0;            // Length of the word.
+    double slope = 0.0;             // Slope -f' = u + g, approximate for small turns.
+    Vec2 apart{0, 0};               // Vector from the first turn to the last, with x along alpha.
+    std::array<double, 2> along{};  // Extents of the turns along alpha.
+    std::array<double, 2> turns{};  // Lengths of the turns.
   };
 
   [[nodiscard]] Word At(double alpha) const { return At(alpha, Direction(0.5 * alpha)); }
@@ -204,8 +205,9 @@ class SharpWords {
     return word;
   }
 
-  /// Returns an upper bound of u between two values of alpha, from a to b. The extent of a turn
-  /// along alpha is at least 0 at angles up to pi, and has one maximum there.
+  /// Returns an upper bound of the straight's length u for all alpha between the words a and b. As
+  /// a function of alpha, the extent of a turn by at most pi is at least 0 and has a single
+  /// maximum.
   [[nodiscard]] double MostStraight(const Word& a, const Word& b) const {
     if (!turn_by_at_most_pi_) {
       return kNoCurve;
@@ -215,20 +217,21 @@ class SharpWords {
     return most - std::min(a.along[0], b.along[0]) - std::min(a.along[1], b.along[1]);
   }
 
-  /// Returns whether u < 0 for all alpha between two directions at most half a turn apart, because
-  /// the last turn is behind the first one.
+  /// Returns whether the last turn lies behind the first turn for all alpha between two directions
+  /// at most half a turn apart. The straight then has a length u < 0 for all these alpha.
   [[nodiscard]] bool AreBehind(const Vec2& from, const Vec2& to) const {
     return turn_by_at_most_pi_ && from.dot(apart_) < 0.0 && to.dot(apart_) < 0.0 &&
            Cross(from, to) >= 0.0;
   }
 
-  /// Returns a lower bound of the length between two values of alpha, from a to b.
+  /// Returns a lower bound of the word's length for all alpha between the words a and b.
   [[nodiscard]] double LeastLength(const Word& a, const Word& b) const {
     return std::min(a.turns[0], b.turns[0]) + std::min(a.turns[1], b.turns[1]) - done_;
   }
 
-  /// Returns an upper bound of the change of the length per angle: the distance, and the lengths of
-  /// both turns beyond their extent along alpha.
+  /// Returns an upper bound of the change of the word's length per change of alpha. The bound is
+  /// the distance between the turns, plus the lengths of both turns beyond their extent along
+  /// alpha.
   [[nodiscard]] double MostLengthPerAngle() const {
     const auto radius = [](const TurnCircle& circle) {
       return std::hypot(circle.across, circle.along);
@@ -260,10 +263,11 @@ class SharpWords {
   bool turn_by_at_most_pi_ = false;
 };
 
-/// Searches alpha for the shortest word. Where u >= 0, f falls: f' = -u - g, with g > 0 due to the
-/// turns. A small turn adds its length/4 to g, and a full turn adds the constant `along` of its
-/// circle. Therefore f has at most one root in a range of alpha in which u >= 0. The search halves
-/// an interval of alpha until the bound on u shows that u < 0, or until the interval is small.
+/// Searches for the alpha of the shortest word. Where the straight's length u is at least 0, f
+/// falls with alpha: f' = -u - g, with g > 0 due to the turns. A small turn adds a quarter of its
+/// length to g, and a full turn adds the constant `along` of its circle. Therefore f has at most
+/// one root in a range of alpha in which u >= 0. The search halves an interval of alpha until the
+/// bound on u shows that u < 0, or until the interval is small.
 class AlphaSearch {
  public:
   AlphaSearch(const SharpWords& words, double limit) : words_(words), limit_(limit) {}
@@ -287,7 +291,7 @@ class AlphaSearch {
   using Word = SharpWords::Word;
 
   void Split(const Word& a, const Word& b) {
-    constexpr double kSpacing = 0.3;  // spacing at which two roots are told apart [rad]
+    constexpr double kSpacing = 0.3;  // Spacing at which two roots are told apart [rad].
     const double most = words_.MostStraight(a, b);
     // The function f falls by at most `slope` per angle. The function f therefore has no root if it
     // is too far above 0 at the first end, or too far below 0 at the last one.
@@ -312,8 +316,8 @@ class AlphaSearch {
     if (is_solved || (a.straight < 0.0) == (b.straight < 0.0)) {
       return;
     }
-    // Between the end with u >= 0 and the point with u = 0, f falls. It may have a root on this
-    // part although f has the same sign at both ends of the cell.
+    // On the part of the cell where the straight has a length u >= 0, f falls. Therefore f may have
+    // a root on this part even if f has the same sign at both ends of the cell.
     const Word& in = a.straight < 0.0 ? b : a;
     if ((&in == &a ? in.across : -in.across) <= 0.0) {
       return;
@@ -324,7 +328,7 @@ class AlphaSearch {
     }
   }
 
-  /// Returns the word between `a` and `b` at which u is 0.
+  /// Returns the word between `a` and `b` whose straight has the length u = 0.
   [[nodiscard]] Word Edge(const Word& a, const Word& b) const {
     std::uintmax_t most = 60;
     const auto zero = boost::math::tools::toms748_solve(
@@ -334,8 +338,8 @@ class AlphaSearch {
   }
 
   /// Solves f = 0 between two words by Newton steps, then secants, and by bisection where a step
-  /// leaves the bracket or shrinks it too slowly. Returns false if the root has no straight. Stops
-  /// early for words that are longer than the limit.
+  /// leaves the bracket or shrinks it too slowly. Returns false if the straight has a negative
+  /// length at the root. Stops early for words that are longer than the limit.
   bool Solve(const Word& a, const Word& b) {
     double low = a.alpha;
     double high = b.alpha;

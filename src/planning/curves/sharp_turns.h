@@ -6,11 +6,11 @@
 /// the arc has the smallest curvature that suffices.
 ///
 /// Symbols, in units of the smallest radius r: alpha is the heading of the straight, as seen from
-/// the start. The deflection of a turn from curvature 0 to curvature 0 is a. The distance between
-/// the ends of this turn, in the direction of its mean heading, is d(a). A turn from another
-/// curvature is the rest of a turn from 0. A word is a root of f(alpha), the distance between the
-/// two turns perpendicular to the straight. The turns depend continuously on alpha, and their
-/// lengths tend to 0 with a. Nearly straight words therefore need no threshold.
+/// the start. A turn from curvature 0 to curvature 0 has the deflection a. In the direction of the
+/// turn's mean heading, its ends have the distance d(a). A turn from another curvature is the
+/// remainder of a turn from curvature 0. A word is a root of f(alpha), the distance between the two
+/// turns perpendicular to the straight. The turns depend continuously on alpha, and their lengths
+/// tend to 0 with a. Therefore no threshold has to distinguish nearly straight words.
 namespace trackbed {
 
 /// Returns the shortest forward word of two sharpest turns from the origin with the curvature

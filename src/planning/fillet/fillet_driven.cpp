@@ -13,8 +13,8 @@ namespace trackbed::fillet {
 namespace {
 
 /// Step of the simulation, and distance between the stations at which the simulated car is compared
-/// with its path [m]. Because steering ramps are meters long, this step causes a relative error of
-/// the integrals of about a thousandth.
+/// with its path [m]. Steering ramps are meters long, so the step kSpacing causes a relative error
+/// of the integrals of about a thousandth.
 constexpr double kSpacing = 0.5;
 
 class DrivenProblem {
@@ -60,8 +60,8 @@ class DrivenProblem {
       stations[i] = static_cast<double>(i) * spacing;
     }
     const KinematicState start{.pose = StartOfRoute(route_.waypoints),
-                               // The result is the same for every speed, because the steering
-                               // schedule is a function of the distance.
+                               // The simulated path is the same for every speed, because the
+                               // steering schedule is a function of the distance.
                                .speed = 1.0};
     const auto states =
         RollOut(vehicle_, start, plan.schedule, stations, kSpacing, options_.reference);

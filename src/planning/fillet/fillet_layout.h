@@ -35,8 +35,8 @@ Route MakeRoute(const std::vector<Vec2>& waypoints);
 std::vector<FilletTurn> FindTurns(const Route& route);
 
 /// Lays out the arcs, the path and the steering ramps of turns with known radii and speeds. The
-/// ramps are centered on the tangent points. The steering schedule is not made here but by
-/// MakeSchedule, because MakeSchedule throws if ramps overlap.
+/// ramps are centered on the tangent points. LayOut does not make the steering schedule, because
+/// MakeSchedule throws if ramps overlap.
 FilletPlan LayOut(const VehicleParams& vehicle, const Route& route, std::vector<FilletTurn> turns);
 
 /// Makes the steering schedule of a plan's turns. Throws Refusal if the steering ramps of two turns

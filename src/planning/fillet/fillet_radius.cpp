@@ -67,7 +67,7 @@ std::string DescribeShortLeg(const FilletTurn& turn, double radius, double min_t
   const double half_leg = 0.5 * turn.shorter_leg;
   const double per_leg = std::tan(0.5 * turn.interior_angle);
   const double millimeters = 1000.0 * half_leg * per_leg;
-  // Rounded so that the remedy is sufficient.
+  // Round the proposed radius down to millimeters, so that it is small enough.
   const std::string remedy =
       half_leg * per_leg >= min_turning_radius
           ? fmt::format("set plan.radius to at most {:.10g}", 0.001 * std::floor(millimeters))
@@ -91,7 +91,8 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
   if (auto room = room_at(speed)) {
     return room;
   }
-  // The steering ramp of a gentle turn may be too long for its leg because the radius is too small.
+  // Raise the upper bound of the radius: on a larger radius, the steering ramp of a gentle turn is
+  // shorter and may fit on the leg.
   bounds.high = std::max(
       bounds.high, RoomiestRadius(vehicle, speed, turn.interior_angle, NeutralTowardTurn(turn),
                                   {bounds.low, std::max(bounds.low, largest)}));

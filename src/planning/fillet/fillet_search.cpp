@@ -105,8 +105,8 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
   };
   search.result = Search(problem, options.search, seed);
   if (!search.result.ok()) {
-    // The interval of feasible radii is too narrow for a search with constraints. The ends of the
-    // interval are known, so search between the ends without the constraint.
+    // The interval of feasible radii is too narrow for a search with constraints. Search between
+    // the known ends of the interval of feasible radii, without the constraint.
     problem.lower = {limits.radii.low};
     problem.upper = {limits.radii.high};
     search.result = Search(problem, options.search, seed);

@@ -11,11 +11,11 @@
 // Leaves out waypoints between which no turn fits, such as points on a line that were rounded to
 // millimeters. The search of LeaveOutCloseWaypoints chooses the points. If the car slows down where
 // turns lack room, a first pass leaves out waypoints that lie off a straight line only because of
-// rounded coordinates, so that the car does not slow down there. A second pass leaves out waypoints
-// at which no turn fits at all. The car begins in the direction of the first leg. Therefore, if the
-// first waypoint is too close to the start for a turn, the path continues straight through this
-// waypoint, and turns behind the waypoint. If the path leaves out the first waypoint, it may turn
-// on the first leg.
+// rounded coordinates. The car would otherwise slow down at such waypoints. A second pass leaves
+// out waypoints at which no turn fits at all. The car begins in the direction of the first leg.
+// Therefore, if the first waypoint is too close to the start for a turn, the path continues
+// straight through this waypoint, and turns behind the waypoint. If the path leaves out the first
+// waypoint, it may turn on the first leg.
 
 namespace trackbed::fillet {
 namespace {
@@ -34,7 +34,7 @@ double LeastLeg(const VehicleParams& vehicle, double speed, const FilletOptions&
   return LeastSteeringRoom(vehicle, speed, kPi - heading_change, {smallest, largest});
 }
 
-/// Returns the number of corners of a polyline without the room that they need.
+/// Returns the number of corners of a polyline that lack the room that they need.
 int TightCorners(const std::vector<Vec2>& points, const WaypointChoice& choice) {
   int tight = 0;
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -95,9 +95,11 @@ std::vector<Vec2> WithFewestTightCorners(const VehicleParams& vehicle, const Rou
   std::vector<Vec2> points = given;
   const Leg& first = route.legs.front();
   const double longest = std::max(first.length, 2.0 * vehicle.min_turning_radius());
-  // The factor is not two, so that added points do not coincide with evenly spaced waypoints.
+  // The factor kLonger is not two, so that added points do not coincide with evenly spaced
+  // waypoints.
   constexpr double kLonger = 1.9;
-  // Distances of the added point from the start. The first trial adds no point.
+  // Trial distances of an added point from the start [m]. The first trial, at the distance 0, adds
+  // no point.
   std::vector<double> distances{0.0, first.length / kLonger};
   for (double length = kLonger * first.length; length <= longest; length *= kLonger) {
     distances.push_back(length);
@@ -146,7 +148,8 @@ Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, do
   std::vector<Vec2> points = route.waypoints;
   double lowest = speed;
   if (options.without_room == InfeasibleTurnPolicy::kSlowDown) {
-    // About as large as the rounding error of coordinates in decimeters.
+    // Largest gap of a waypoint in the first pass, about the rounding error of coordinates in
+    // decimeters.
     constexpr double kRounding = 0.25 * kUnnoticedShareOfWidth;
     points = WithFewestTightCorners(vehicle, route, points, choice_at(speed, kRounding));
     lowest = 0.5 * std::min(options.min_speed, speed);
@@ -169,7 +172,8 @@ bool IsLeftOut(const Route& route, const std::vector<Vec2>& waypoints, int i) {
   if (number == route.numbers.end()) {
     return true;
   }
-  // The path passes the first waypoint if the added point lies behind it, not if it lies before it.
+  // The path passes the first waypoint if the added point lies behind the waypoint, but not if the
+  // added point lies before the waypoint.
   const Vec2& point = route.waypoints[static_cast<std::size_t>(number - route.numbers.begin())];
   const Vec2& given = waypoints[static_cast<std::size_t>(i)];
   return (point - waypoints[0]).norm() < (given - waypoints[0]).norm();

@@ -71,7 +71,8 @@ std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, do
 std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
                                         double shorter_leg, RadiusInterval bounds,
                                         SpeedInterval speeds, double neutral) {
-  // The smallest value of g(r) rises with the speed.
+  // The smallest value of g(r) over all radii r grows with the speed, so its root is the highest
+  // permitted speed.
   const auto least = [&](double speed) {
     const double r = RoomiestRadius(vehicle, speed, interior_angle, neutral, bounds);
     return SteeringRoom(vehicle, speed, interior_angle, shorter_leg, neutral, r);

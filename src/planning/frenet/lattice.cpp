@@ -29,8 +29,8 @@ constexpr double kArrived = 0.05;
 /// A node of the lattice, with the cheapest known path from the start to the node.
 struct Node {
   FrenetState state;
-  // Target of the edges that end at this node. If the car follows a leader, each edge sets the
-  // station of the target.
+  // Target of the edges that end at this node. If the car follows a leader, the station of the
+  // target depends on the edge.
   FrenetTarget target;
   double cost = kInfinite;
   double time = 0.0;

@@ -41,8 +41,9 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
       return std::nullopt;
     }
     // On a path of curvature k, a point has the offset d = (1 - sqrt((k ahead)^2 + (1 - k
-    // aside)^2))/k relative to the rear axle. The station of this point is s = atan(k ahead/(1 - k
-    // aside))/k. The code evaluates these equations in equivalent forms that also hold for k = 0.
+    // aside)^2))/k relative to the rear axle. Relative to the rear axle, the point (ahead, aside)
+    // has the station s = atan(k ahead/(1 - k aside))/k. The code evaluates the equations for d and
+    // s in forms that also hold for k = 0.
     const double turned = k * ahead / to_center;
     constexpr double kSmall = 1e-6;
     const double along = std::abs(turned) < kSmall ? ahead / to_center : std::atan(turned) / k;

@@ -8,8 +8,9 @@
 #include "trackbed/planning/curves/dubins.h"
 #include "trackbed/planning/curves/reeds_shepp.h"
 
-// The steps of hybrid A* are arcs of curvature 0, +-1/(2r) and +-1/r. The curves to the goal are
-// the shortest curves of arcs and straights, with gentler arcs in place of short ones.
+// The steps of hybrid A* are arcs of curvature 0, +-1/(2r) and +-1/r, with the turning radius r.
+// The curves to the goal are the shortest curves of arcs and straights, with gentler arcs in place
+// of short ones.
 
 namespace trackbed {
 namespace {
@@ -104,8 +105,8 @@ class ArcSearch final : public PoseTree {
     return !PlanSteps(vehicle_, path, problem_.drive->min_speed).stops.empty();
   }
 
-  /// Returns the pieces of the last curve of a path. The pieces have no short arcs if this costs no
-  /// more, or if the car would have to stop on the curve with short arcs.
+  /// Returns the pieces of the last curve of a path. Gentler arcs replace short arcs if the curve
+  /// then costs no more, or if the car would have to stop on the curve with short arcs.
   [[nodiscard]] std::vector<Segment> GentlerPieces(const Node& node,
                                                    const ShortestCurve& word) const {
     std::vector<Segment> shortest = InSearchOrder(ToSegments(word));

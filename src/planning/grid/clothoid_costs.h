@@ -16,8 +16,8 @@ class ClothoidCosts {
   ClothoidCosts(const VehicleParams& vehicle, const HybridAStarOptions& options,
                 const ClothoidDrive& drive, double radius);
 
-  /// Returns the speed at which the car drives a segment, at most v or the speed at the start
-  /// [m/s].
+  /// Returns the speed at which the car drives a segment [m/s]. The speed on a segment is at most
+  /// the larger of the mission's speed v and the start speed.
   [[nodiscard]] double SpeedOn(const Segment& segment) const;
 
   /// Returns the cost of a segment after the segment `before`, which is empty at the start [m].

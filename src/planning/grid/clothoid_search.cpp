@@ -13,9 +13,9 @@
 // clothoid is the largest one at one of a few speeds. With cusp steps, the first arc behind a cusp
 // may have any level.
 //
-// The curves to the goal are words of continuous curvature. Each attempt to reach the goal takes
-// the words for one of the speeds, in turn. Only the first attempt takes the words for all speeds;
-// without obstacles, it is the only attempt.
+// The curves to the goal are words of continuous curvature. Successive attempts to reach the goal
+// try the words for one speed after another. Only the first attempt tries the words for all speeds;
+// without obstacles, no further attempt is needed.
 
 namespace trackbed {
 namespace {
@@ -44,7 +44,7 @@ class ClothoidSearch final : public PoseTree {
   /// path can be cheaper would take a hundred times as long as the search for the first path.
   static constexpr int kMoreExpansions = 1500;
 
-  /// Index of the largest of the curvatures.
+  /// Index of the level with the largest curvature; the smallest level has the index -kLevels.
   static constexpr int kLevels = 2;
 
   [[nodiscard]] double LevelCurvature(int level) const { return level * (0.5 / radius_); }
@@ -86,7 +86,7 @@ class ClothoidSearch final : public PoseTree {
         continue;
       }
       add_arc(direction, node.curvature);
-      // Levels at rounding distance of the curvature count as equal.
+      // A level that differs from the node's curvature only by rounding counts as equal.
       constexpr double kRounding = 1e-9;
       const double level = 2.0 * node.curvature * radius_;
       const int above = static_cast<int>(std::floor(level + kRounding)) + 1;

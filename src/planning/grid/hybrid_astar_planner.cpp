@@ -23,9 +23,11 @@
 //    there.
 // 2. PlanClothoids searches with arcs and clothoids, which the steering can follow.
 // 3. A rolling car drives its first leg at once along a Dubins curve, or by a search that begins
-//    where the car has slowed down. The planner takes the shorter path.
-// 4. With curvature `auto`, both paths are planned, and ContinuousOrSteps chooses one. The search
-//    with clothoids then has a budget, because it is about ten times as slow.
+//    where the car has slowed down. Of the Dubins curve and the path of the search, the planner
+//    takes the shorter one.
+// 4. With curvature `auto`, the planner makes a plan by PlanArcs and a plan by PlanClothoids, and
+//    ContinuousOrSteps chooses one. For `auto`, the search with clothoids has a budget, because it
+//    is about ten times as slow.
 // 5. If a rolling car would drive a detour, the curves of `dubins` are tried, too.
 // Source: Dolgov et al. 2010.
 namespace trackbed {
@@ -229,8 +231,9 @@ Plan PlanArcs(const HybridAStarOptions& options, const PlanRequest& request) {
 }
 
 /// Number of poses that a search for a path of continuous curvature may expand beyond those of the
-/// search with steps. A pose takes 100 us instead of 10 us, so a search that finds no path takes at
-/// most 0.6 s more than ten times as long.
+/// search with steps. Expanding a pose with clothoids takes 100 us instead of 10 us. If the search
+/// for continuous curvature finds no path, it takes at most ten times as long as the search with
+/// steps, plus 0.6 s.
 constexpr int kClothoidPoses = 6000;
 
 /// Returns the number of poses that the searches for a plan expanded.

@@ -24,7 +24,7 @@ class GridDistance {
 
  private:
   std::shared_ptr<const OccupancyGrid> grid_;
-  std::vector<double> distances_;  // In side lengths of a cell.
+  std::vector<double> distances_;  // Distances to the target, in side lengths of a cell.
 };
 
 /// Bins and steps of a search. The search keeps one pose for each bin of position and heading.
@@ -34,8 +34,8 @@ struct Resolution {
   double step = 0.0;  ///< Length of the arcs [m].
 
   /// Returns the resolution with the shortest arcs that leave their bins: every arc is longer than
-  /// a cell's diagonal, and the sharpest arc turns by a heading bin. Shorter arcs would share bins
-  /// with straight lines. The search would then lose turns, because straight lines cost less.
+  /// a cell's diagonal, and the sharpest arc turns by a heading bin. Shorter arcs would end in the
+  /// bins of straight lines. The search would drop such arcs, because straight lines cost less.
   static Resolution WithBins(double cell, int headings, double radius);
 };
 

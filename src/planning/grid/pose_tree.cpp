@@ -14,7 +14,7 @@
 // The search keeps only the cheapest node per cell of position, heading, direction and, with
 // clothoids, curvature. The nearer a node is to the goal, the more often the search tries a
 // collision-free curve to the goal. The search ends when the cheapest open node is at the goal,
-// reached by a collision-free curve. A search from the goal does the same along the path driven
+// reached by a collision-free curve. A search from the goal expands nodes along the path driven
 // backwards in time, from the goal to the start.
 
 namespace trackbed {
@@ -87,7 +87,7 @@ std::vector<Segment> PoseTree::StepsTo(int index) const {
 }
 
 std::vector<Segment> PoseTree::Path() const {
-  // The last node with a curve has the cheapest path.
+  // Among the nodes with a curve to the target, the last node has the cheapest path.
   const auto end = std::find_if(nodes_.rbegin(), nodes_.rend(),
                                 [](const Node& node) { return node.last_curve >= 0; });
   std::vector<Segment> path;

@@ -86,8 +86,8 @@ class PoseTree : public PoseSearch {
 
   [[nodiscard]] bool IsFree(Pose2 pose, const std::vector<Segment>& segments) const;
 
-  /// Returns the segments of a path in the order and in the directions of the search. The function
-  /// is its own inverse.
+  /// Returns the segments of a path in the order and in the directions of the search. Applied
+  /// twice, InSearchOrder returns the original segments.
   [[nodiscard]] std::vector<Segment> InSearchOrder(std::vector<Segment> segments) const;
 
   /// Returns the segments from the root to a node, in the order of the search.

@@ -42,8 +42,8 @@ double ShapeBeside(const Road& road, double s, double t, double right, double le
   if (road.shape.empty()) {
     return 0.0;
   }
-  constexpr double kStraight = 2.0;  // [m]
-  constexpr double kStep = 1e-3;     // of the difference quotient at the border [m]
+  constexpr double kStraight = 2.0;  // Width of the straight profile beside the lanes [m].
+  constexpr double kStep = 1e-3;     // Step of the difference quotient at the border [m].
   const double border = std::clamp(t, right, left);
   const double height = ShapeHeight(road, s, border);
   const double beside = std::clamp(t - border, -kStraight, kStraight);

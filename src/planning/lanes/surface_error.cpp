@@ -7,7 +7,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kMaxSlope = 1.0;  // equal to the limit for bumps of the world's ground
+constexpr double kMaxSlope = 1.0;  // Largest slope of a lane, equal to that of bumps in the ground.
 
 /// Returns an error message if the profile of a road is too steep on a drivable lane at this
 /// station; otherwise an empty text.

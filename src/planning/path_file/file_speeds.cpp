@@ -20,7 +20,7 @@ namespace {
 constexpr double kMinSpeed = 0.1;
 
 // Ratio of the length of the path through some points to the distance between the first and the
-// last point. Above this ratio, the points move back and forth, as noise does.
+// last point. Above the ratio kToAndFro, the points move back and forth, as noise does.
 constexpr double kToAndFro = 2.0;
 
 std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
@@ -45,11 +45,11 @@ std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
 struct Standstill {
   std::size_t first;
   std::size_t last;
-  double duration = 0.0;  // [s]; 0 if the file has no times
+  double duration = 0.0;  // Duration of the standstill [s]; 0 if the file has no times.
 };
 
 /// Returns the runs of points at which the speed in the file is 0. Runs that lie within
-/// max_deviation of each other are one run.
+/// max_deviation of each other are joined to one run.
 std::vector<Standstill> PointsWithoutSpeed(const FittedPath& fitted) {
   const std::vector<double>& speed = fitted.given.speed;
   const std::vector<double>& s = fitted.stations;
@@ -93,8 +93,8 @@ std::vector<Standstill> SlowPlaces(const FittedPath& fitted) {
     return s[i + 1] - s[i] > kMinSpeed * (t[i + 1] - t[i]);
   };
   std::vector<Standstill> found;
-  Standstill joined{0, 0};   // union of the present window with all earlier windows that overlap it
-  Standstill longest{0, 0};  // the longest of these windows
+  Standstill joined{0, 0};   // Union of the present window and all earlier windows that overlap it.
+  Standstill longest{0, 0};  // Longest of the windows in `joined`.
   const auto finish = [&] {
     const bool creeps = (joined.first > 0 && !is_fast(joined.first - 1)) ||
                         (joined.last + 1 < t.size() && !is_fast(joined.last));
@@ -161,7 +161,7 @@ std::vector<Standstill> FindStandstills(const FittedPath& fitted) {
 }
 
 /// Adds the stops and waits at the standstills. At a cusp or at a stop that the plan already has,
-/// only adds the wait. Returns the new stops [m].
+/// only adds the wait. Returns the stations of the new stops [m].
 std::vector<double> AddStops(Plan& plan, const FittedPath& fitted, double start_speed) {
   std::vector<double> known = CuspsOf(fitted.path);
   known.insert(known.end(), plan.stops.begin(), plan.stops.end());

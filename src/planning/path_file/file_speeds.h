@@ -29,9 +29,9 @@ std::optional<double> FileStartSpeed(const FittedPath& fitted);
 /// than the file's speeds, and then slows down at the mission's deceleration.
 ///
 /// The car stops where the file's speed is 0. If the file has times, the car waits at a stop for as
-/// long as the file's car stands. This duration is the time from the first to the last point with
-/// the speed 0. The duration also includes a part of the steps before and after these points: the
-/// time that the file's car does not need to brake and to start. In a recording with noise, the
+/// long as the file's car stands. The duration of a standstill is the time from the first to the
+/// last point with the speed 0. Added to this duration is the part of the previous and the next
+/// step that the file's car does not need to brake and to start. In a recording with noise, the
 /// file's car also stands where it stays within PathFitOptions::max_deviation for longer than a car
 /// at 0.1 m/s would.
 void FollowFileSpeeds(Plan& plan, const FittedPath& fitted, double start_speed);

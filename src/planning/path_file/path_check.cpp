@@ -177,7 +177,8 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
   const double spacing = std::max(kSpacing, path.length() / kMaxPieces);
   ForEachPiece(path, spacing, [&](const PathPiece& piece) {
     // Where an arc replaces a heading jump, report the jump instead of the arc's curvature. The
-    // curvature depends on the spacing of the points in the file and not on the intended path.
+    // arc's curvature depends on the spacing of the points in the file and not on the intended
+    // path.
     while (jump != jumps.end() && jump->rounded.to <= piece.stations.from + 1e-9) {
       ++jump;
     }

@@ -198,7 +198,7 @@ std::optional<PlannedStart> StartOf(const PathFileOptions& options) {
   }
   PlannedStart start{.pose = options.path->path.At(0.0).pose};
   if (options.path->path.At(0.0).direction < 0) {
-    start.speed = 0.0;  // a rolling car rolls forwards
+    start.speed = 0.0;  // A rolling car drives forwards, so a reverse start is from rest.
   } else if (options.speeds == PathSpeeds::kFile && options.path->reversals.empty()) {
     start.speed = FileStartSpeed(*options.path);
   }
@@ -286,9 +286,11 @@ std::string ReversalRemedy(const FittedPath& fitted, const std::string& noise_ke
           : fmt::format("; the file's {} say that the car keeps its direction of motion there",
                         given.direction.empty() ? "headings" : "directions of motion");
   if (fitted.noise_deviation) {
-    // A spline that is nearer to the points than the default bends with the noise.
+    // Propose at least the default deviation, because a spline nearer to the points would bend with
+    // the noise.
     const double deviation = std::max(*fitted.noise_deviation, PathFitOptions{}.max_deviation);
-    // Two digits, rounded up, because a smaller deviation would not be enough.
+    // Round the proposed deviation up to two digits, because a smaller deviation would not be
+    // enough.
     const double step = std::pow(10.0, std::floor(std::log10(deviation)) - 1.0);
     text += fmt::format("; if this is noise of the positions, {} {:g}", noise_key,
                         step * std::ceil(deviation / step));

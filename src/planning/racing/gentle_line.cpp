@@ -13,7 +13,8 @@
 // Minimizes the largest curvature by sequential linear programming in a trust region. The variables
 // of each program are the changes of the line's coefficients and the largest curvature t, divided
 // by the largest permitted curvature. The program minimizes t, subject to |kappa| <= t at all
-// stations, with kappa linearized. A tiny quadratic term selects the smallest change among equals.
+// stations, with kappa linearized. A tiny quadratic term selects the smallest change of the line
+// among solutions of equal curvature.
 
 namespace trackbed {
 namespace {
@@ -39,7 +40,7 @@ class GentleProblem {
     return {basis_, coefficients};
   }
 
-  /// Returns the line with its largest curvature.
+  /// Returns a line together with its largest curvature.
   [[nodiscard]] GentleLine Measure(TrackLine line) const {
     GentleLine measured{.line = std::move(line)};
     for (std::size_t i = 0; i < centers_.size(); ++i) {
@@ -99,7 +100,7 @@ class GentleProblem {
 
  private:
   static constexpr double kMinRange = 1e-9;     // Minimum difference between bounds of a row [m].
-  static constexpr double kSmallChange = 1e-4;  // Cost of a root mean square change of 1 m.
+  static constexpr double kSmallChange = 1e-4;  // Cost of a 1 m change of the line (RMS).
 
   ClosedSplineBasis basis_;
   double step_;  // Distance between adjacent stations [m].
@@ -117,8 +118,8 @@ GentleLine ReduceCurvature(const Track& track, double beside, const TrackLine& s
                    "ReduceCurvature: curvature_max = {}, {} coefficients", curvature_max,
                    start.coefficients().size());
   constexpr int kMaxPrograms = 50;
-  constexpr double kConverged = 1e-4;  // Predicted decrease of t below which the search ends.
-  constexpr double kMinTrust = 1e-4;   // [m]
+  constexpr double kConverged = 1e-4;  // Predicted curvature decrease that ends the search.
+  constexpr double kMinTrust = 1e-4;   // Trust region below which the search ends [m].
   const GentleProblem problem(track, beside, curvature_max, count);
   GentleLine best = problem.Measure(start);
   double trust = 1.0;  // [m]

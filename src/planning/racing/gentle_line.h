@@ -20,9 +20,9 @@ struct GentleLine {
 ///
 /// Guarantees: the curvature of the result is at most that of `start`. If the curvature of the
 /// result exceeds `curvature_max`, no small change of the line reduces it: the last quadratic
-/// program predicts a decrease of less than 1e-4 of `curvature_max`. The minimum is local. The
-/// programs always have solutions. Cost: some 5 programs, each as large as one of
-/// FindMinimumCurvature.
+/// program predicts a decrease of less than 1e-4 of `curvature_max`. The minimum is local. Every
+/// quadratic program of the reduction has a solution. The computing time is that of about 5
+/// programs, each as large as one of FindMinimumCurvature.
 GentleLine ReduceCurvature(const Track& track, double beside, const TrackLine& start,
                            double curvature_max, std::size_t count);
 

@@ -21,7 +21,8 @@ double FastestOn(const LapLimits& limits) {
 /// Returns the largest lateral force that the car may use at any speed [m/s^2].
 double LargestLateral(const LapLimits& limits) {
   double largest = 0.0;
-  // Between the sections, the force is linear in the squared speed.
+  // Between the sections of the diagram, the force is linear in the squared speed, so its maximum
+  // is at a section.
   for (const GgvSection& section : limits.diagram.sections()) {
     largest =
         std::max(largest, limits.diagram.MaxLateral({.speed = section.speed, .road = limits.road}));

@@ -233,9 +233,9 @@ void LapProgram::AddLateral(const Lap& lap, std::size_t i) {
 
 /// Adds a row that applies a cut (linear inequality) to the acceleration in the interval
 /// `interval`, for the limits at the interval's end `at`. The argument `bound_rate` is the
-/// derivative of the cut by the relative change of w, as far as it results from changes of the
-/// cut's bound and direction. Skips the cut if the lap satisfies it with a margin of more than
-/// `keep`. Returns whether the row was added.
+/// derivative of the cut's margin, at constant forces, by the relative change of the squared speed
+/// w. Skips the cut if the lap satisfies it with a margin of more than `keep`. Returns whether the
+/// row was added.
 bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
                         double bound_rate, double keep) {
   const double squared = Squared(lap.speeds[at]);

@@ -42,8 +42,8 @@ class LapProgram {
   /// always has solutions, because the lap itself meets all constraints.
   SparseQuadraticProgram About(const TrackLine& line, const Lap& lap, const LapTrust& trust);
 
-  /// Stores the Lagrange multipliers of the last quadratic program. The next quadratic program
-  /// weights the curvature of the g-g-v boundary by them, because tangents neglect this curvature.
+  /// Stores the Lagrange multipliers of the last quadratic program. The next quadratic program uses
+  /// these multipliers as weights for the curvature of the g-g-v boundary, which tangents neglect.
   void TakeMultipliers(const Eigen::VectorXd& multipliers);
 
  private:

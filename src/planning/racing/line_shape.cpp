@@ -48,7 +48,7 @@ std::string TooNarrow(const Track& track, double s, double beside) {
 }
 
 std::string RemedyForNarrowTrack(double room, double car_width) {
-  // Round the margin down to centimeters, to a value that is certain to leave room.
+  // Round the margin down to centimeters, so that the track certainly has room for this margin.
   const double margin = std::floor(100.0 * (room - 0.5 * car_width) - 0.1) / 100.0;
   return margin >= 0.0 ? fmt::format("plan.margin must be at most {:.2f} m", margin)
                        : fmt::format(

@@ -115,7 +115,7 @@ class CurvatureProblem {
   std::vector<ClosedSplineBasis::Local> locals_;
   SparseQuadraticProgram program_;
   std::string refused_;
-  double room_ = std::numeric_limits<double>::infinity();  // MinimumCurvatureLine::room
+  double room_ = std::numeric_limits<double>::infinity();  // Value of MinimumCurvatureLine::room.
 };
 
 Plan PlanWith(const MinimumCurvatureOptions& options, const PlanRequest& request) {

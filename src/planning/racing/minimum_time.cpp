@@ -18,9 +18,9 @@
 #include "trackbed/vehicle/steering_reach.h"
 
 // Finds the line with the least lap time (problem of Casanova 2000 and Christ et al. 2021) by a
-// trust-region method. The search starts at the line with the least curvature. If this line has
-// bends that are too tight for the car, ReduceCurvature makes them wider, or shows that no line
-// nearby is wide enough, before any lap time is optimized. Each step solves a quadratic program
+// trust-region method. The search starts at the line with the least curvature. If the line of least
+// curvature has bends that are too tight for the car, ReduceCurvature first makes these bends
+// wider, or shows that no line nearby is wide enough. Each step solves a quadratic program
 // (LapProgram) for changes of the line and of the speeds. The search tries the whole step, then a
 // half, a quarter and a tenth of the step. For each new line, the lap time is computed with the
 // speed profile at the car's limit on this line. The search accepts a step only if the lap gets
@@ -305,8 +305,8 @@ MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimi
   const Lap after = model.Drive(search.line());
   found.start_time = before.time;
   if (before.sharpest > most) {
-    // The line of least curvature is too tight: return the line that the search found. If that line
-    // is too tight as well, return the line at which the search began.
+    // If the line of least curvature is too tight, return the line that the lap-time search found.
+    // If the found line is too tight as well, return the line at which the search began.
     found.improved = true;
     found.line = after.sharpest <= most ? search.line() : first;
     found.time = after.sharpest <= most ? after.time : model.Drive(first).time;

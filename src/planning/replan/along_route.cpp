@@ -276,8 +276,8 @@ class AlongRoute {
     return TryWith(KeepSpeed{request_.wanted}, options);
   }
 
-  /// Tries to pull out beside a moving leader, at the desired speed or more slowly. If no motion
-  /// pulls out, or if the car could not finish passing, stores the reason.
+  /// Tries to pull out beside a moving leader, at the desired speed or more slowly. Stores the
+  /// reason in `why_` if no motion pulls out, or if the car could not finish passing.
   bool PullsOut(const Leader& leader) {
     const std::vector<double> offsets = PassingOffsets(request_, settings_, leader, options_);
     const std::vector<double> speeds = PassingSpeeds(request_, leader, options_);
@@ -305,8 +305,8 @@ class AlongRoute {
     return false;
   }
 
-  /// Returns whether the motion passes the obstacle. A motion that passes a moving obstacle must
-  /// also leave room for the rest of the maneuver; otherwise, stores the reason.
+  /// Returns whether the motion passes the obstacle. To pass a moving obstacle, the car must also
+  /// have room for the rest of the maneuver; if it has no room, stores the reason in `why_`.
   bool Passes(const Leader& leader) {
     if (!PassesObstacle(leader)) {
       return false;
@@ -388,8 +388,8 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
   // The smoothing window w [m] must be so long that the wheels can follow the curvature. A step
   // from a straight to a bend of curvature k needs the longest window, on which the steering rate
   // is at most v L k/w. Smoothing increases the bend's own curvature by the fraction (k w)^2/24.
-  constexpr double kSampleSpacing = 0.5;  // [m]
-  double window = 0.1;                    // [m]
+  constexpr double kSampleSpacing = 0.5;  // Spacing of the samples [m].
+  double window = 0.1;                    // Smoothing window [m].
   for (const PathPoint& point : path.Sample(kSampleSpacing)) {
     double v = speed.speed;
     for (const SpeedCap& cap : route.caps) {

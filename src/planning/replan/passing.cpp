@@ -93,7 +93,8 @@ std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
                   .left = -std::numeric_limits<double>::infinity(),
                   .right = std::numeric_limits<double>::infinity(),
                   .front = -std::numeric_limits<double>::infinity()};
-    // Project beyond `to`, because the front of an obstacle may be beyond `to`.
+    // Extend the range of the projection beyond the station `to`, because an obstacle's front may
+    // lie beyond `to`.
     const Stations within{request.start.s, to + std::hypot(box.length, box.width)};
     for (const Vec2& corner : box.Corners()) {
       const Projection at = path.Project({corner.x(), corner.y(), 0.0}, within);
@@ -198,8 +199,8 @@ std::vector<double> PassingSpeeds(const AlongRequest& request, const Leader& lea
 
 std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongRequest& request,
                                          const std::vector<double>& offsets, double speed) {
-  // Multiples of the shortest length. The larger multiple leaves a margin for the approximations of
-  // ShiftLength.
+  // Lengths of the lateral motion, as multiples of the shortest length. The multiple 1.5 leaves a
+  // margin for the approximations of ShiftLength.
   constexpr std::array kLengths{1.0, 1.5};
   std::visit(
       [&](auto& own) {

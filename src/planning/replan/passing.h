@@ -44,15 +44,15 @@ double ShiftLength(const VehicleParams& vehicle, const FrenetLimits& limits, dou
 
 /// Returns the offsets [m] at which the car can pass the leader on the road. The result has the
 /// offsets of the method's options that clear the leader, and, on each side, the nearest offset
-/// that clears the leader. Empty if the road is too narrow.
+/// that clears the leader. The list of offsets is empty if the road is too narrow.
 std::vector<double> PassingOffsets(const AlongRequest& request, const AlongSettings& settings,
                                    const Leader& leader, const AlongOptions& options);
 
-/// Returns the speeds [m/s] at which the car may pull out beside the leader, the fastest first.
-/// The result has the speeds of the method's options above the leader's speed, then the leader's
-/// own speed. A car that is slower than the leader does not pull out at the leader's speed, because
-/// following the leader reaches this speed sooner. Empty if the leader is not slower than the
-/// desired speed.
+/// Returns the speeds [m/s] at which the car may pull out beside the leader, the fastest first. The
+/// result has the speeds of the method's options above the leader's speed, then the leader's own
+/// speed. A car that is slower than the leader does not pull out at the leader's speed, because
+/// following the leader reaches this speed sooner. The list of speeds is empty if the leader is not
+/// slower than the desired speed.
 std::vector<double> PassingSpeeds(const AlongRequest& request, const Leader& leader,
                                   const AlongOptions& options);
 
@@ -61,10 +61,10 @@ std::vector<double> PassingSpeeds(const AlongRequest& request, const Leader& lea
 /// station unless the options say otherwise, because a car that accelerates then needs a lower
 /// steering rate.
 ///
-/// The end times of `frenet` include those that the steering needs at this speed. The first
-/// lattices of `lattice` are as long as the steering needs, and have one layer. On a longer
-/// lattice, the car moves aside so slowly that a new plan after each replanning period would
-/// postpone the maneuver.
+/// For the method `frenet`, the end times include the times that the steering needs to move aside
+/// at `speed`. For the method `lattice`, the first options have a lattice of one layer, just long
+/// enough for the steering to move aside. On a longer lattice, the car moves aside so slowly that a
+/// new plan after each replanning period would postpone the maneuver.
 std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongRequest& request,
                                          const std::vector<double>& offsets, double speed);
 
@@ -74,14 +74,15 @@ std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongReques
 /// returns to the route. The whole maneuver must keep the safe distance from all obstacles, which
 /// are extrapolated at constant velocity. The maneuver must leave the distance in which the car
 /// brakes to a stop at the end of the route. When the car stops at the end of the route, the leader
-/// is behind the car. Their distance must be at least the distance that the car itself would keep
-/// from a leader.
+/// is behind the car. The final distance between car and leader must be at least the distance that
+/// the car itself would keep from a leader.
 std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
                        const AlongSettings& settings, const FrenetLimits& limits,
                        const Leader& leader, const FrenetMotion& motion);
 
 /// Explains for people why no motion of a method pulls out, by the reasons that occur in
-/// `rejected`. If no motion was rejected, the car could not brake after the motions.
+/// `rejected`. If `rejected` counts no rejection, the reason is that the car could not brake to a
+/// stop after the motions.
 std::string WhyNoPullOut(const RejectionCounts& rejected);
 
 /// Explains for people that the road has no room beside the leader, with the room that the car

@@ -16,9 +16,9 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
                                                  double offset) {
   constexpr double kStep = 0.1;  // [s]
   constexpr double kTolerance =
-      1e-2;  // tolerance [m], needed because planners check the clearance only at samples
-  // Use only the part of the profile ahead of the car, because a stop behind the car could make all
-  // later times infinite.
+      1e-2;  // Tolerance [m], needed because planners check the clearance only at samples.
+  // Use only the part of the profile ahead of the car, because a stop behind the car would make the
+  // arrival times at all later stations infinite.
   const SpeedProfile ahead =
       Excerpt(reference.speed, {station, std::max(station, reference.path.length())});
   const auto station_at = [&](double time) { return station + ahead.StationAt(time); };

@@ -6,10 +6,10 @@
 #include "trackbed/planning/replan/predicted_conflict.h"
 #include "trackbed/planning/replan/replan.h"
 
-/// Plans that stop the car along the plan that it drives.
+/// Plans that stop the car along the path of its driven plan.
 namespace trackbed {
 
-/// Returns whether an obstacle stands.
+/// Returns whether an obstacle stands still.
 bool Stands(const MovingBox& obstacle);
 
 /// A plan that stops the car, and the deceleration of the stop.
@@ -41,8 +41,8 @@ class StopPlanner {
  private:
   [[nodiscard]] std::optional<PredictedConflict> FirstConflict(const Plan& plan) const;
 
-  /// Returns whether the next conflict of `plan` is not earlier than `conflict`, because braking
-  /// can cause an earlier collision from behind.
+  /// Returns whether the next conflict of the braking plan `plan` is not earlier than `conflict`.
+  /// An earlier conflict is possible, because braking can cause a collision from behind.
   [[nodiscard]] bool DelaysConflict(const Plan& plan, const PredictedConflict& conflict) const;
 
   /// Returns the largest deceleration that the car can achieve [m/s^2]; on ice, it is less than the

@@ -116,10 +116,10 @@ std::optional<Vec2> Meeting(const Vec2& a, const Vec2& b, const Vec2& c, const V
   const double area = Cross(in, out);
   const double ahead =
       Cross(c - b, out) /
-      area;  // distance of the corner beyond `b`, divided by the first line's length
+      area;  // Distance of the corner beyond `b`, divided by the first line's length.
   const double behind =
       Cross(c - b, in) /
-      area;  // position of the corner after `c`, divided by the second line's length
+      area;  // Position of the corner after `c`, divided by the second line's length.
   if (!std::isfinite(ahead) || !std::isfinite(behind) || ahead < 0.0 || behind > 0.0) {
     return std::nullopt;
   }

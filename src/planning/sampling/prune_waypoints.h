@@ -40,11 +40,12 @@ inline constexpr std::size_t kPruningWindow = 300;
 /// lines. The result contains a corner that does not fit on the adjacent lines only if every
 /// possible path contains such a corner. PruneWaypoints assumes that the lines of the given path
 /// are collision-free. Paths of more than kPruningWindow lines are divided into windows of this
-/// number of lines. The result then contains the ends of all windows, and is the cheapest path only
-/// within each window. The computing time per window of n points is O(n^3) plus O(n^2 x obstacles).
+/// number of lines. With several windows, the result contains the ends of all windows, and is the
+/// cheapest path only within each window. The computing time per window of n points is O(n^3) plus
+/// O(n^2 x obstacles).
 std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProblem& problem);
 
-/// The number of points of a path up to which JoinCloseCorners changes it.
+/// Largest number of points of a path that JoinCloseCorners changes.
 inline constexpr std::size_t kJoinedPoints = kPruningWindow / 8;
 
 /// Replaces successive corners that do not fit on the lines between them. New corners are the

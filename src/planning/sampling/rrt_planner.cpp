@@ -163,10 +163,10 @@ struct Try {
   [[nodiscard]] bool is_partial() const { return way.status != RrtStatus::kReached; }
 };
 
-/// Returns whether `other` is better than `current`. Complete plans are better than partial plans,
-/// and partial plans are better than failures. Among complete plans, the score decides. Among
-/// partial plans and among failures, the number of reached goals decides, then the distance to the
-/// next goal.
+/// Returns whether the attempt `other` is better than the attempt `current`. Complete plans are
+/// better than partial plans, and partial plans are better than failures. Among complete plans, the
+/// score decides. Among partial plans and among failures, the number of reached goals decides, then
+/// the distance to the next goal.
 bool IsBetterTry(const Try& other, const Try& current) {
   const auto rank = [](const Try& each) { return !each.plan.ok() ? 0 : each.is_partial() ? 1 : 2; };
   if (rank(other) != rank(current)) {
@@ -335,7 +335,9 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
   // With a time limit, try only one lead-in, because each lead-in would use the whole time limit
   // again.
   const int lead_ins = options.time_limit ? 1 : kLeadIns;
-  // A time limit is for one search, and the shortest path need not be the best one in the wind.
+  // With a time limit, do not plan again with less room at corners, because the limit is for a
+  // single search. In the wind, do not plan again either, because the shortest path need not be the
+  // best one.
   const bool is_calm = request.wind.velocity == Vec2(0.0, 0.0) && request.wind.gusts.empty();
   const bool has_room = options.corners == Corners::kRound && !options.time_limit &&
                         (is_calm || options.wind_weight == 0.0);

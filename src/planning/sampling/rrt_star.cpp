@@ -92,10 +92,10 @@ class RrtStarTree {
   }
 
   /// Stores the `count` nodes nearest to the point `p` in near_, in no particular order. If the
-  /// tree has fewer nodes, stores all nodes.
+  /// tree has fewer than `count` nodes, stores all nodes.
   void FindNearest(const Vec2& p, std::size_t count) {
     // For evenly spread nodes, the first search circle contains a quarter more than `count` nodes.
-    // If the search circle contains too few nodes, it is enlarged.
+    // If the search circle contains too few nodes, the circle is enlarged.
     const Vec2 box = problem_.high - problem_.low;
     const double share = static_cast<double>(count) / static_cast<double>(nodes_.size());
     const double even = std::sqrt(1.25 * share * box.prod() / M_PI);

@@ -29,11 +29,11 @@ struct SamplingTask {
   std::vector<Vec2> departure{};
   std::vector<Vec2> goals;  ///< Goals of the trees, in the order of the mission.
   std::vector<OrientedBox> obstacles;
-  /// Distance that the lines of the search keep from obstacles. The distance is reduced for an
-  /// obstacle that is nearer to a goal or to the end of the departure.
+  /// Distance that the lines of the search keep from obstacles. From an obstacle that is nearer to
+  /// a goal or to the end of the departure, the lines keep a smaller distance.
   Inflation inflation = 0.0;
-  /// Distance that the departure keeps from obstacles. The distance is reduced for an obstacle that
-  /// is nearer to the start.
+  /// Distance that the departure keeps from obstacles. From an obstacle that is nearer to the
+  /// start, the departure keeps a smaller distance.
   Inflation lead_inflation = 0.0;
   GridArea area;  ///< Area from which the planners sample.
   WindScoring wind;
@@ -53,7 +53,7 @@ struct SamplingTaskOptions {
 
 SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequest& request);
 
-/// Returns the task of a planner with these options, whose path begins with `departure`.
+/// Returns the task of a planner with the given options, whose path begins with `departure`.
 template <typename Options>
 SamplingTask TaskOf(const Options& options, const PlanRequest& request,
                     const std::vector<Vec2>& departure, double wind_weight) {
@@ -153,8 +153,8 @@ inline bool IsTooNear(const Plan& plan) {
 /// uses half of the initial straight, because an obstacle ahead may block the whole straight. The
 /// last retries begin with DeparturesToNearWaypoint, unless the options have no initial straight,
 /// or allow only one retry. Later retries grow only one tree each. Many of the retried missions
-/// have no plan at all, so more trees would waste computing time. A rejection of the first plan is
-/// explained (Refusal::kExplained).
+/// have no plan at all, so more trees would waste computing time. If the first plan is rejected, it
+/// gets an explanation (Refusal::kExplained).
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
                     int tries) {

@@ -5,7 +5,7 @@
 //    cones, walls, obstacles, driven paths, cars.
 // 3. One driven path is colored by the distance between the cars, or by the cross-track error.
 // 4. A button enlarges the distances from the path by the factor LATERAL.
-// Also draws the clock that plays back the run.
+// This file also draws the clock that plays back the run.
 
 function extentOfMap() {
   const xs = [];

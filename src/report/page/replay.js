@@ -1,5 +1,6 @@
 // Draws the 3D replay of the run at the current time of the page, with three.js.
-// 1. makeReplay builds the scene once: scenery, one vehicle for each track, trails and plans.
+// 1. The function makeReplay builds the scene once: scenery, one vehicle for each track, trails and
+//    plans.
 // 2. In each rendered frame, the vehicles are moved to their poses, which are interpolated between
 //    the rows of the log.
 // 3. A camera follows a car, orbits it or sits on the driver's seat. Several cars are shown

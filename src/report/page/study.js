@@ -1,10 +1,10 @@
 // Draws the page of a study: the outputs over the parameters, and the table of all rows.
 // 1. Columns are divided by their kind: parameters, status, outputs.
-// 2. drawPlots draws the outputs over a parameter that the user selects. Another parameter
-//    determines the color.
+// 2. The function drawPlots draws the outputs over a parameter that the user selects. A second
+//    parameter determines the color of the dots.
 // 3. Each dot is a row of the study. Pointing at a dot shows its row in the tooltip, in all plots
 //    and in the table.
-// 4. drawStudyTable sorts and filters the rows.
+// 4. The function drawStudyTable sorts and filters the rows.
 
 function drawStudy(study) {
   const columns = study.columns.map((column, index) => ({ ...column, index }));

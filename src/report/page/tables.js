@@ -1,10 +1,11 @@
 // Draws the texts and tables of a report on runs.
-// 1. drawHead shows the verdict and the facts of each run.
-// 2. drawHeadline shows the most important metrics as cards or, for more than two tracks, as a
-//    table.
-// 3. drawNumbers shows all metrics, with one row for each path and one column for each track.
-// 4. drawExpectations shows the checks, drawScenarios the resolved scenarios with their
-//    differences.
+// 1. The function drawHead shows the verdict and the facts of each run.
+// 2. The function drawHeadline shows the most important metrics as cards or, for more than two
+//    tracks, as a table.
+// 3. The function drawNumbers shows all metrics, with one row for each path and one column for each
+//    track.
+// 4. The function drawExpectations shows the checks. The function drawScenarios shows the resolved
+//    scenarios with their differences.
 
 function badge(parent, good, text) {
   return parent.append('span').attr('class', `badge ${good ? 'good' : 'bad'}`).text(text);
