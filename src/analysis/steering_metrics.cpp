@@ -12,22 +12,23 @@
 #include "trackbed/core/angle.h"
 
 // Measures how calmly a controller steers: reversals, activity, and sustained oscillations.
-// 1. MakeSignals collects the steering command and the signals that explain it: curvature of the
-//    path, also with ramps for its steps, lateral acceleration and measurement noise. Jumps at
-//    changes of plan are removed.
+// 1. MakeSignals collects the steering command and the signals that explain it. The signals are the
+//    path's curvature (with steps, and with ramps instead), the lateral acceleration and the
+//    measurement noise. Jumps of the steering command at changes of plan are removed.
 // 2. UnexplainedCommand (oscillation.h) removes the part of the command that the collected signals
-//    explain. WaveSearch looks for waves in the remaining command, in each stretch in which the car
-//    moves.
-// 3. The largest wave above ToleratedAmplitude counts. The tolerated oscillation uses a fifth of
-//    the steering rate, or moves the car by 5 % of its width, whichever amplitude is smaller. At
-//    least half of the backlash is tolerated.
-// The page docs/verdict.md#calm-steering explains the limits.
+//    explain. WaveSearch looks for waves in the remaining command, in each part of the run in which
+//    the car moves.
+// 3. The reported oscillation is the largest wave whose amplitude exceeds ToleratedAmplitude. The
+//    tolerated oscillation uses a fifth of the maximum steering rate, or moves the car by 5 % of
+//    its width, whichever amplitude is smaller. An oscillation within half of the steering backlash
+//    is always tolerated.
+// The page docs/verdict.md#calm-steering explains the limits of the oscillation.
 namespace trackbed {
 namespace {
 
-constexpr double kRateShare = 0.2;    ///< Tolerated share of the maximum steering rate.
-constexpr double kSwayShare = 0.05;   ///< Tolerated lateral motion, relative to the car's width.
-constexpr double kShortest = 0.01;    ///< Shortest sampling period of the search [s].
+constexpr double kRateShare = 0.2;    ///< Steering rate tolerated in an oscillation / maximum.
+constexpr double kSwayShare = 0.05;   ///< Tolerated lateral oscillation of the car / car width.
+constexpr double kShortest = 0.01;    ///< Shortest sampling period [s].
 constexpr std::size_t kMost = 60000;  ///< Maximum number of samples per search.
 
 /// Returns the number of rows up to the first contact with an obstacle.
@@ -54,13 +55,13 @@ std::vector<double> PathCurvatures(const RunLog& log, const Plan& plan, std::siz
   return curvatures;
 }
 
-/// Removes the jumps of a signal at changes of plan. All values from the first row of a new plan on
-/// are shifted, so that this row has the value of the previous row. Replanning every half second
-/// makes a wave of jumps, which is no oscillation of the loop of controller and car.
+/// Removes the jumps of a signal at changes of plan. All signal values from the first row of a new
+/// plan on are shifted, so that the signal does not jump at the change. Replanning every half
+/// second makes a wave of jumps, which is no oscillation of the loop of controller and car.
 void RemoveJumps(const RunLog& log, std::vector<double>& values) {
   auto next = log.changes.begin();
   double shift = 0.0;
-  double before = 0.0;  // unshifted value of the previous row
+  double before = 0.0;  // value of the signal in the previous row, before the shift
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double given = values[i];
     bool is_new = false;
@@ -74,9 +75,10 @@ void RemoveJumps(const RunLog& log, std::vector<double>& values) {
 }
 
 /// Replaces a jump of the steering angle by a ramp if the wheels cannot turn so far between two
-/// rows. The ramp has the slope `rate` [rad/s], and the jump is in the middle of the ramp.
-/// Controllers that know the rate limit respond to curvature steps with ramps of this slope. No
-/// linear filter of the curvature steps can explain these ramps.
+/// rows. The ramp of the steering angle has the slope `rate` [rad/s], and the replaced jump is in
+/// its middle. Controllers that know the rate limit respond to curvature steps with ramps of this
+/// slope. No linear filter of the path's curvature steps can produce ramps limited by the steering
+/// rate.
 std::vector<double> Ramped(const std::vector<double>& values, const RunLog& log, double rate) {
   const std::vector<LogRow>& rows = log.rows;
   std::vector<double> ramped = values;
@@ -101,8 +103,8 @@ std::vector<double> Ramped(const std::vector<double>& values, const RunLog& log,
   return ramped;
 }
 
-/// Returns the means of each `count` consecutive values. Less than `count` remaining values at the
-/// end are ignored.
+/// Returns the means of each `count` consecutive values. If fewer than `count` values remain at the
+/// end, these values are ignored.
 std::vector<double> Means(const std::vector<double>& values, std::size_t count) {
   std::vector<double> means;
   for (std::size_t i = 0; i + count <= values.size(); i += count) {
@@ -138,8 +140,8 @@ SteeringSignals MakeSignals(const RunLog& log, const Plan& plan, const VehiclePa
     command.push_back(row.command.steering);
     speed.push_back(std::abs(row.state.speed));
     path.push_back(SteeringForCurvature(vehicle, curvatures[i]));
-    // The lateral acceleration and its cube represent the additional steering angle due to the slip
-    // of the tyres.
+    // The lateral acceleration and its cube explain the additional steering angle that tyre slip
+    // requires.
     const double acceleration = speed.back() * speed.back() * curvatures[i] / kGravity;
     lateral.push_back(acceleration);
     cubic.push_back(acceleration * acceleration * acceleration);
@@ -185,14 +187,15 @@ LoopSignals Part(const LoopSignals& signals, std::size_t from, std::size_t to) {
   return part;
 }
 
-/// Searches the samples from `from` to `to` for the largest wave above the tolerance.
+/// Searches a range of samples for the largest steering oscillation (wave) above the tolerated
+/// amplitude.
 class WaveSearch {
  public:
   WaveSearch(const SteeringSignals& signals, const VehicleParams& vehicle)
       : signals_(signals), vehicle_(vehicle) {}
 
-  /// Searches only stretches in which the car moves: the steering command does not move a car at
-  /// rest, so there is no closed loop.
+  /// Searches for oscillations only while the car moves: steering does not move a car at rest, so
+  /// there is no closed loop.
   void Search(std::size_t from, std::size_t to) {
     const std::vector<double> unexplained = UnexplainedCommand(Part(signals_.loop, from, to));
     std::size_t begin = from;
@@ -204,7 +207,8 @@ class WaveSearch {
     }
   }
 
-  /// Returns the largest wave; its amplitude is 0 if there is no wave above the tolerance.
+  /// Returns the largest steering oscillation (wave); its amplitude is 0 if none exceeds the
+  /// tolerated amplitude.
   [[nodiscard]] const Wave& largest() const { return largest_; }
   [[nodiscard]] double speed() const { return speed_; }
 
@@ -233,7 +237,8 @@ class WaveSearch {
   double speed_ = 0.0;  // Mean speed during the largest wave [m/s].
 };
 
-/// Returns the lateral motion to each side [m] of a kinematic car at `speed` that steers by 1 rad.
+/// Returns the lateral motion to each side [m] of a kinematic car at `speed` whose steering
+/// oscillates by 1 rad at `frequency`.
 double SwayGain(const VehicleParams& vehicle, double frequency, double speed) {
   const double omega = 2.0 * kPi * frequency;
   return speed * speed / (vehicle.wheelbase * omega * omega);

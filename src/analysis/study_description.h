@@ -19,8 +19,8 @@ std::vector<std::string> TableColumns(const Study& study);
 nlohmann::ordered_json SettingsJson(const std::string& value);
 nlohmann::ordered_json SettingsJson(const std::vector<Setting>& settings);
 
-/// Describes all inputs that determine the rows of a study, except the contents of input files. Two
-/// studies with equal descriptions and equal input files have equal rows.
+/// Describes all inputs that determine the result rows of a study, except the contents of input
+/// files. Two studies with equal descriptions and equal input files have equal result rows.
 nlohmann::ordered_json DescribeStudy(const Study& study);
 
 }  // namespace trackbed

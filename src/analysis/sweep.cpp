@@ -19,20 +19,22 @@
 #include "trackbed/core/error.h"
 
 // Runs the rows of a study in parallel and records each row when its run finishes
-// (sweep_records.cpp). A row is one repetition of one point of the study. The row numbers depend
-// only on the study, so a shard or a resumed study can run exactly the missing rows. The option
-// `--until` stops sampling when the Wilson intervals of the pass rates are narrow enough at all
-// grid points. The widths of the Wilson intervals are checked after every kUntilBatch points.
-// WriteSweep writes the table of a study row by row from the records. MergeRecords joins the
-// records of shards and rejects contradicting rows.
+// (sweep_records.cpp). A row of a study is one simulation run: one repetition at one parameter
+// point of the study. The row numbers depend only on the study, so a shard or a resumed study can
+// run exactly the missing rows. The option `--until` stops sampling when the Wilson intervals of
+// the pass rates are narrow enough at all grid points. The widths of the Wilson intervals are
+// checked after every kUntilBatch sample points. WriteSweep writes the table of a study row by row
+// from the records. MergeRecords joins the records of a study's shards and rejects rows that
+// contradict each other.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Returns the rows of the shard that must be run. The returned rows are the rows that are missing
-/// in the records, or, if `again` lists statuses, the recorded rows with one of these statuses.
+/// Returns the rows of the study's shard that must be run. Without `again`, the rows to run are
+/// those without a record. If `again` lists run statuses, the rows to run are the recorded rows
+/// with a listed status.
 std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptions& options) {
   const std::vector<std::string> columns = records.Columns();
   const auto status = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "status") -
@@ -54,8 +56,7 @@ std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptio
   return rows;
 }
 
-/// Counts the passed rows at each grid point, for the points of the sample that have been run so
-/// far.
+/// Counts the passed runs at each grid point, over the sample points that have been run so far.
 class SampledPassRates {
  public:
   SampledPassRates(const SweepRecords& records, std::size_t repeat, std::size_t samples)
@@ -64,8 +65,8 @@ class SampledPassRates {
         samples_(samples),
         passed_(records.rows() / (samples * repeat)) {}
 
-  /// Returns the rows of the next kUntilBatch points of the sample, at all grid points. NextRows
-  /// returns no rows at the end of the sample.
+  /// Returns the rows of the next kUntilBatch sample points, at all grid points. NextRows returns
+  /// an empty list at the end of the sample.
   [[nodiscard]] std::vector<std::size_t> NextRows() const {
     std::vector<std::size_t> rows;
     const std::size_t end = std::min(sampled_ + kUntilBatch, samples_);
@@ -77,8 +78,8 @@ class SampledPassRates {
     return rows;
   }
 
-  /// Counts the passed rows among `rows`, which NextRows has returned. Take() returns false if the
-  /// result of a row is missing.
+  /// Counts the passed runs among `rows`, a list that NextRows has returned. Take() returns false
+  /// if the result of a row is missing.
   bool Take(const std::vector<std::size_t>& rows) {
     for (const std::size_t row : rows) {
       if (!records_.Has(row)) {
@@ -90,7 +91,8 @@ class SampledPassRates {
     return true;
   }
 
-  /// Returns whether the 95 % interval of every pass rate has a half width of at most `half_width`.
+  /// Returns whether the 95 % confidence interval of every pass rate has a half width of at most
+  /// `half_width`.
   [[nodiscard]] bool AreAllKnownTo(double half_width) const {
     return std::all_of(passed_.begin(), passed_.end(), [&](std::size_t passed) {
       const Interval interval = WilsonInterval(passed, sampled_ * repeat_, 0.95);
@@ -106,7 +108,7 @@ class SampledPassRates {
   std::size_t sampled_ = 0;          // Number of sample points that have been run so far.
 };
 
-/// Calls `take` with every recorded row of the shard, in order.
+/// Calls `take` with every recorded row of the study's shard, in order.
 void ForEachRow(const SweepRecords& records, const Shard& shard,
                 const std::function<void(SweepRow row)>& take) {
   for (std::size_t i = 0; i < records.rows(); ++i) {
@@ -243,7 +245,7 @@ SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWri
   }
   writer.Add(run_folder::kSweepJson, JsonText(description));
   // Also remove the old report and the old outcome of a search or verification, because these files
-  // describe the old rows.
+  // describe the old rows of the study.
   writer.EndResult(run_folder::kStudy,
                    {run_folder::kReport, run_folder::kFalsifyJson, run_folder::kVerifyJson});
   return summary;

@@ -53,15 +53,15 @@ Scenario Bare(Scenario scenario) {
   return scenario;
 }
 
-/// Of the scenarios with the same key, checks only the first one, and collects the problems that
-/// the checks report.
+/// Checks only the first of all scenarios with the same key, and collects the problems that the
+/// checks report.
 template <typename Key>
 class OncePerKey {
  public:
   explicit OncePerKey(std::function<void(const Scenario& scenario)> check)
       : check_(std::move(check)) {}
 
-  /// Returns whether the check succeeds for scenarios with this key.
+  /// Returns whether the check succeeds for scenarios with the given key.
   bool operator()(const Key& key, const Scenario& scenario) {
     const auto [at, is_new] = good_.try_emplace(key, true);
     if (is_new) {
@@ -84,7 +84,7 @@ class OncePerKey {
 };
 
 /// Checks that each plant can be constructed with the scenario's car, because some plants need
-/// elements that the car's model may lack.
+/// model elements that the car's MuJoCo model may lack.
 void CheckPlants(const CheckedStudy& checked, const Scenario& scenario) {
   std::vector<Problem> problems;
   const World bare;
@@ -138,7 +138,8 @@ std::string HashOfModel(const Scenario& scenario) {
 }
 
 /// Adds the SHA-256 of each input file of the scenario to `hashes`, keyed by the kind and the name
-/// of the file, such as "path lane.csv". The two files of a map share one key and one hash.
+/// of the file, such as "path lane.csv". The two files of a map share one key and one hash in the
+/// list of input files.
 void AddInputHashes(const Scenario& scenario, std::map<std::string, std::string>& hashes) {
   std::map<std::string, std::string> contents;
   for (const InputFile& file : InputFiles(scenario)) {
@@ -156,7 +157,7 @@ CheckedStudy CheckStudy(Study study, bool all) {
       .points = StudyPoints(std::move(study)), .cars = std::make_unique<CarCache>(), .inputs = {}};
   CheckPoints(checked.points, all);
   checked.inputs["scenario"] = Sha256(checked.points.study().scenario_text);
-  // The last three elements of the key are the driver aids.
+  // The last three elements of PlantsKey are the driver aids.
   using PlantsKey = std::tuple<CarKey, std::vector<std::string>, TyreLaw, bool, bool, Differential>;
   OncePerKey<CarKey> compiles([&](const Scenario& scenario) {
     checked.cars->Load(Bare(scenario));

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Adds those properties of a planned path that are defined for this path.
+/// Adds all defined properties of a planned path to a study row's outputs.
 void AddPlanOutputs(const PlannedPath& path, Outputs& outputs) {
   for (const PathProperty& property : PathProperties()) {
     if (const std::optional<double> value = property.measure(path)) {

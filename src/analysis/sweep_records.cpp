@@ -18,18 +18,19 @@
 
 #include "trackbed/core/error.h"
 
-// Manages the record file of a study, to which each finished row is appended. The first line of the
-// record file is the header, which describes the study. Each further line contains the CRC-32 of a
-// row and the row as JSON. Load() stores the file offset of every row and truncates the file after
-// the last valid line. If the process is killed, therefore, at most the row that the process was
-// writing is lost. If several lines contain the same row, the last of these lines counts. The
-// record file is synchronized to disk once per second.
+// Manages the record file of a study, to which the result row of each finished run is appended. The
+// first line of the record file is the header, which describes the study. Each further line of the
+// record file contains the CRC-32 of a row and the row as JSON. Load() stores the file offset of
+// every row and truncates the file after the last valid line. A killed process loses at most the
+// row that it was writing to the record file. If several lines of the record file contain the same
+// row, the last of these lines is used. The record file is synchronized to disk once per second.
 namespace trackbed {
 namespace {
 
 using nlohmann::ordered_json;
 
-// Number of characters of the checksum at the start of a line: eight digits and a space.
+// Number of characters of the checksum at the start of a line of the record file: eight digits and
+// a space.
 constexpr std::size_t kChecksumWidth = 9;
 constexpr std::string_view kRowKey = "{\"row\":";
 
@@ -43,8 +44,8 @@ std::string LineOf(std::string_view json) {
   return fmt::format("{:08x} {}\n", Checksum(json), json);
 }
 
-/// Returns the JSON text in a line of the record file, without the line feed; none if the checksum
-/// does not match the text.
+/// Returns the JSON text in a line of the record file, without the line feed, or nullopt if the
+/// line's checksum is wrong.
 std::optional<std::string_view> JsonOf(std::string_view line) {
   std::uint32_t told = 0;
   if (line.size() <= kChecksumWidth || line[kChecksumWidth - 1] != ' ') {
@@ -95,8 +96,8 @@ void AddDifferences(const ordered_json& now, const ordered_json& before, const s
   }
 }
 
-/// Calls `take` with every complete line and the line's offset in the file, until `take` returns
-/// false.
+/// Calls `take` with every complete line of the record file and the line's offset, until `take`
+/// returns false.
 void ForEachLine(int descriptor, const std::function<bool(std::string_view, std::int64_t)>& take,
                  const std::function<void(int error)>& fail) {
   constexpr std::size_t kBlock = std::size_t{1} << 20U;
@@ -240,7 +241,7 @@ void SweepRecords::Fail(const char* what, int error) const {
 
 void SweepRecords::Load(const std::optional<ordered_json>& header, std::string_view remedy) {
   bool any_line = false;
-  // The callback take_row returns true if the next line is to be read.
+  // The callback take_row returns true if ForEachLine must read the next line of the record file.
   const auto take_row = [&](std::string_view json, std::int64_t begin) {
     std::size_t row = 0;
     if (!json.starts_with(kRowKey)) {
@@ -307,7 +308,8 @@ void SweepRecords::WriteLine(std::string_view json) {
     }
     if (written <= 0) {
       const int error = written < 0 ? errno : ENOSPC;
-      // If truncating fails, the next process that opens the file removes the incomplete line.
+      // If truncating fails, the next process that opens the file removes the incomplete last line
+      // of the record file.
       [[maybe_unused]] const int ignored = ::ftruncate(descriptor_.get(), end_);
       Fail("write", error);
     }

@@ -17,12 +17,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Runs the scenario of a row of a study, and creates the row with the outputs of the run.
+/// Runs the scenario of one row of a study, and adds the outputs of the run to the row.
 class RowMaker {
  public:
   RowMaker(const Study& study, const RunScenarioOnce& run) : study_(study), run_(run) {}
 
-  /// Runs one repetition of a point of the study; returns none if the run was interrupted.
+  /// Runs one repetition of a point of the study; returns nullopt if the run was interrupted.
   [[nodiscard]] std::optional<SweepRow> Make(const StudyPoint& point,
                                              std::uint64_t repetition) const {
     if (!point.refused.empty()) {

@@ -10,12 +10,13 @@
 namespace trackbed {
 namespace {
 
-/// Computes the station of the rear axle; unlike the station on the track, this station does not
-/// return to 0 after each lap.
+/// Computes the distance that the rear axle has travelled along a closed track, which grows over
+/// all laps.
 class LapCounter {
  public:
   LapCounter(const Track& track, const Pose2& start) : track_(track) {
-    // Where the track crosses itself, the heading decides on which part the car is.
+    // Where the track crosses itself, the car's heading decides on which part of the track the car
+    // is.
     const std::optional<FrenetState> along = track.ToFrenet({.pose = start});
     station_ = along ? along->s : track.Locate(start.position()).s;
     if (station_ > 0.5 * track.length()) {
@@ -25,7 +26,7 @@ class LapCounter {
 
   [[nodiscard]] double station() const { return station_; }
 
-  /// Takes the next position of the rear axle and returns the station of this position.
+  /// Returns the station of the next position of the rear axle, counted over all laps.
   double Advance(const Vec2& position) {
     const double s = track_.Locate(position, station_).s;
     // Add whole laps, so that the new station is as near as possible to the previous station.
@@ -39,8 +40,8 @@ class LapCounter {
 };
 
 /// Returns the distance from a point to the nearest of those segments of a track edge that are near
-/// a station [m]. The distance is negative outside the track, that is, right of a right edge or
-/// left of a left edge.
+/// a station [m]. The distance is negative for points outside the track: right of its right edge or
+/// left of its left edge.
 double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point, double share) {
   const auto count = static_cast<std::ptrdiff_t>(edge.size());
   const auto middle = static_cast<std::ptrdiff_t>(share * static_cast<double>(count));
@@ -58,8 +59,8 @@ double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point,
     const Vec2 beside = point - a - part * along;
     const double distance = beside.norm();
     // At a corner of a track edge, two segments of the edge may be equally near to the point. Of
-    // two equally near segments, the segment with the larger perpendicular distance from the point
-    // determines on which side of the edge the point lies.
+    // two equally near edge segments, the segment with the larger perpendicular distance from the
+    // point shows on which side of the edge the point lies.
     const double across = side * Cross(along, point - a) / std::max(along.norm(), 1e-6);
     const bool equal = std::abs(distance - nearest) < 1e-9;
     if (equal ? std::abs(across) > std::abs(inside) : distance < nearest) {
@@ -70,8 +71,8 @@ double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point,
   return std::copysign(nearest, inside);
 }
 
-/// Distance between the footprints of car and trailer and the nearest track edge (TrackMargin) at
-/// one row of the log.
+/// Smallest distance of the footprints of car and trailer from a track edge (TrackMargin) in one
+/// row of the log.
 struct Margin {
   double margin = 0.0;  // [m]
   const LogRow* row = nullptr;
@@ -95,7 +96,7 @@ std::vector<Margin> Margins(const MetricInput& input) {
   return margins;
 }
 
-/// Adds up the values that `span` returns for all control periods at whose beginning the car is off
+/// Sums `span`, a time or a distance, over the control periods at whose beginning the car is off
 /// the track.
 template <typename Span>
 std::optional<MetricReading> SumOffTrack(const MetricInput& input, const Span& span) {

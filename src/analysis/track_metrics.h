@@ -13,8 +13,8 @@ namespace trackbed {
 
 /// Measures the laps that the rear axle completed. The times at which the rear axle crosses the
 /// start line are interpolated linearly between log rows. If the run begins on or after the start
-/// line, the first lap begins at the start of the run. MeasureLaps returns no laps if the plan has
-/// no track.
+/// line, the first lap begins at the start of the run. MeasureLaps returns an empty list if the
+/// plan has no track.
 std::vector<LapMetrics> MeasureLaps(const RunLog& log, const Plan& plan);
 
 /// Returns the distance from a car's footprint to the nearest edge of the track [m]. If the
@@ -24,8 +24,8 @@ std::vector<LapMetrics> MeasureLaps(const RunLog& log, const Plan& plan);
 /// polylines.
 double TrackMargin(const Track& track, const OrientedBox& footprint, double near);
 
-/// Returns the smallest TrackMargin of the run [m], with its station and time; none if the run has
-/// no track.
+/// Returns the smallest TrackMargin of the run [m], with its station and time, or nullopt if the
+/// run has no track.
 std::optional<MetricReading> SmallestTrackMargin(const MetricInput& input);
 /// Returns the smallest TrackMargin of a car that follows the path of the plan exactly, up to the
 /// finish line [m]; none if the run has no track. Poses on the path are at most a fifth of the
@@ -34,7 +34,8 @@ std::optional<MetricReading> SmallestTrackMargin(const MetricInput& input);
 std::optional<MetricReading> PlannedTrackMargin(const MetricInput& input);
 /// Returns the total time during which TrackMargin is negative [s]; none if the run has no track.
 std::optional<MetricReading> TimeOffTrack(const MetricInput& input);
-/// Returns the distance driven while TrackMargin is negative [m]; none if the run has no track.
+/// Returns the distance driven while TrackMargin is negative [m], or nullopt if the run has no
+/// track.
 std::optional<MetricReading> DistanceOffTrack(const MetricInput& input);
 
 }  // namespace trackbed

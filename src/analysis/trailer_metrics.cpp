@@ -8,8 +8,8 @@
 namespace trackbed {
 namespace {
 
-/// Returns the largest value that `value` returns for any row, with the station and time of this
-/// row.
+/// Returns the largest result of the function `value` over all log rows, with the station and time
+/// of the row.
 template <typename Value>
 std::optional<MetricReading> LargestOverRows(const MetricInput& input, const Value& value) {
   if (!input.log.trailer || !input.log.rows.front().trailer) {
@@ -35,14 +35,15 @@ double DistanceToSegment(const Vec2& point, const Vec2& a, const Vec2& b) {
   return (point - a - part * along).norm();
 }
 
-/// Returns the distance of the trailer's axle from the line that the car has driven up to the row.
+/// Returns the distance of the trailer's axle from the line that the car has driven up to the log
+/// row `row`.
 double OffTracking(const RunLog& log, std::size_t row) {
   const TrailerParams& trailer = *log.trailer;
   const LogRow& now = log.rows[row];
   const Vec2 axle = TrailerPose(trailer, now.state.pose, now.trailer->angle).position();
   const double reach = trailer.hitch + trailer.tongue;
   // Search the driven line only over twice the distance between the axles of car and trailer,
-  // because the nearest point lies within this distance.
+  // because the nearest point of the driven line lies within this distance.
   double nearest = (axle - now.state.pose.position()).norm();
   std::size_t i = row;
   for (; i > 0 && now.state.distance - log.rows[i].state.distance < 2.0 * reach; --i) {

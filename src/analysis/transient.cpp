@@ -42,7 +42,7 @@ double MeanAtEnd(const RunLog& log, double duration, const Of& of) {
 
 /// Time and size of a steering step.
 struct Step {
-  std::size_t row = 0;  ///< First row in which the actuator moves.
+  std::size_t row = 0;  ///< First log row in which the actuator moves.
   /// Time at which the steering angle has changed by half of the step [s].
   double half_time = 0.0;
   /// Difference between the steady road wheel angle after the step and the angle before the step

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-// Computes the verdict on a run. Each plant must arrive without a collision, or collide if the
-// scenario expects a collision. Each plant must not exceed the steering rate limit of the actuator,
-// must stay within the default corridor of one car width, and must not oscillate. Each plant must
-// also meet the expectations and requirements on the plant, and the bounds on its difference from
-// other plants. Explicit expectations replace the default expectations on status and cross-track
-// error. Every check is recorded in the verdict, whether or not the check is met. A run without
-// expectations, plan and obstacles gets a verdict only if a check fails.
+// Computes the verdict on a run. Each plant (car model) must arrive without a collision, or collide
+// if the scenario expects a collision. Each plant must not exceed the steering rate limit of the
+// actuator, must stay within the default corridor of one car width, and must not oscillate. Each
+// plant must also meet the expectations and requirements on the plant, and the bounds on its
+// difference from other plants. Explicit expectations replace the default expectations on status
+// and cross-track error. Every check is recorded in the verdict, whether or not the check is met. A
+// run without expectations, plan and obstacles gets a verdict only if at least one check fails.
 namespace trackbed {
 namespace {
 
@@ -35,7 +35,8 @@ bool HasExpectations(const Expectations& expect) {
                      [](const auto& own) { return HasExpectations(own.second); });
 }
 
-/// Explains why a run ended before the goal. The explanation is appended to the failure message.
+/// Explains why a run ended before the goal. The explanation of an early end is appended to the
+/// failure message.
 std::string EarlyEndReason(const PlantMetrics& metrics) {
   return !metrics.blocked.empty()   ? fmt::format(" (it {})", metrics.blocked)
          : !metrics.partial.empty() ? fmt::format(" (the plan {})", metrics.partial)
@@ -64,8 +65,8 @@ class Expected {
     });
   }
 
-  /// Returns whether the scenario expects a collision; none if the scenario says nothing about
-  /// collisions.
+  /// Returns whether the scenario expects a collision, or nullopt if the scenario does not specify
+  /// it.
   [[nodiscard]] std::optional<bool> Collision() const {
     std::optional<bool> collision;
     for (const PlantExpectation* part : parts_) {
@@ -119,8 +120,8 @@ void NotePrescribedSteering(const PlantMetrics& metrics, Verdict& verdict) {
   note("rate", metrics.steering_rate_max, metrics.steering_rate_limit, "rad/s");
 }
 
-/// Returns whether wheels left the road. Wheels in the air turn within the play of their linkage,
-/// faster than the actuator, so their steering rate is not judged.
+/// Returns whether any wheels lost contact with the road. Wheels in the air turn within the play of
+/// their linkage, faster than the actuator, so their steering rate is not judged.
 bool WheelsLeftTheRoad(const PlantMetrics& metrics) {
   return metrics.status == DriveStatus::kRolledOver || metrics.status == DriveStatus::kAirborne;
 }
@@ -146,8 +147,7 @@ void JudgeCorridor(const PlantMetrics& metrics, Verdict& verdict) {
   }
 }
 
-/// Checks that the overspeed does not exceed its limit; if the limit is exceeded, adds a note to
-/// the verdict.
+/// Checks that the car's overspeed stays within its limit; if not, adds a note to the verdict.
 void JudgeOverspeed(const PlantMetrics& metrics, Verdict& verdict) {
   const TrackingMetrics& tracking = *metrics.tracking;
   if (!tracking.overspeed_limit || !tracking.overspeed_max) {

@@ -17,10 +17,10 @@
 
 // Lists the files that each verb may write, as patterns with variable parts such as <plant>.csv.
 // 1. AllResultNames and AllVerbNames are the tables of results and of verbs.
-// 2. A name matches a pattern if it consists of the fixed parts of the pattern in order, with at
-//    least one character between two fixed parts.
+// 2. A file name matches a pattern if it contains the pattern's fixed parts in order, with at least
+//    one character between two parts.
 // 3. HasMark recognizes pictures, pages and films of Trackbed by marks in their contents: a chunk
-//    of PNG or WebP, a line of the page, or a box of the MP4 file.
+//    of the PNG or WebP file, a line of the web page, or a box of the MP4 file.
 namespace trackbed {
 namespace {
 
@@ -70,8 +70,8 @@ Names FixedParts(const std::string& pattern) {
   return parts;
 }
 
-/// Returns whether `name` matches the pattern: the name must consist of the pattern's fixed parts
-/// in order, with at least one character between two fixed parts.
+/// Returns whether a file name matches the pattern. The file name must consist of the pattern's
+/// fixed parts in order, with at least one character between two parts.
 bool Matches(const std::string& pattern, const std::string& name) {
   const Names parts = FixedParts(pattern);
   if (parts.size() == 1) {
@@ -92,7 +92,7 @@ bool Matches(const std::string& pattern, const std::string& name) {
 }
 
 /// Returns all names that result if each variable part of a name pattern is replaced by its known
-/// values. Filled() returns no names if a variable part has no known value.
+/// values. Filled() returns an empty list if a variable part of the pattern has no known value.
 Names Filled(const std::string& pattern, const NameParts& parts) {
   const std::size_t begin = pattern.find('<');
   if (begin == std::string::npos) {

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMetadata = "metadata.yaml";
 
-/// Returns the files of a bag: the file itself, or the files that the metadata of a folder name.
+/// Returns the files of a bag: the single file, or all files listed in the metadata of the bag's
+/// folder.
 std::vector<fs::path> FilesOf(const fs::path& bag) {
   std::error_code ignored;
   if (!fs::is_directory(bag, ignored)) {

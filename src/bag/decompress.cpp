@@ -10,8 +10,8 @@
 #include "src/bag/topics.h"
 #include "trackbed/core/error.h"
 
-// Decompresses frames of lz4 and zstd in steps, so that the memory grows only with the data that a
-// frame really contains.
+// Decompresses frames of lz4 and zstd in steps, so that the memory used depends on the data in a
+// frame, not on the size that its header declares.
 namespace trackbed {
 namespace {
 

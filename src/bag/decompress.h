@@ -8,7 +8,7 @@
 namespace trackbed {
 
 /// Decompresses a frame of lz4 or zstd to at most `largest` bytes. Throws InputError if the frame
-/// is damaged, or if its data are larger than `largest`.
+/// is damaged, or if the decompressed data exceed `largest` bytes.
 std::string Decompress(std::string_view data, const std::string& compression, std::size_t largest,
                        const std::filesystem::path& file);
 

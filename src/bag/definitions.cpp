@@ -2,9 +2,10 @@
 
 #include <map>
 
-// Definitions of the types that recordings of vehicles contain, for bags without definitions:
-// SQLite bags before ROS 2 Iron. Comments are left out. Types of Autoware have the definitions of
-// autoware_msgs 1.0 and of autoware_auto_msgs.
+// Definitions of ROS message types that vehicle recordings contain. SQLite bags before ROS 2 Iron
+// need these built-in definitions, because the bags contain no message definitions. The built-in
+// message definitions omit comments. Autoware types follow autoware_msgs 1.0 and
+// autoware_auto_msgs.
 namespace trackbed {
 namespace {
 

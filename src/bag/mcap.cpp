@@ -16,15 +16,16 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/foreign_content.h"
 
-// Reads MCAP files (https://mcap.dev/spec) from the first record to the last. Each record has an
-// opcode of one byte, the length of its content and the content; numbers are little endian. Chunks
-// contain compressed records. The index at the end of the file is not needed, because all records
-// are read in order; records of other kinds are skipped. The statistics at the end reveal lost
-// messages.
+// Reads MCAP files (https://mcap.dev/spec) from the first record to the last. Each MCAP record has
+// an opcode of one byte, the length of its content and the content; numbers are little endian. MCAP
+// chunks contain compressed records. The index at the end of an MCAP file is not needed, because
+// all records are read in order. Unused kinds of records are skipped. The statistics at the end of
+// an MCAP file reveal lost messages.
 namespace trackbed {
 namespace {
 
-/// Reads the fields of a record, and refuses to read beyond the end of the record.
+/// Reads the fields of an MCAP record, and throws an InputError instead of reading beyond the
+/// record's end.
 class RecordReader {
  public:
   RecordReader(std::string_view data, const std::filesystem::path& file)
@@ -51,7 +52,7 @@ class RecordReader {
     return bytes;
   }
 
-  /// Reads a text: first the number of its bytes in 32 bits, then the bytes.
+  /// Reads a text, which is stored as its number of bytes (32 bits) followed by the bytes.
   std::string_view Text() { return Bytes(Read<std::uint32_t>()); }
   [[nodiscard]] std::string_view rest() const { return data_; }
   [[nodiscard]] bool is_empty() const { return data_.empty(); }
@@ -81,7 +82,7 @@ class McapReader {
     }
     std::uint64_t at = mcap::kMagic.size();
     while (!at_end_) {
-      constexpr std::size_t kHead = 9;  // opcode and length
+      constexpr std::size_t kHead = 9;  // opcode and length [bytes]
       const std::string head = ReadAt(at, kHead);
       if (head.size() < kHead) {
         NoteEnd(at);
@@ -95,7 +96,8 @@ class McapReader {
         NoteEnd(at - kHead);
         return;
       }
-      // Ignore the schemas and channels in the summary, which repeat those of the data section.
+      // Ignore the schemas and channels in the summary, which repeat the schemas and channels of
+      // the data section.
       const bool is_used = (!in_summary_ && opcode > mcap::kFooter && opcode <= mcap::kChunk) ||
                            opcode == mcap::kStatistics;
       if (is_used) {
@@ -151,8 +153,8 @@ class McapReader {
       Schema schema{.name = std::string(record.Text()), .definition = {}};
       const bool is_ros2msg = record.Text() == "ros2msg";
       const std::string_view definition = record.Text();
-      // The definition of a type without fields is empty, but `schema.definition` is "" if the bag
-      // has no definition; so store a line feed.
+      // A message type without fields has an empty definition. Store a line feed instead, because
+      // "" in `schema.definition` means that the bag has no definition.
       schema.definition = !is_ros2msg ? "" : definition.empty() ? "\n" : std::string(definition);
       schemas_[id] = std::move(schema);
     } else if (opcode == mcap::kChannel) {

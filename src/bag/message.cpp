@@ -15,14 +15,15 @@
 #include "src/bag/definitions.h"
 #include "trackbed/core/error.h"
 
-// Decodes messages of ROS 2. A definition in the format ros2msg is parsed to a tree of fields. The
-// tree is walked along a message with Fast CDR, which reads the primitives, aligns them and swaps
-// their bytes. The format ros2msg has one line per field: type, name, and a default or constant
-// value, which is ignored. After the fields of the message, the definitions of the fields' types
-// follow, each after a line of '=' and a line "MSG: TYPE".
+// Decodes messages of ROS 2. A message definition in the format ros2msg is parsed to a tree of
+// fields. The decoder traverses this field tree and reads each primitive value with Fast CDR, which
+// handles alignment and byte order. The format ros2msg has one line per field: type, name, and a
+// default or constant value, which the decoder ignores. In ros2msg, the definitions of nested
+// message types follow the fields of the message, each after a line of '=' and a line "MSG: TYPE".
 namespace trackbed {
 
-/// Types of fields; not in an unnamed namespace, because BagMessage::Type has them as members.
+/// Types of message fields. These field types are not in an unnamed namespace, because
+/// BagMessage::Type has members of these types.
 namespace bag_fields {
 
 enum class Primitive {
@@ -50,7 +51,7 @@ struct Field {
   Primitive primitive = Primitive::kNone;
   std::shared_ptr<const BagMessage::Type> message{};  // type of a field that is no primitive
   Shape shape = Shape::kSingle;
-  std::uint64_t count = 1;  // elements of an array
+  std::uint64_t count = 1;  // number of elements of an array
 };
 
 }  // namespace bag_fields
@@ -91,7 +92,7 @@ std::string ShortName(std::string type) {
   return at == std::string::npos ? type : type.erase(at, 4);
 }
 
-/// Builds the tree of a type's fields.
+/// Builds the tree of a message type's fields.
 class TypeBuilder {
  public:
   TypeBuilder(const std::string& type, const std::string& definition) : type_(type) {
@@ -176,7 +177,8 @@ class TypeBuilder {
     if (kind == "time" || kind == "duration" || kind == "Header") {
       kind = kind == "Header" ? "std_msgs/Header" : "builtin_interfaces/Time";
     }
-    // A type name without a package means a type in the package of the type that has the field.
+    // A type name without a package means a type in the same package as the message that contains
+    // the field.
     const std::string package = owner.substr(0, owner.find('/'));
     made.message = BuildType(
         ShortName(kind.find('/') == std::string::npos ? package + "/" + kind : kind), depth + 1);
@@ -188,7 +190,7 @@ class TypeBuilder {
   std::size_t fields_ = 0;
 };
 
-/// Adds the column names of the numeric fields outside of arrays and sequences.
+/// Adds a column name for each numeric field that is not inside an array or a sequence.
 void AddColumns(const Type& type, const std::string& prefix, std::vector<std::string>& columns) {
   for (const Field& field : type.fields) {
     if (field.shape != Shape::kSingle || field.primitive == Primitive::kString) {
@@ -212,7 +214,7 @@ const Field* FirstSequence(const Type& type) {
 using eprosima::fastcdr::Cdr;
 using eprosima::fastcdr::FastBuffer;
 
-/// Walks along a message.
+/// Reads the fields of a ROS message in order.
 class MessageReader {
  public:
   MessageReader(FastBuffer& buffer, std::size_t size)
@@ -225,8 +227,8 @@ class MessageReader {
     cdr_.read_encapsulation();
   }
 
-  /// Reads the fields of a type; numbers outside of arrays and sequences are added to `numbers`, if
-  /// `numbers` is not null.
+  /// Reads the fields of a message type. If `numbers` is not null, appends to it all numbers that
+  /// are not inside an array or sequence.
   void Walk(const Type& type, std::vector<double>* numbers, const Field* sequence,
             std::vector<std::vector<double>>* elements) {
     for (const Field& field : type.fields) {
@@ -234,8 +236,8 @@ class MessageReader {
       if (field.shape == Shape::kSequence) {
         count = Number<std::uint32_t>();
       }
-      // Every element takes at least one byte, so the number of elements cannot exceed the number
-      // of bytes.
+      // Every element of a sequence takes at least one byte, so a message cannot have more elements
+      // than bytes.
       if (field.shape != Shape::kSingle && count > size_) {
         Fail(fmt::format("its field {} has {} elements, more than its bytes", field.name, count));
       }
@@ -248,8 +250,8 @@ class MessageReader {
           }
           continue;
         }
-        // In ROS 2, a message without fields takes one byte, so the number of bytes bounds the
-        // number of elements.
+        // In ROS 2, a message without fields takes one byte, so the message's number of bytes
+        // bounds its number of elements.
         if (++steps_ > 64 * (size_ + kMaxFields)) {
           Fail("it has more elements than its bytes");
         }
@@ -315,8 +317,8 @@ class MessageReader {
     return 0.0;
   }
 
-  /// Skips a text: its length with the final zero, and its bytes. The last byte is read, because
-  /// Fast CDR aligns by the size of the number that was read last, which jump() keeps.
+  /// Skips a text: its length with the final zero, and its bytes. Reads the last byte as a number,
+  /// because Fast CDR aligns by the size of the last number read, which jump() does not change.
   void SkipText() {
     const auto length = Number<std::uint32_t>();
     if (length == 0) {
@@ -354,7 +356,7 @@ void BagMessage::Read(std::string_view message, std::vector<double>& numbers,
   try {
     MessageReader reader(buffer, message.size());
     reader.Walk(*type_, &numbers, FirstSequence(*type_), elements);
-    // Writers pad messages to a multiple of four bytes.
+    // Some programs pad CDR messages to a multiple of four bytes.
     constexpr std::size_t kPadding = 3;
     if (reader.read() + kPadding < message.size()) {
       MessageReader::Fail(fmt::format(

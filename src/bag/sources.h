@@ -9,16 +9,16 @@
 
 namespace trackbed {
 
-/// Receives a message and its topic.
+/// Callback that receives a message of a bag and its topic.
 using TakeTopicMessage =
     std::function<void(const BagTopic& topic, std::string_view data, std::int64_t log_time)>;
 
-/// Reads a MCAP file. Adds the topics of the file to `content`, and calls `take` for each message,
-/// if `take` is not empty. BagTopic::messages counts the messages.
+/// Reads an MCAP file. Adds the topics of the MCAP file to `content`. Calls the callback `take`, if
+/// not empty, for each message. BagTopic::messages counts the messages.
 void ReadMcap(const std::filesystem::path& file, BagContent& content, const TakeTopicMessage& take);
 
-/// Reads the topics of a SQLite file, and the messages of the topic `wanted`, if `take` is not
-/// empty.
+/// Reads the topics of a SQLite bag file. If the callback `take` is not empty, also reads the
+/// messages of the topic `wanted`.
 void ReadSqlite(const std::filesystem::path& file, BagContent& content, const std::string& wanted,
                 const TakeTopicMessage& take);
 

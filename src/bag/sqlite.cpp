@@ -9,9 +9,9 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
-// Reads SQLite files of rosbag2: the table `topics` describes the topics, the table `messages` has
-// the messages. Newer files also have the table `message_definitions`. Messages may be compressed
-// by zstd one by one.
+// Reads SQLite files of rosbag2: the table `topics` describes the topics, and the table `messages`
+// contains the messages. SQLite bags since ROS 2 Iron also have the table `message_definitions`.
+// Each message may be compressed separately by zstd.
 namespace trackbed {
 namespace {
 
@@ -69,7 +69,8 @@ std::string Text(const Statement& statement, int column) {
   return std::string(Blob(statement, column));
 }
 
-/// Returns the definitions of types in the format ros2msg; empty in files before ROS 2 Iron.
+/// Returns the message definitions of a SQLite bag in the format ros2msg; empty for bags before ROS
+/// 2 Iron.
 std::map<std::string, std::string> Definitions(sqlite3* database,
                                                const std::filesystem::path& file) {
   std::map<std::string, std::string> definitions;
@@ -99,7 +100,8 @@ void ReadMessages(sqlite3* database, std::int64_t id, const BagTopic& topic,
   while (Next(database, rows, file)) {
     const std::string_view data = Blob(rows, 0);
     const std::int64_t time = sqlite3_column_int64(rows.get(), 1);
-    // Data in CDR begin with a zero byte, so data with the first four bytes of zstd are compressed.
+    // CDR messages begin with a zero byte, so a message that begins with the four magic bytes of
+    // zstd is compressed.
     if (data.starts_with("\x28\xB5\x2F\xFD")) {
       take(topic, Decompress(data, "zstd", kMaxChunkBytes, file), time);
     } else {

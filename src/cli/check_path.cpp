@@ -61,8 +61,8 @@ std::string NameOf(const fs::path& file) {
   return name.empty() ? "path" : name;
 }
 
-/// Returns the text of a scenario in which a car follows the path; the scenario has no
-/// expectations. The scenario is written as JSON, which is valid YAML.
+/// Returns the text of a scenario in which a car follows the path of a path file. The generated
+/// scenario has no expectations. The scenario is written as JSON, which is valid YAML.
 std::string ScenarioText(const CheckPathOptions& options) {
   const fs::path file = options.file;
   nlohmann::ordered_json plan{
@@ -157,7 +157,8 @@ int CheckPathFile(const CheckPathOptions& options) {
   }
   const CarModel car = LoadCar(scenario);
   const PathCheckOptions check_options = CheckOptions(scenario, car);
-  // Check the path that a plan would follow.
+  // Check the path that a run would follow: the plan's path, refitted within the steering limits if
+  // possible.
   const std::optional<SteerableFit> steerable = FitWithinSteering(*plan->path, car.unladen());
   const FittedPath& fitted = steerable ? steerable->path : *plan->path;
   const PathCheck check = CheckPath(fitted, car.unladen(), check_options);

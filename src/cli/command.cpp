@@ -271,8 +271,8 @@ void CommandLine::Prepare(CLI::App& verb) {
 namespace {
 
 /// If the command line names a verb and one of its subcommands, makes the required options of the
-/// parent verb optional. CLI11 would otherwise take the name of the subcommand as a required
-/// argument of the parent verb.
+/// parent verb optional. If the parent's arguments remained required, CLI11 would use the
+/// subcommand's name as the value of an argument.
 void RequireOnlyOfLowestVerb(CLI::App& program, int argc, char** argv) {
   const auto find = [](CLI::App& app, const char* name) {
     return app.get_subcommands([&](const CLI::App* verb) { return verb->check_name(name); });

@@ -16,9 +16,9 @@ class Option;
 
 namespace trackbed::cli {
 
-/// Reference to the variable that an option sets. The variable must outlive the parsing of the
-/// command line. OptionTarget stores the address of the variable, so callers must pass the variable
-/// itself and not a copy.
+/// Reference to the variable that a command line option sets. The variable must exist until the
+/// command line has been parsed. OptionTarget stores the address of the variable, so callers must
+/// pass the variable itself and not a copy.
 using OptionTarget = std::variant<
     std::reference_wrapper<std::string>, std::reference_wrapper<int>,
     std::reference_wrapper<std::uint64_t>, std::reference_wrapper<double>,
@@ -37,7 +37,7 @@ class Option {
   /// Makes a list option take only the next word of the command line each time the option is given,
   /// instead of all following words.
   Option OneWord() const;
-  /// Makes the help show the current value of the option's variable as the default.
+  /// Makes --help show the current value of the option's variable as the default.
   Option ShowDefault() const;
   Option Excludes(const Option& other) const;
   /// Makes this option an alternative to the required option `other`: exactly one of the two
@@ -88,7 +88,7 @@ class CommandLine;
 class Command {
  public:
   Option AddPositional(const std::string& name, OptionTarget target, const std::string& text) const;
-  /// Adds an option; `names` lists its names, such as "-o,--out".
+  /// Adds a command line option; `names` lists its names, such as "-o,--out".
   Option AddOption(const std::string& names, OptionTarget target, const std::string& text) const;
   void AddFlag(const std::string& names, bool& target, const std::string& text) const;
   /// Adds a subcommand to this verb, as in "sweep merge". If the user gives the subcommand, the
@@ -113,7 +113,7 @@ class Command {
 };
 
 /// Parses the command line of a program with verbs. Only command.cpp includes CLI11, because the
-/// headers of CLI11 take longer to compile than the verbs.
+/// headers of CLI11 take long to compile.
 class CommandLine {
  public:
   CommandLine(const std::string& name, const std::string& summary,
@@ -131,7 +131,7 @@ class CommandLine {
 
  private:
   friend class Command;
-  /// Adds to a verb the options that all verbs have.
+  /// Adds the options common to all verbs, such as --color, to a verb.
   void Prepare(CLI::App& verb);
 
   std::unique_ptr<CLI::App> app_;

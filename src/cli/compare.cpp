@@ -52,8 +52,8 @@ void PrintComparison(const std::string& name, const RunComparison& result, const
   for (const ComparedPair& pair : result.pairs) {
     const PlantComparison& c = pair.comparison;
     if (!c.comparable()) {
-      // Skip this pair of plants, because the verdict already reports that the plants are not
-      // comparable.
+      // Skip this pair of plants (car models), because the verdict already reports that the plants
+      // are not comparable.
       continue;
     }
     Print("  {} - {}, from {:.4g} m to {:.4g} m\n", c.first, c.second, c.from_s, c.to_s);
@@ -112,7 +112,7 @@ int CompareScenario(const ScenarioRun& run, const CompareOptions& options) {
 }
 
 int CompareScenarios(const CompareOptions& options) {
-  // Check the given tolerances before the runs, so that an error appears early.
+  // Check the given tolerances before the runs, so that the user sees an error in them at once.
   static_cast<void>(Tolerances(options));
   const std::vector<ScenarioRun> runs =
       ReadScenarioRuns(options.files, options.scenario, options.out, "out/compare");

@@ -22,7 +22,7 @@ using Texts = std::vector<std::string>;
 /// words {"ramp", "time"} and the unit s.
 struct Heading {
   Texts words;
-  std::string unit;  ///< unit; empty for dimensionless fields
+  std::string unit;  ///< unit of the field; empty for dimensionless fields
 };
 
 Heading HeadingFor(std::string_view name) {
@@ -50,7 +50,7 @@ Heading HeadingFor(std::string_view name) {
   return heading;
 }
 
-/// One field of the diagnostics, formatted as text.
+/// One field of a plan's diagnostics, formatted as text.
 struct TextCell {
   std::string name;  ///< name of the field, prefixed by the names of the enclosing sections
   std::string text;
@@ -134,7 +134,7 @@ class Collector : public DiagnosticsVisitor {
 TextColumns MakeColumns(const NamedList& list) {
   struct Column {
     std::string name;
-    Texts texts;  ///< cells of the column, one per row; the text "-" if a row lacks the field
+    Texts texts;  ///< cells of the column, one per row; "-" in rows without the field
   };
   std::vector<Column> columns;
   for (std::size_t row = 0; row < list.rows.size(); ++row) {

@@ -6,9 +6,9 @@
 
 namespace trackbed::cli {
 
-/// Formats the diagnostics of any planner for the terminal. Each list, such as the list of turns or
-/// corners, becomes a table; each other field becomes one line. A non-empty summary ends with a
-/// line feed.
+/// Formats the diagnostics of any planner for the terminal. Each list in the diagnostics, such as
+/// the turns or corners, is printed as a table; each other field is one line. A non-empty
+/// diagnostics text ends with a line feed.
 std::string DiagnosticsText(const Plan& plan);
 
 }  // namespace trackbed::cli

@@ -17,7 +17,7 @@
 namespace trackbed::cli {
 namespace {
 
-/// A generated part of a documentation page, between two marker lines.
+/// A generated part (block) of a documentation page, between two marker lines.
 struct Block {
   std::string name;
   std::string markdown;
@@ -133,8 +133,8 @@ std::vector<Block> Blocks(const std::vector<CommandInfo>& verbs) {
   return blocks;
 }
 
-/// Returns the page in which the text of each block is inserted between the marker lines of the
-/// block.
+/// Returns the documentation page with the generated text of each block inserted between the
+/// block's marker lines.
 std::string Filled(const std::string& file, const std::string& page, std::vector<Block> blocks) {
   std::vector<std::string> names;
   for (const Block& block : blocks) {

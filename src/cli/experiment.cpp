@@ -24,7 +24,8 @@
 // steering angle. For a second car at another speed, a search finds the constant steering angle
 // with which the second car ends at the same place as the primary car. The experiment runs every
 // search method for every speed, with positions compared at equal times and at equal arc lengths.
-// Finally, the experiment compares the angles that the searches found with the published angles.
+// Finally, the experiment compares the steering angles that the searches found with the published
+// angles.
 namespace trackbed::cli {
 namespace {
 
@@ -49,9 +50,9 @@ struct ExperimentOptions {
 };
 
 /// Returns the steering angle that the genetic algorithm found in the second stage of Skackauskas
-/// et al. 2017. Returns none if no angle was published for these options and this speed. In the
-/// publication, the primary car steers 10 deg at 3 m/s. The published angles differ from the
-/// primary car's 10 deg by at most 2.3 %.
+/// et al. 2017. Published() returns nullopt if no steering angle was published for these options
+/// and this speed. In the publication, the primary car steers 10 deg at 3 m/s. The published angles
+/// differ from the primary car's 10 deg by at most 2.3 %.
 std::optional<double> Published(const ExperimentOptions& options, double speed) {
   struct Row {
     double speed;    // [m/s]
@@ -153,8 +154,8 @@ std::string ToCsv(const ExperimentOptions& options, const std::vector<Match>& ma
   return table.ToCsv();
 }
 
-/// Returns whether all steering angles that a search found at equal arc lengths deviate from the
-/// primary car's angle by at most as much as the published angles do.
+/// Returns whether all steering angles that a search found at equal arc lengths scatter around the
+/// primary car's angle at most as much as the published angles.
 bool StaysWithin(const ExperimentOptions& options, const SearchEntry& search,
                  const std::vector<Match>& matches) {
   return std::all_of(matches.begin(), matches.end(), [&](const Match& match) {

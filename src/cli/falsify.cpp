@@ -22,11 +22,11 @@
 #include "trackbed/falsify/counterexample.h"
 #include "trackbed/report/report.h"
 
-// `trackbed falsify` searches a study for a run that fails (falsify.cpp of the library). If an
-// earlier search was interrupted, the verb continues the search from the recorded runs. The verb
-// writes the table of runs and falsify.json. If a run fails, the verb also writes the run folder of
-// the shrunk counterexample, with a scenario for a test suite. On request, the verb also writes a
-// video and a report of the counterexample.
+// `trackbed falsify` searches the parameter space of a study for a failing run
+// (src/falsify/falsify.cpp). If an earlier search was interrupted, `falsify` continues the search
+// from the recorded runs. The verb `falsify` writes the table of runs and falsify.json. If a run
+// fails, `falsify` also writes the run folder of the shrunk counterexample, with a scenario for a
+// test suite. On request, `falsify` also writes a video and a report of the counterexample.
 namespace trackbed::cli {
 namespace {
 
@@ -44,14 +44,14 @@ struct FalsifyVerbOptions {
   ScenarioOptions scenario;
 };
 
-/// Writes the outcome of the search and the table of the runs; an interrupted search has fewer runs
-/// than planned. The outcome contains a hash of the counterexample's run, so that the run folder of
-/// another search is not mistaken for the counterexample.
+/// Writes the outcome of the search to falsify.json, and the table of the runs. The outcome in
+/// falsify.json contains a hash of the counterexample's run, so that the run folder of another
+/// search is not mistaken for the counterexample.
 SweepSummary WriteOutcome(const SweepRecords& records, nlohmann::ordered_json outcome,
                           const OutputFolder& folder) {
   nlohmann::ordered_json header = records.header();
-  // If the search ended before its first run, the table keeps the planned number of rows, because
-  // tables that expect no rows are rejected.
+  // Without any run, rows_expected remains the planned number of rows, because a table that expects
+  // 0 rows is invalid.
   if (records.count() > 0) {
     header["rows_expected"] = records.count();
   }
@@ -69,7 +69,8 @@ SweepSummary WriteOutcome(const SweepRecords& records, nlohmann::ordered_json ou
   return table;
 }
 
-/// Writes the run folder of the counterexample, with a scenario for a test suite.
+/// Writes the run folder of the counterexample, with a scenario file that reproduces the failure in
+/// a test suite.
 void WriteCounterexample(const RunResult& run, const CheckedSearch& search, const fs::path& out) {
   const Regression regression =
       MakeRegression(run, search.study.name + "_" + run_folder::kCounterexample);
@@ -179,7 +180,8 @@ int Falsify(const FalsifyVerbOptions& options) {
   const CheckedSearch search = CheckSearch(options.scenario.ReadStudyFile(options.file));
   const std::string& name = search.study.name;
   const fs::path out = OutputFolderOf(options.out, name);
-  // Lock the output folder before the search, so that an error appears early.
+  // Lock the output folder before the search, so that a locking error appears before the long
+  // search.
   const OutputFolder folder(out, FileNamesOfVerb("falsify"));
   const fs::path counterexample = FolderBelow(out, run_folder::kCounterexample);
   std::vector<std::string> names = run_folder::AllNames();

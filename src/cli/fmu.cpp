@@ -22,8 +22,8 @@ struct FmuVerbOptions {
   ScenarioOptions scenario;
 };
 
-/// Returns the plant to export: the plant of the option, or the last plant of the scenario, which
-/// is the most detailed one by convention.
+/// Returns the plant (car model) to export: the plant of the command line option, or else the last
+/// plant of the scenario. The last plant of a scenario is by convention the most detailed plant.
 std::string PlantOf(const FmuVerbOptions& options, const Scenario& scenario) {
   return options.plant.empty() ? scenario.drive.plants.back() : options.plant;
 }

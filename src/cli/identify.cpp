@@ -98,7 +98,8 @@ void PrintRecords(const IdentificationResult& result) {
 int RunIdentification(const IdentifyOptions& options) {
   const Identification study = ReadIdentification(options.study, Paths(options.asset_folders));
   const fs::path out = OutputFolderOf(options.out, study.name);
-  // Lock the output folder before the search, so that an error appears early.
+  // Lock the output folder before the estimation, so that a locking error appears before the long
+  // computation.
   const OutputFolder folder(out, IdentificationFiles(study));
   for (const auto* list : {&study.fit_scenarios, &study.held_out_scenarios}) {
     for (const Scenario& scenario : *list) {

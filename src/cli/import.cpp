@@ -40,7 +40,8 @@ struct ImportOptions {
   bool list = false;
 };
 
-/// Prints the topics and columns of a log, and a map with which Trackbed can read the log.
+/// Prints the topics and columns of a log, and a proposed map from log columns to Trackbed's
+/// quantities.
 int List(const std::string& log) {
   const LogListing listing = ListLog(log);
   for (const LogTopic& topic : listing.topics) {
@@ -66,7 +67,8 @@ int List(const std::string& log) {
   return kOk;
 }
 
-/// Returns the map that the user gives, or else the map of a GPX, KML or GeoJSON file.
+/// Returns the map from log columns to quantities: the user's, or else the fixed map for GPX, KML
+/// or GeoJSON files.
 LogMap MapOf(const ImportOptions& options) {
   if (!options.map.empty()) {
     return ReadLogMap(options.map);

@@ -40,21 +40,21 @@ void OnSignal(int /*signal*/) {
 void End() {
   constexpr std::string_view kText = "interrupted: ended in the middle of its work\n";
   if (::write(STDERR_FILENO, kText.data(), kText.size()) < 0) {
-    // Ignore the failure, because without stderr no error message can be shown.
+    // Ignore a failed write to stderr, because no error message can be shown.
   }
   ::_exit(kInterrupted);
 }
 
-// Semaphore that is posted when the grace period is over.
+// Semaphore posted when the grace period after a signal is over.
 sem_t grace_over;
 
 void OnGraceOver(int /*signal*/) {
   if (finishing > 0) {
-    return;  // wait for the result: the destructor of FinishingResult restarts the timer
+    return;  // a result is being written; the destructor of FinishingResult restarts the timer
   }
   static std::atomic<bool> again{false};
   if (again.exchange(true)) {
-    End();  // end now: no thread waits for the semaphore, or the file system blocks it
+    End();  // end now: the waiting thread is missing or blocked by the file system
   }
   sem_post(&grace_over);
   constexpr int kRemoval = 200;  // time to remove temporary files [ms]
@@ -72,7 +72,8 @@ void EndAfterGrace() {
 /// because a signal handler must not take the lock for the removal of temporary files.
 void StartThread() {
   sem_init(&grace_over, 0, 0);
-  // The thread blocks all signals, so that they interrupt the system calls of the main thread.
+  // Block all signals in the helper thread, so that signals interrupt the system calls of the main
+  // thread.
   sigset_t all;
   sigset_t before;
   sigfillset(&all);
@@ -80,8 +81,9 @@ void StartThread() {
   try {
     std::thread(EndAfterGrace).detach();
   } catch (const std::system_error&) {
-    // Continue without the thread if it cannot be started, for example because of a limit on
-    // processes. Temporary files then remain as after SIGKILL.
+    // Continue without the helper thread if it cannot be started, for example because of a limit on
+    // processes. Without the helper thread, the temporary files of an interrupted process are not
+    // removed.
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }

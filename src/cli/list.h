@@ -7,7 +7,8 @@
 namespace trackbed::cli {
 
 /// Returns the names that `trackbed list KIND` prints, without descriptions. For the kind "kinds",
-/// NamesOfKind returns the names of all kinds. NamesOfKind returns nothing for an unknown kind.
+/// NamesOfKind returns the names of all kinds. NamesOfKind returns an empty list for an unknown
+/// kind.
 std::vector<std::string> NamesOfKind(std::string_view kind);
 
 }  // namespace trackbed::cli

@@ -66,8 +66,8 @@ std::string VersionText() {
                      OptimizerVersion(), VideoEncoder());
 }
 
-/// Rejects the option --import, which only the program of the Python package has. That program
-/// removes the option from the command line before it calls Main.
+/// Rejects the option --import, which only the program of the Python package accepts. The Python
+/// program removes --import from the command line before it calls Main.
 void RejectImport(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
@@ -113,9 +113,9 @@ namespace trackbed {
 namespace {
 
 /// Opens /dev/null for each closed standard stream. If a standard stream stayed closed, the next
-/// opened file would get the stream's file descriptor. Output for the stream would then be written
-/// into that file. The file /dev/null is opened for reading only, so writing to a stream that was
-/// closed still fails.
+/// opened file would get the stream's file descriptor. Output for the closed stream would then be
+/// written into the opened file. The file /dev/null is opened for reading only, so writing to a
+/// stream that was closed still fails.
 void OccupyClosedStreams() {
   int descriptor = 0;
   do {

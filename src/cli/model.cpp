@@ -26,7 +26,7 @@
 #include "trackbed/sim/model_notes.h"
 
 // The verb `model`: prints the parameters of a vehicle model.
-// 1. Finds the model by name or path, compiles it, and prints its parameters and notes.
+// 1. Finds the vehicle model by name or path, compiles it, and prints its parameters and notes.
 // 2. The option --ggv prints the g-g-v diagram as a table. The option --linkage prints the
 //    polynomials of the steering linkage.
 // 3. The option --save writes the composed MJCF file with its meshes and textures.
@@ -36,7 +36,7 @@ namespace trackbed::cli {
 namespace {
 
 void Row(const char* name, double value, const char* unit) {
-  // Print five significant digits, because the parameters are not more accurate than that.
+  // Print five significant digits, because the vehicle parameters are not known more accurately.
   Print("  {:<26} {:>12.5g}{}\n", name, value,
         std::string_view(unit).empty() ? "" : fmt::format(" {}", unit));
 }
@@ -164,9 +164,9 @@ Table EmptyGgvTable() {
   return Table({"speed_mps", "lateral_acceleration_mps2", "longitudinal_acceleration_mps2"});
 }
 
-/// Returns a table with the boundary of the g-g-v diagram at each speed. Each boundary begins at
-/// the maximum deceleration, passes through the maximum lateral acceleration and ends at the
-/// maximum acceleration.
+/// Returns a table with the boundary of the g-g-v diagram at each speed. Each boundary of the g-g-v
+/// diagram runs from the maximum deceleration over the maximum lateral acceleration to the maximum
+/// acceleration.
 Table GgvTable(const GgvDiagram& diagram) {
   Table table = EmptyGgvTable();
   constexpr int kSteps = 24;
@@ -233,7 +233,7 @@ struct ModelOptions {
   AdaptOptions answers;
 };
 
-/// An option with a number above 0 that answers a question of AdaptModel.
+/// A command line option with a number above 0, which is an input of AdaptModel.
 struct AdaptNumber {
   const char* flag;
   std::optional<double> AdaptOptions::*value;

@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads as many bytes as `like` has, from `offset` on; a negative offset counts from the end.
+/// Reads as many bytes of a file as `like` has, from `offset` on. A negative offset counts from the
+/// end of the file.
 std::string BytesAt(const fs::path& file, std::streamoff offset, std::string_view like) {
   std::string bytes(like.size(), '\0');
   std::ifstream in(file, std::ios::binary);
@@ -79,7 +80,7 @@ void PrepareOutputFile(const char* option, const fs::path& file,
   if (const std::string result = ResultThatLists(file); !result.empty()) {
     Refuse(option, file, fmt::format("is a file of the {} in its folder", result));
   }
-  // Overwriting an empty file loses nothing, and a device such as /dev/null is not replaced.
+  // Allow the output if it is an empty file, or a device such as /dev/null, which is not replaced.
   std::error_code absent;
   if (fs::is_regular_file(file, absent) && fs::file_size(file, absent) > 0 && !wrote(file)) {
     Refuse(option, file, "is not a file that this option has written, or was edited since");

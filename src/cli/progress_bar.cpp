@@ -46,8 +46,8 @@ std::string ProgressBar::TimeLeft(double fraction) {
   if (!begun_ && fraction > 0.0) {
     begun_ = Moment{now, fraction};
   }
-  // Time after which the remaining time is first estimated [s]; an earlier estimate would be too
-  // inaccurate.
+  // Elapsed time [s] before which the remaining time is not estimated, because the estimate would
+  // be too inaccurate.
   constexpr double kMinElapsed = 2.0;
   const double took = begun_ ? std::chrono::duration<double>(now - begun_->time).count() : 0.0;
   const double done = begun_ ? fraction - begun_->fraction : 0.0;

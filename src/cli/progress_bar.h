@@ -23,13 +23,14 @@ class ProgressBar {
     double fraction;
   };
 
-  /// Returns a text such as ", 12 s left", or an empty text if no estimate exists yet.
+  /// Returns the remaining time as a text such as ", 12 s left", or an empty text if no estimate
+  /// exists yet.
   std::string TimeLeft(double fraction);
 
   std::string label_;
   bool visible_;
-  // Time and fraction of the first call of Show with a positive fraction; the estimate of the
-  // remaining time ignores all earlier work.
+  // Time and fraction of the first call of Show with a positive fraction. The estimate of the
+  // remaining time uses only the progress after this first call.
   std::optional<Moment> begun_;
 };
 

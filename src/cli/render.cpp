@@ -64,7 +64,7 @@ std::string Listed(const std::vector<FilmChoice>& choices) {
 int RenderOne(const RenderOptions& options) {
   const fs::path folder = options.folder;
   FilmOptions film;
-  // If the user does not give the size, the frame rate or the camera, take the value in the run's
+  // If the user does not give the size, the frame rate or the camera, use the value in the run's
   // scenario.
   if (const fs::path resolved = folder / run_folder::kScenarioYaml; fs::exists(resolved)) {
     const RenderSpec render = ReadRenderSpec(run_folder::RequireFile(resolved));

@@ -35,8 +35,8 @@ struct RunOptions {
   ScenarioOptions scenario;
 };
 
-/// Changes the options so that they repeat one row of a study: the study's scenario file, with the
-/// settings of the row applied before all other overrides.
+/// Changes the options of `run` to repeat one row of a study. The scenario is the study's, with the
+/// row's settings applied before all other overrides.
 void TakeRow(RunOptions& options) {
   const fs::path folder = options.sweep;
   const SweepRecords records(folder / run_folder::kSweepRecords);

@@ -61,7 +61,7 @@ void PrintRecord(const PlantMetrics& plant) {
   }
 }
 
-/// Formats a status in words, such as "rolled over".
+/// Formats the final status of a run in words, such as "rolled over".
 std::string InWords(DriveStatus status) {
   std::string words = ToString(status);
   std::replace(words.begin(), words.end(), '_', ' ');

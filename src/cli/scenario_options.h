@@ -48,8 +48,8 @@ struct ScenarioOptions {
 /// Adds the option --allow-assets, which may be given several times.
 void AddAllowAssets(const Command& command, std::vector<std::string>& folders);
 
-/// Adds the option --jobs: the number of things that run in parallel; 0 if the user does not set
-/// it. `what` names the things in the help, such as "Runs in parallel".
+/// Adds the option --jobs, the number of parallel jobs; `jobs` is 0 if the user does not give the
+/// option. The text `what` describes the jobs in the help, such as "Runs in parallel".
 void AddJobs(const Command& command, int& jobs, const std::string& what);
 
 std::vector<std::filesystem::path> Paths(const std::vector<std::string>& names);

@@ -18,16 +18,16 @@ namespace trackbed::cli {
 struct ScenarioRun {
   Scenario scenario;
   std::filesystem::path folder;
-  /// Compiled car; null if DriveScenario is to load it.
+  /// Compiled car model; null if DriveScenario must load the car.
   std::shared_ptr<const CarModel> car{};
 };
 
 /// Reads all scenario files before the first run, so that an error in the last file is found early.
-/// If there is a single file and `out` is given, the output folder is `out`. For several files, the
-/// output folder of each run is `<out>/<scenario>`. If `out` is empty, the output folder is
-/// `<parent>/<scenario>`. Throws the same errors as ReadScenario and RefuseOverlapAtStart. Throws
-/// InputError if two runs would have the same output folder, and RunError if the output folder
-/// `<scenario>` is a link or a file.
+/// For a single scenario file, the output folder is `out` if `out` is not empty. For several
+/// scenario files, the output folder of each run is `<out>/<scenario>`. If `out` is empty, the
+/// output folder is `<parent>/<scenario>`. ReadScenarioRuns throws the same errors as ReadScenario
+/// and RefuseOverlapAtStart. ReadScenarioRuns also throws InputError if two runs would have the
+/// same output folder, and RunError if the output folder `<scenario>` is a link or a file.
 std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
                                           const ScenarioOptions& options, const std::string& out,
                                           const std::filesystem::path& parent);
@@ -37,8 +37,8 @@ void RefuseOverlapAtStart(const std::string& file, const Scenario& scenario,
                           const VehicleParams& vehicle);
 
 /// Calls `work` for each run, but starts no further run after Ctrl-C. After Ctrl-C, ForEachRun
-/// prints the number of skipped runs to stderr. ForEachRun returns the largest exit code that
-/// `work` returned. ForEachRun rethrows a RunError that `work` throws, unless Ctrl-C has
+/// prints the number of skipped runs to stderr. ForEachRun returns the largest exit code returned
+/// by `work` for any run. ForEachRun rethrows a RunError that `work` throws, unless Ctrl-C has
 /// interrupted the runs.
 int ForEachRun(const std::vector<ScenarioRun>& runs,
                const std::function<int(const ScenarioRun& run)>& work);

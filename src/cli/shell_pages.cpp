@@ -13,12 +13,14 @@
 #include "src/cli/shell_quote.h"
 
 // Writes completion scripts for bash, zsh and fish from the options of the verbs.
-// 1. CommandInfo lists verbs, subcommands, options and positional arguments, as the parser knows
-//    them.
-// 2. The type name of an option decides its values: "draft|film" is a list of values, and CAMERA
-//    and SCENARIO are names that `trackbed list` prints when the user completes.
+// 1. CommandInfo lists verbs, subcommands, options and positional arguments, as the command line
+//    parser defines them.
+// 2. The type name of an option determines the values offered for completion. A type name such as
+//    "draft|film" lists the values itself. For the type names CAMERA and SCENARIO, the completion
+//    script runs `trackbed list`.
 // 3. Each shell parses words differently, so each shell has its own quoting function. Names of
-//    files and scenarios are data of the user, and are never inserted into code.
+//    files and scenarios are untrusted data, and are never inserted into the code of a completion
+//    script.
 namespace trackbed::cli {
 namespace {
 
@@ -36,10 +38,10 @@ Words PartsOf(const std::string& text, char separator) {
   return words;
 }
 
-/// Returns the possible values of an option with this type name. A type name such as "draft|film"
-/// is itself the list of the possible values. The type names "CAMERA", "CAMERA,..." and
-/// "SCENARIO..." are kinds of names that `trackbed list` prints. For other type names, ValuesOf
-/// returns no values.
+/// Returns the possible values of an option from the name of its value type. A type name such as
+/// "draft|film" is itself the list of the possible values. The type names "CAMERA", "CAMERA,..."
+/// and "SCENARIO..." are kinds of names that `trackbed list` prints. For all other type names,
+/// ValuesOf returns an empty list.
 Words ValuesOf(const std::string& type) {
   if (type.find('|') != std::string::npos) {
     return PartsOf(type, '|');
@@ -131,8 +133,8 @@ Words PositionalWords(const std::vector<CommandInfo>& verbs, const CommandInfo& 
 }  // namespace
 
 std::string BashCompletion(const std::vector<CommandInfo>& verbs) {
-  // Quote the words, because `compgen -W` would expand unquoted words. Bash inserts a completion
-  // into the command line without further quoting.
+  // Quote the completion words, because `compgen -W` would expand unquoted words. Bash inserts a
+  // completion into the command line without further quoting.
   std::string text =
       "# bash completion of trackbed; written by `trackbed completion bash`.\n"
       "_trackbed_offer() {  # what, before each: those of the other words that begin with it\n"
@@ -317,8 +319,9 @@ std::string OwnTextOfFish(const std::string& text) {
   return QuotedForFish(text).value();
 }
 
-/// Formats the words as the value of fish's `complete --arguments`. Fish parses the value of
-/// `--arguments` twice, so each word is quoted, and then the whole list of words is quoted again.
+/// Formats completion words as the value of fish's option `complete --arguments`. Fish parses the
+/// value of `--arguments` twice, so each word is quoted, and then the whole list of words is quoted
+/// again.
 std::string FishArguments(const Words& words) {
   return OwnTextOfFish(AllQuoted(words, QuotedForFish));
 }

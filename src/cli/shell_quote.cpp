@@ -11,8 +11,8 @@ bool IsQuotable(std::string_view word) {
   return word.find_first_of("\t\n") == std::string_view::npos && WithoutControls(word) == word;
 }
 
-/// Encloses `word` in the character `quote`. Within `word`, each character that `special` contains
-/// is replaced by `replacement`, in which "&" stands for the replaced character.
+/// Encloses `word` in the character `quote`. In the quoted word, each character listed in `special`
+/// is replaced by `replacement`, in which "&" stands for that character.
 std::optional<std::string> InQuotes(std::string_view word, char quote, std::string_view special,
                                     std::string_view replacement) {
   if (!IsQuotable(word)) {
@@ -44,8 +44,8 @@ std::optional<std::string> QuotedForFish(std::string_view word) {
 std::optional<std::string> QuotedForSbatch(std::string_view word) {
   std::optional<std::string> quoted = InQuotes(word, '"', "\\\"", "\\&");
   if (quoted) {
-    // Refuse the words "packjob" and "hetjob", because Slurm takes any line with one of these words
-    // as the start of another job's options.
+    // Refuse the words "packjob" and "hetjob", because Slurm interprets any line with one of these
+    // words as the start of another job's options.
     static const std::regex separator("(pack|het)(job)", std::regex::icase);
     quoted = std::regex_replace(*quoted, separator, "$1\\$2");
   }

@@ -7,7 +7,7 @@
 
 /// Quotes words for the programs that read the scripts of `completion` and `sweep submit`.
 ///
-/// The quoting functions return no value for a word that cannot be quoted safely, because the word
+/// The quoting functions return nullopt for a word that cannot be quoted safely, because the word
 /// is not UTF-8 or contains a control character such as a line feed.
 namespace trackbed::cli {
 
@@ -21,7 +21,8 @@ std::optional<std::string> QuotedForFish(std::string_view word);
 /// interprets a backslash as an escape character, inside and outside quotes.
 std::optional<std::string> QuotedForSbatch(std::string_view word);
 
-/// Quotes the words and joins them with blanks. AllQuoted omits words that cannot be quoted safely.
+/// Quotes each word and joins the quoted words with blanks. AllQuoted omits words that cannot be
+/// quoted safely.
 std::string AllQuoted(const std::vector<std::string>& words,
                       std::optional<std::string> (*quoted)(std::string_view word));
 

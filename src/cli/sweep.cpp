@@ -28,9 +28,10 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
-// The verb `sweep` reads the study and its options. The verb chooses the rows of this shard, of
-// --only or of a study that was interrupted, runs them in parallel and writes the table. With
-// --until, the study ends as soon as the confidence intervals of its pass rates are narrow enough.
+// The verb `sweep` reads the study and its options. The verb `sweep` runs rows (runs of the study)
+// in parallel and writes their table. The command line selects the rows of the shard, the rows
+// given by --only, or the missing rows of an interrupted study. With --until, the study ends as
+// soon as the confidence intervals of its pass rates are narrow enough.
 
 namespace trackbed::cli {
 namespace {
@@ -122,7 +123,8 @@ Shard ShardOfTask() {
   return shard;
 }
 
-/// Checks the option --only, which runs rows again: its statuses exist, and the file has rows.
+/// Checks the option --only, which repeats rows of a study: its run statuses must exist, and the
+/// record file must contain rows.
 void CheckOnly(const SweepVerbOptions& options, const Study& study, const fs::path& records) {
   const std::vector<std::string> statuses =
       study.bisect
@@ -174,7 +176,8 @@ int Sweep(const SweepVerbOptions& options) {
   const fs::path out = FolderOfShard(all, shard);
   const fs::path file = out / run_folder::kSweepRecords;
   CheckOnly(options, study, file);
-  // Lock the output folder before the runs, so that an error appears early.
+  // Lock the output folder before the runs, so that a locking error appears before the long
+  // computation.
   const OutputFolder folder(out, FileNamesOfVerb("sweep"));
   CheckKeptRows(all);
   if (options.restart) {

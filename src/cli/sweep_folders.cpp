@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kShardFolder = "shard_";
 
-/// Returns the existing run folders of the rows that the study keeps. KeptRows throws RunError if a
-/// folder is a link.
+/// Returns the existing run folders of those rows whose results the study keeps. KeptRows throws
+/// RunError if a folder is a link.
 std::vector<fs::path> KeptRows(const fs::path& study) {
   std::vector<fs::path> folders;
   std::error_code error;
@@ -86,8 +86,8 @@ void KeepWorstRows(const SweepRecords& records, const fs::path& study,
     return;
   }
   if (!keep->IsSection()) {
-    // Nothing to do for "all" and "failed", because the run folder of a row was written directly
-    // after the run.
+    // If the study keeps "all" or "failed" rows, there is nothing to do, because the run folder of
+    // a row was written directly after the run.
     static_cast<void>(keep->Text());
     return;
   }

@@ -23,17 +23,17 @@ std::vector<std::filesystem::path> RecordsIn(const std::filesystem::path& folder
 /// link.
 std::filesystem::path FolderOfRow(const std::filesystem::path& study, std::size_t row);
 
-/// Throws RunError if the folder of kept rows is a link, or if a run folder in that folder is a
-/// link. CheckKeptRows also throws if a run folder contains a file that Trackbed would overwrite
-/// but has not written.
+/// Throws RunError if the study's folder of kept rows is a link, or if a run folder in that folder
+/// is a link. CheckKeptRows also throws if a run folder contains a file that Trackbed would
+/// overwrite but has not written.
 void CheckKeptRows(const std::filesystem::path& study);
 
-/// Removes the run results from the folders of kept rows. Keeps files that Trackbed has not written
-/// (see RemoveResults).
+/// Removes the run results from the run folders of a study's rows. RemoveKeptRows does not remove
+/// files that Trackbed has not written (see RemoveResults).
 void RemoveKeptRows(const std::filesystem::path& study);
 
-/// Runs the worst rows of the study again and writes their run folders, if the study asks to keep
-/// the worst rows. KeepWorstRows skips rows whose run folders already exist.
+/// If the study asks to keep the worst rows, repeats the runs of these rows and writes their run
+/// folders. KeepWorstRows skips rows whose run folders already exist.
 void KeepWorstRows(const SweepRecords& records, const std::filesystem::path& study,
                    const ScenarioOptions& options);
 

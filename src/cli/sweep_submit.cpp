@@ -35,7 +35,7 @@ struct SubmitOptions {
 };
 
 /// Quotes `word`, which is the value of the command line option `what`. Throws InputError if the
-/// word cannot be quoted.
+/// option's value cannot be quoted.
 std::string Quoted(std::optional<std::string> (*quoted)(std::string_view word),
                    const std::string& word, const char* what) {
   const std::optional<std::string> text = quoted(word);
@@ -76,8 +76,8 @@ std::string Submit(const std::string& options, const fs::path& script) {
   return job;
 }
 
-/// Returns the shell command that each task of a Slurm array executes. The command runs the shard
-/// of the study whose number is in Slurm's environment variables.
+/// Returns the shell command that each task of a Slurm array executes. The shell command runs the
+/// shard of the study whose number is in Slurm's environment variables.
 std::string SweepCommand(const Study& study, const std::string& program, const fs::path& out) {
   std::string command =
       fmt::format("{} sweep {} --out {} --quiet --jobs \"${{SLURM_CPUS_PER_TASK:-1}}\"",
@@ -92,7 +92,7 @@ std::string SweepCommand(const Study& study, const std::string& program, const f
   return command;
 }
 
-/// Returns the first lines of a script, which contain the options for Slurm.
+/// Returns the first lines of a Slurm script, which contain the options for Slurm.
 std::string SbatchLines(const std::vector<std::string>& options) {
   std::string lines = "#!/bin/sh\n";
   for (const std::string& option : options) {
@@ -109,8 +109,8 @@ struct Scripts {
 Scripts MakeScripts(const Study& study, int tasks, const fs::path& out) {
   const std::string program = fs::read_symlink("/proc/self/exe").string();
   const std::string folder = "--chdir=" + out.string();
-  // The scripts open their log files themselves, because Slurm replaces % and \ in the path of a
-  // log file.
+  // The Slurm scripts open their log files themselves, because Slurm replaces % and \ in the path
+  // of a log file.
   const std::string no_log = "--output=/dev/null";
   const std::string log = fmt::format("exec > {}/", ForSh(out.string(), kOutOption));
   return {.array = SbatchLines({"--job-name=" + study.name, fmt::format("--array=1-{}", tasks),
@@ -141,8 +141,8 @@ void RequireNoForeignLogs(const fs::path& out, bool submitted) {
   }
 }
 
-/// Writes the scripts to the output folder. When WriteScripts returns, the folder is no longer
-/// locked, so that the tasks can write to the folder.
+/// Writes the Slurm scripts to the output folder. When WriteScripts returns, the output folder is
+/// unlocked, so that the Slurm tasks can write to it.
 void WriteScripts(const Scripts& scripts, const fs::path& out) {
   const std::vector<std::string> names{run_folder::kArraySh, run_folder::kMergeSh};
   const OutputFolder folder(out, names);
@@ -165,8 +165,8 @@ int SubmitStudy(const SubmitOptions& options) {
   WriteScripts(scripts, out);
   const fs::path merge = out / run_folder::kMergeSh;
   const std::string job = Submit(sbatch, out / run_folder::kArraySh);
-  // The merge job starts after all tasks have succeeded. Slurm cancels the merge job if a task
-  // fails.
+  // The Slurm job that merges the shards starts after all tasks have succeeded. Slurm cancels the
+  // merge job if a task fails.
   const std::string last = Submit(
       fmt::format("{}--dependency=afterok:{} --kill-on-invalid-dep=yes ", sbatch, job), merge);
   if (!options.scenario.quiet) {

@@ -39,8 +39,8 @@ std::vector<std::string> CellsOf(const TextTable& table, std::size_t column) {
   return cells;
 }
 
-/// Formats the parameters, status and outputs of all rows as a table. The table omits the column
-/// `reason`, because its texts are too long for a table.
+/// Formats the parameters, status and outputs of all rows of a study as a table. The table omits
+/// the column `reason`, because its texts are too long for a table.
 std::string RowsText(const TextTable& table, std::size_t status, std::size_t width) {
   TextColumns columns;
   std::size_t shown = 0;

@@ -24,7 +24,7 @@ enum class Tone {
 };
 
 /// Specifies when output is colored. With kAuto, output to a terminal is colored unless NO_COLOR is
-/// set and not empty (no-color.org) or TERM is "dumb".
+/// non-empty (no-color.org) or TERM is "dumb".
 enum class ColorChoice { kAuto, kAlways, kNever };
 
 /// Returns the names of the color choices: "auto", "always" and "never".
@@ -51,11 +51,12 @@ struct Lines {
   std::string_view text;
 };
 
-/// Returns `text` as a safe line, in the color of the tone if output to `stream` is colored.
+/// Returns `text` as a line without control characters (SafeLine), in the color of `tone` if output
+/// to `stream` is colored.
 SafeText Colorize(Tone tone, std::string_view text, std::FILE* stream = stdout);
 
 /// Replaces the control characters in a text of several lines and returns the text in the color of
-/// the tone.
+/// `tone`.
 SafeText Colorize(Tone tone, Lines text, std::FILE* stream);
 
 /// Joins texts that are already safe to print, with `separator` between the texts.

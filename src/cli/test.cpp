@@ -64,8 +64,8 @@ void PrintCase(const SuiteCase& one, bool quiet) {
 }
 
 /// Returns the exit code of a test suite. An internal error takes precedence over bad input, and
-/// bad input takes precedence over failed expectations. Bad input takes precedence because the
-/// result of the test suite is then incomplete.
+/// bad input takes precedence over failed expectations. Bad input takes precedence because
+/// scenarios with bad input are not run, so the suite's result is incomplete.
 int SuiteExitCode(const std::vector<SuiteCase>& cases) {
   const auto any = [&](CaseStatus status) {
     return std::any_of(cases.begin(), cases.end(),

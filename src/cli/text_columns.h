@@ -9,11 +9,12 @@ namespace trackbed::cli {
 /// A column of a printed table: a heading, and below the heading one text per row, all
 /// right-aligned.
 struct TextColumn {
-  /// Words of the heading; a line break is possible between two words.
+  /// Words of the column's heading; a line break is possible between two words.
   std::vector<std::string> words;
-  /// Unit, printed in brackets below the heading; empty for a dimensionless column.
+  /// Unit of the column's values, printed in brackets below the heading; empty for dimensionless
+  /// values.
   std::string unit;
-  std::vector<std::string> texts;  ///< Text of each row.
+  std::vector<std::string> texts;  ///< Text of the column in each row.
 };
 
 /// A printed table. Each column is as wide as its longest text or heading word, but at least nine
@@ -22,7 +23,7 @@ class TextColumns {
  public:
   void Add(TextColumn column);
 
-  /// Returns how many columns, counted from the left, fit into `width` characters.
+  /// Returns how many columns of the table, counted from the left, fit into `width` characters.
   [[nodiscard]] std::size_t CountWithin(std::size_t width) const;
   /// Returns the lines of a table with the first `count` columns: heading lines, then one line per
   /// row.
@@ -34,7 +35,7 @@ class TextColumns {
 
  private:
   struct LaidOutColumn {
-    std::vector<std::string> heading;  ///< as lines
+    std::vector<std::string> heading;  ///< heading, split into lines
     std::vector<std::string> texts;
     std::size_t width;
   };

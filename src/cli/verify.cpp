@@ -37,7 +37,8 @@ int Verify(const VerifyVerbOptions& options) {
   CheckVerifiable(checked.points);
   const std::string& name = checked.points.study().name;
   const fs::path out = OutputFolderOf(options.out, name + "_verify");
-  // Lock the output folder before the runs, so that an error appears early.
+  // Lock the output folder before the runs, so that a locking error appears before the long
+  // computation.
   const OutputFolder folder(out, FileNamesOfVerb("verify"));
   const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {

@@ -51,7 +51,7 @@ WatchHooks Hooks() {
           .finished = {}};
 }
 
-/// Rejects scenario options, because a finished result has no options to set.
+/// Rejects scenario options, because the options of a finished run cannot be changed.
 void RejectScenarioOptions(const WatchVerbOptions& options) {
   const ScenarioOptions& scenario = options.scenario;
   const bool any = options.speed || options.paused || !options.out.empty() ||

@@ -20,24 +20,26 @@
 //   1. Predict the car's state at the end of the dead time, from the commands that have not taken
 //      effect yet.
 //   2. Call the control law with the predicted state.
-//   3. Convert the wanted wheel angle to a command: dead zone, backlash, lead, inverse curve.
+//   3. Convert the wanted wheel angle to a command, by a dead zone, half of the backlash, a lead
+//      filter and the inverse calibration curve.
 namespace trackbed {
 namespace {
 
 /// Largest half-width of the dead zone around the steady turn, as a fraction of half the backlash.
 constexpr double kDeadZone = 0.5;
 
-/// Largest offset from the path due to the dead zone, as a fraction of the wheelbase L. A law that
-/// steers to a point at the distance R leaves an offset of up to R^2/(2 L) times the half-width of
-/// the dead zone. The offset grows with the square of the speed.
+/// Largest offset from the path due to the dead zone, as a fraction of the wheelbase L. A control
+/// law that steers to a preview point at the distance R leaves an offset of up to R^2/(2 L) times
+/// the half-width of the dead zone. The distance R grows with the speed, so the offset from the
+/// path grows with the square of the speed.
 constexpr double kDeadOffset = 0.04;
 
 /// Reversal of the wanted angle below which the actuator stays at rest, as a fraction of the
 /// half-width of the dead zone. The end of a correction is no such reversal.
 constexpr double kReversal = 0.25;
 
-/// The play counts as crossed if the actuator's remaining angle to its target is at most this
-/// fraction of half the backlash.
+/// The backlash is considered crossed if the actuator's remaining angle to its target is at most
+/// kPassed times half the backlash.
 constexpr double kPassed = 0.125;
 
 /// Factor by which the lead shortens the lag of the actuator and amplifies the noise of the wanted
@@ -45,13 +47,14 @@ constexpr double kPassed = 0.125;
 constexpr double kLead = 3.0;
 
 /// Largest amplification of a steering step that crosses the backlash. If possible, the amplified
-/// step crosses the backlash within a control period. Without amplification, a step that barely
-/// exceeds the backlash would take many times the actuator's lag.
+/// step crosses the backlash within a control period. Without amplification, a steering step that
+/// barely exceeds the backlash would take many times the actuator's lag.
 constexpr double kCrossingLead = 6.0;
 
 /// Number of timesteps of the modeled actuator in a control period. With a single timestep per
-/// control period, the lag of the model would differ from the lag of the actuator. Feedback of this
-/// difference between the lags would move the command back and forth through the backlash.
+/// control period, the lag of the model would differ from the lag of the actuator. Feedback of the
+/// difference between modeled and real lag would move the command back and forth through the
+/// backlash.
 constexpr int kSubsteps = 10;
 
 /// Distance ahead in which the control law may plan the steering of the path, in multiples of the
@@ -84,8 +87,8 @@ double DeadZone(const VehicleParams& vehicle, double speed, double period) {
   return std::min(kDeadZone * 0.5 * vehicle.steering_response.backlash, harmless);
 }
 
-/// Returns the response without its calibration curve, because the filter receives angles to which
-/// the curve has already been applied.
+/// Returns the steering response without its calibration curve, because the filter receives angles
+/// to which the curve has already been applied.
 SteeringResponse WithoutCurve(SteeringResponse response) {
   response.curve.clear();
   return response;
@@ -122,15 +125,16 @@ class ActuatorModel {
 
   /// Returns the angle of the actuator at the beginning of the present control period [rad].
   [[nodiscard]] double angle() const { return angle_; }
-  /// Returns the last wanted angle [rad].
+  /// Returns the last steering angle that the control law wanted [rad].
   [[nodiscard]] double wanted() const { return wanted_; }
   [[nodiscard]] const SteeringFilter& filter() const { return filter_; }
   /// Returns the last output of the calibration curve, to which the backlash is applied [rad].
   [[nodiscard]] double target() const { return target_; }
 
-  /// Advances by a control period and returns the command, with which the actuator shall come to
-  /// rest at `wanted` [rad]. `steady` is the angle of the steady turn on the path. `zone` is the
-  /// half-width of the dead zone around `steady` [rad].
+  /// Advances the actuator model by a control period and returns the command that brings the
+  /// actuator to rest at `wanted` [rad]. The argument `steady` is the steering angle of the steady
+  /// turn on the path. The argument `zone` is the half-width of the dead zone around `steady`
+  /// [rad].
   double Command(double wanted, double steady, double zone) {
     wanted_ = std::clamp(wanted, -limits_.angle, limits_.angle);
     const double rest = wanted_ - std::clamp(wanted_ - steady, -zone, zone);
@@ -159,14 +163,14 @@ class ActuatorModel {
   std::optional<MonotoneCurve> curve_;
   SteeringFilter filter_;
   double step_;     // Timestep of the filter [s].
-  double half_;     // Half of the backlash.
-  double highest_;  // Limits of the angle before lag and backlash.
+  double half_;     // Half of the backlash [rad].
+  double highest_;  // Limits of the steering angle before lag and backlash.
   double lowest_;
-  double moved_ = 1.0;          // Fraction of a step that passes the lag in a control period.
-  double crossing_lead_ = 1.0;  // Amplification of a step that crosses the play.
-  bool crosses_ = false;        // Whether the actuator is within the play after a reversal.
-  double lead_ = 1.0;           // Amplification of a step that does not cross the play.
-  double wanted_;               // Last wanted angle.
+  double moved_ = 1.0;          // Fraction of a step completed after lagging for a period.
+  double crossing_lead_ = 1.0;  // Amplification of a step that crosses the backlash.
+  bool crosses_ = false;        // Whether the actuator crosses the backlash after a reversal.
+  double lead_ = 1.0;           // Amplification of a step that does not cross the backlash.
+  double wanted_;               // Last steering angle that the control law wanted.
   double target_;               // Output of the calibration curve, before backlash.
   double resting_;              // Angle at which the actuator comes to rest after the last command.
   bool corrects_ = false;       // Whether `resting_` differs from the steady turn by a correction.
@@ -273,8 +277,8 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
   }
 
  private:
-  /// Returns the angle that the control law wants in the predicted `state` of the car, within
-  /// AllowedSteering.
+  /// Returns the steering angle that the control law wants in the predicted `state` of the car,
+  /// clamped to AllowedSteering.
   double SteerWithin(const ControlInput& input, const VehicleState& state) {
     ControlInput ahead = Ahead(input, state);
     const double curvature = input.reference.path.BendAt(ahead.station).curvature;
@@ -305,8 +309,8 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
             .speed_gain = input.speed_gain};
   }
 
-  /// Returns the station of the predicted state. The station is searched within the moved distance
-  /// plus a quarter of the wheelbase around the car's station.
+  /// Returns the station of the predicted state. The predicted station differs from the car's
+  /// station by at most the moved distance plus a quarter of the wheelbase.
   static double StationOf(const ControlInput& input, const VehicleState& state, double moved) {
     if (moved == 0.0) {
       return input.station;
@@ -338,7 +342,7 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
   std::unique_ptr<SteeringController> inner_;
   ActuatorKnowledge knowledge_;
   std::optional<ActuatorModel> model_;
-  VehicleParams vehicle_;  // The car that `inner` receives; reuses its heap memory.
+  VehicleParams vehicle_;  // The car that the wrapped controller receives; reuses its heap memory.
   bool slips_ = false;     // Whether the rear axle has ever moved sideways.
   double road_ = 1.0;  // Factor by which the road scales the tyres' friction in the coming period.
 };

@@ -16,17 +16,15 @@ namespace trackbed {
 ///   * As long as no measured state had a lateral speed of the rear axle, `inner` receives a car
 ///     without tyre coefficients: the car is kinematic.
 ///
-/// With kModel, the wrapper predicts the car's state at the time t + T_d at which the coming
-/// command takes effect. T_d is the dead time of the actuator. The wrapper calls `inner` with the
-/// predicted state (a Smith predictor, Smith 1957). The prediction has these steps:
+/// With kModel, the wrapper predicts the car's state at the time t + T_d at which the next command
+/// takes effect. T_d is the dead time of the actuator. The wrapper calls `inner` with the predicted
+/// state (a Smith predictor, Smith 1957). The prediction has these steps:
 ///   1. A SteeringFilter keeps the commands that have not reached the actuator yet.
-///   2. The predicted car starts at the measured state. The predicted car is the linear
-///      single-track car. Without tyre coefficients, or below 1 m/s, the predicted car is the
-///      kinematic car.
-///   3. The predicted car drives for T_d at constant speed. The wheels of the predicted car follow
-///      the output of the SteeringFilter plus a difference: the measured minus the modeled actuator
-///      angle at the time t. Through this difference of angles, the feedback corrects errors of the
-///      model, for example of the steering ratio.
+///   2. The prediction starts at the measured state, with the linear single-track model. Without
+///      tyre coefficients, or below 1 m/s, the prediction uses the kinematic model.
+///   3. The predicted car drives for T_d at constant speed. The predicted wheel angle is the output
+///      of the SteeringFilter plus the measured minus the modeled actuator angle at the time t. The
+///      measured angle corrects errors of the actuator model, for example of the steering ratio.
 /// The predicted state has the wheel angle at t + T_d, and the last wanted angle as the angle of
 /// the actuator. The predicted station is the station of the path point nearest to the predicted
 /// pose. The prediction does not change the times `state.time` and `period`.

@@ -21,7 +21,8 @@ void BoundedRegulator::PredictWithoutBounds(const ErrorModel& model, const Regul
 }
 
 void BoundedRegulator::Begin(const ErrorModel& model, const Regulator& regulator, double most) {
-  // Compute half of the derivative of the cost J by the inputs w, at w = 0, where q = -w*.
+  // Compute half of the derivative of the cost J with respect to the inputs w, at w = 0. At w = 0,
+  // the deviation q from the unbounded optimum w* is -w*.
   ErrorModel::Vector x = ErrorModel::Vector::Zero(model.a.rows());
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const double q = -inputs_[k] / most;
@@ -37,7 +38,8 @@ void BoundedRegulator::Begin(const ErrorModel& model, const Regulator& regulator
     largest = std::max(largest, std::abs(step.slope));
     adjoint = (excess * regulator.gain.transpose() + model.a.transpose() * adjoint).eval();
   }
-  // Stationarity: the derivative plus the upper multiplier minus the lower multiplier is 0.
+  // Choose stationary multipliers: the cost's derivative plus the upper minus the lower multiplier
+  // of each input is 0.
   for (Step& step : steps_) {
     const double both = 0.1 * largest;
     step.input = 0.0;
@@ -47,7 +49,7 @@ void BoundedRegulator::Begin(const ErrorModel& model, const Regulator& regulator
 }
 
 void BoundedRegulator::Factor(const ErrorModel& model, const Regulator& regulator) {
-  // The cost from step k on is x'S x + 2 s'x, plus a constant.
+  // The cost of the steps from k on is x'S x + 2 s'x plus a constant, with the state x.
   const auto n = model.a.rows();
   const ErrorModel::Matrix gains = regulator.gain.transpose() * regulator.gain;
   ErrorModel::Matrix cost = ErrorModel::Matrix::Zero(n, n);
@@ -67,8 +69,8 @@ void BoundedRegulator::ComputeStep(const ErrorModel& model, double product, bool
   ErrorModel::Vector s = ErrorModel::Vector::Zero(model.a.rows());
   for (std::size_t k = steps_.size(); k-- > 0;) {
     Step& step = steps_[k];
-    // Second-order terms: products of the changes of slack and multiplier. The slack of the upper
-    // bound is 1 - w.
+    // The second-order terms are products of the changes of a bound's slack and multiplier. The
+    // slack of the upper bound is 1 - w for the input w.
     const double above = corrects ? product + step.turn * step.upper_change : product;
     const double below = corrects ? product - step.turn * step.lower_change : product;
     step.upper_change = above / (1.0 - step.input) - step.upper;
@@ -128,17 +130,18 @@ double BoundedRegulator::Input(const ErrorModel& model, const Regulator& regulat
     return inputs_[0];
   }
   Begin(model, regulator, most);
-  // The sum of the complementarity products is half of the duality gap.
+  // The sum of the complementarity products (slack times multiplier) is half of the duality gap.
   const double last = 0.5 * kGap / static_cast<double>(2 * count);
   double product = MeanProduct(0.0);
   for (; iterations_ < kMaxIterations && product > last; ++iterations_) {
-    // The predictor and the corrector of Mehrotra (1992).
+    // Compute the predictor step and the corrector step of Mehrotra (1992).
     Factor(model, regulator);
     ComputeStep(model, 0.0, false);
     const double ratio = MeanProduct(StepToBound()) / product;
     ComputeStep(model, product * ratio * ratio * ratio, true);
-    // Stop slightly before the nearest bound. The omitted fraction of the step is the predicted
-    // ratio of the new to the old complementarity products, within limits.
+    // Shorten the Newton step, so that it stops slightly before the nearest bound. The omitted
+    // fraction of the Newton step is the predicted ratio of the new to the old complementarity
+    // products, within limits.
     const double part = (1.0 - std::clamp(ratio, 1e-6, 0.01)) * StepToBound();
     for (Step& step : steps_) {
       step.input += part * step.turn;

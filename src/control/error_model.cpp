@@ -3,10 +3,10 @@
 // The continuous model (Rajamani 2012, ch. 2) is linear in the state, the steering rate, the
 // curvature and a constant. The exponential of the model's augmented matrix yields the exact time
 // step. The class Ahead moves a point along the path at the planned speed plus the car's present
-// excess speed. Between two knots of the speed profile, the acceleration a is constant. In a step
-// T, the point on the path therefore moves by v T + a T^2/2, until the point stops. The regulator
-// is found by doubling (Chu et al. 2004). The weight of the steering rate grows with the errors
-// (Megretski 1996).
+// excess speed. Between two knots of the speed profile, the acceleration a is constant. In a time
+// step T, a point with the speed v on the path therefore moves by v T + a T^2/2, until it stops.
+// The regulator is found by doubling (Chu et al. 2004). The weight of the steering rate in the
+// regulator's cost grows with the path errors (Megretski 1996).
 #include "src/control/error_model.h"
 
 #include <Eigen/LU>
@@ -57,15 +57,16 @@ double ExcessSpeed(const ControlInput& input) {
   return direction * input.state.speed - input.reference.speed.SpeedAt(input.station);
 }
 
-/// Returns the distance [m] that the car drives within `time` [s] from `station` on.
+/// Returns the distance [m] that the car drives within `time` [s] from `station` on, at the planned
+/// speed plus `excess`.
 double WayFrom(const ControlInput& input, double station, double excess, double time) {
   const SpeedProfile& planned = input.reference.speed;
   const double speed = planned.SpeedAt(station);
   const double acceleration = planned.AccelerationAt(station);
   const double rolling = acceleration < 0.0 ? std::min(time, speed / -acceleration) : time;
   const double way = (speed + 0.5 * acceleration * rolling) * rolling;
-  // Use a lower bound of the distance, because a car that is much slower than planned will speed
-  // up.
+  // Use a lower bound of the distance driven, because a car that is much slower than planned will
+  // speed up.
   return std::max(way + excess * time, std::min(way, SlowestSpeed(input.vehicle) * time));
 }
 
@@ -97,8 +98,8 @@ ErrorModel MakeErrorModelFor(const VehicleParams& vehicle, const Motion& motion,
   const double u = model.speed;
 
   // The augmented matrix maps the state x, the steering rate w, the curvature kappa and the
-  // constant c to their derivatives. The steering rate, kappa and c are assumed constant over a
-  // step. The exponential of the augmented matrix yields the exact discrete-time step.
+  // constant c to their derivatives. The steering rate, kappa and c are constant over a time step.
+  // The exponential of the augmented matrix yields the exact discrete-time step.
   using Augmented = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                                   ErrorModel::kMaxStates + 3, ErrorModel::kMaxStates + 3>;
   Augmented rates = Augmented::Zero(n + 3, n + 3);
@@ -239,12 +240,14 @@ Vector Ahead::Next(const ErrorModel& model) {
   };
   const PathPoint next = point(station_ + stride);
   if (next.direction != direction_) {
-    // The car stops at the cusp, and its wheels keep their angle until then.
+    // At a cusp of the path, return no disturbance: the car stops there, and its wheels keep their
+    // angle until then.
     return Vector::Zero(steady_.size());
   }
   station_ += stride;
-  // Mean curvature over the step, computed from the heading change so that it includes curvature
-  // jumps. For a step below kLeastStride, rounding errors would dominate the heading change.
+  // Mean path curvature over the prediction step, computed from the heading change so that it
+  // includes curvature jumps. For a step below kLeastStride, rounding errors would dominate the
+  // heading change.
   constexpr double kLeastStride = 1e-6;  // [m]
   const double mean = stride > kLeastStride
                           ? AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride)
@@ -254,7 +257,8 @@ Vector Ahead::Next(const ErrorModel& model) {
     motion.curvature = curvature;
     return OperateOn(input_.vehicle, model.tyres, motion).turn.steering;
   };
-  // A car in the steady turn x_0 leaves this turn only if the curvature changes.
+  // Add only changes of the path's curvature, because a car in the steady turn x_0 otherwise stays
+  // in this turn.
   const Vector after =
       steady_ + model.d * (mean - curvature_) +
       model.c * (TangentExcess(steering(mean)) - TangentExcess(steering(curvature_)));

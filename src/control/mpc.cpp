@@ -13,8 +13,8 @@ namespace {
 
 static_assert(MpcOptions::kMaxHorizon <= QuadraticProgram::kMaxVariables);
 
-/// Deviation z after a step, expressed as the linear function free + reach w of all steering rates
-/// w.
+/// Predicted deviation z from the steady turn after a step, as a linear function of all steering
+/// rates w: free + reach w.
 struct Prediction {
   ErrorModel::Vector free;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ErrorModel::kMaxStates,
@@ -66,7 +66,7 @@ class Mpc final : public SteeringController {
   }
 
  private:
-  /// Returns the duration of a prediction step [s].
+  /// Returns the duration of a step of MPC's prediction [s].
   [[nodiscard]] double Step(const ControlInput& input) const {
     constexpr double kStep = 0.1;
     const VehicleParams& vehicle = input.vehicle;
@@ -75,7 +75,7 @@ class Mpc final : public SteeringController {
                     input.period);
   }
 
-  /// Returns whether the linear model, which was made for another motion, holds for `motion`.
+  /// Returns whether the linear model `model`, made for a certain speed, also holds for `motion`.
   static bool Describes(const ErrorModel& model, const Motion& motion) {
     return model.speed == motion.speed;
   }

@@ -18,24 +18,26 @@
 #include "trackbed/core/angle.h"
 
 // MPPI in each control period:
-//   1. Shift the last plan, a steering rate for each step, by the control period.
-//   2. Replace the plan by the motion of a car that lqr steers, if this motion costs less.
-//   3. Compute the costs of roll-outs with deviations from the plan, on the threads of oneTBB.
-//   4. Average the deviations, weighted by exp(-cost/lambda), in a fixed order.
-//   5. Add the average deviation or half of it to the plan, or replace the plan by the cheapest
-//      roll-out, if this lowers the cost.
+//   1. Shift the last plan (a steering rate for each step) in time by the control period.
+//   2. Replace the plan by the steering rates of the controller lqr, if they have a lower cost.
+//   3. Compute in parallel (oneTBB) the costs of roll-outs, whose steering rates deviate randomly
+//      from the plan.
+//   4. Average the roll-outs' deviations from the plan, weighted by exp(-cost/lambda), in a fixed
+//      order.
+//   5. Add the average deviation, or half of it, to the plan if the sum costs less. Replace the
+//      plan by the cheapest roll-out if that costs even less.
 namespace trackbed {
 namespace {
 
-/// Number of intervals of a roll-out in which the deviation is constant.
+/// Number of intervals of a roll-out in which its deviation from the plan is constant.
 constexpr std::size_t kHolds = 10;
-/// Number of sizes of the random deviations from the plan, and the ratio of a size to the next
-/// smaller size. Small deviations refine the plan near its optimum; large deviations find ways
+/// Number of standard deviations (sizes) of the random changes to the plan, and the ratio between
+/// successive sizes. Small deviations refine the plan near its optimum; large deviations find ways
 /// around obstacles.
 constexpr std::size_t kSizes = 4;
 constexpr double kSizeRatio = 4.0;
-/// Fraction of the roll-outs whose costs define the spread of the costs. The costs of all other
-/// roll-outs, which may collide, do not affect the spread.
+/// Fraction of the roll-outs, the cheapest ones, whose range of costs scales the weights. Expensive
+/// roll-outs, which may collide, do not affect the range of costs.
 constexpr double kSpreadShare = 0.1;
 /// Cost per step below which a plan is optimal up to rounding.
 constexpr double kNoCost = 1e-20;
@@ -60,7 +62,7 @@ double NormalNumber(std::uint64_t seed, std::uint64_t counter) {
          std::cos(2.0 * kPi * uniform(2 * counter + 1));
 }
 
-/// Returns the default of MppiOptions::horizon for the car's present speed [s].
+/// Returns the default prediction horizon [s] for the car's present speed (MppiOptions::horizon).
 double DefaultHorizon(const ControlInput& input) {
   constexpr double kShortest = 1.0;  // [s]
   constexpr double kLongest = 5.0;   // [s]
@@ -120,7 +122,8 @@ class Mppi final : public SteeringController, public SeesSurroundings {
          .margin = options_.margin.value_or(0.25 * input.vehicle.width),
          .grip = options_.grip});
     if (Stands(input)) {
-      // Roll-outs assume that the car drives off at once, but a car at rest waits for its actuator.
+      // Do not use roll-outs at rest: they assume that the car starts at once, but it waits for its
+      // actuator.
       std::fill(plan_.begin(), plan_.end(), 0.0);
       elapsed_ = 0.0;
       return angle_.Turn(input, roll_out_.StartRate());
@@ -128,8 +131,9 @@ class Mppi final : public SteeringController, public SeesSurroundings {
     cost_ = CostOf(plan_);
     FollowRegulator();
     if (cost_ > kNoCost * static_cast<double>(steps_)) {
-      // Each random rate is held for the time `hold`. After kHolds rates with the standard
-      // deviation grip/sqrt(hold * horizon), the steering angle has the standard deviation `grip`.
+      // Each random steering rate is held for the time `hold`. If kHolds steering rates have the
+      // standard deviation grip/sqrt(hold * horizon), their integral, the steering angle, has the
+      // standard deviation `grip`.
       const double grip = SteeringAtGrip(input.vehicle, input.state.speed);
       const double hold = horizon / static_cast<double>(kHolds);
       Improve(options_.noise *
@@ -145,7 +149,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
         [&](int k, const RolledCar&) { return plan[static_cast<std::size_t>(k)]; });
   }
 
-  /// Replaces the plan by `other_` if this lowers the cost.
+  /// Replaces the plan by the plan `other_` if `other_` has a lower cost.
   void TakeIfCheaper() {
     const double cost = CostOf(other_);
     if (cost < cost_) {
@@ -154,7 +158,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
     }
   }
 
-  /// Replaces the plan by the motion of a car that lqr steers if this lowers the cost.
+  /// Replaces the plan by the steering rates of the controller lqr if they have a lower cost.
   void FollowRegulator() {
     const double most = roll_out_.rate_limit();
     static_cast<void>(roll_out_.Cost([&](int k, const RolledCar& car) {
@@ -164,14 +168,14 @@ class Mppi final : public SteeringController, public SeesSurroundings {
     TakeIfCheaper();
   }
 
-  /// Returns by how much a pair of roll-outs deviates from the plan in a step, as a multiple of the
-  /// largest standard deviation.
+  /// Returns by how much the steering rates of a pair of roll-outs deviate from the plan in a step,
+  /// as a multiple of the largest standard deviation.
   [[nodiscard]] double Deviation(std::size_t pair, std::size_t step) const {
     return noise_[pair * kHolds + step * kHolds / steps_];
   }
 
-  /// Returns the steering rate of a roll-out in a step. A roll-out with an odd number has the
-  /// opposite deviation of the preceding roll-out.
+  /// Returns the steering rate of a roll-out in a step. Each roll-out with an odd number deviates
+  /// from the plan opposite to the preceding roll-out.
   [[nodiscard]] double SampledRate(std::size_t roll_out, std::size_t step, double size) const {
     const double side = roll_out % 2 == 0 ? size : -size;
     const double most = roll_out_.rate_limit();
@@ -208,7 +212,8 @@ class Mppi final : public SteeringController, public SeesSurroundings {
     }
   }
 
-  /// Computes the weighted mean of the deviations from the plan. `least` is the lowest cost.
+  /// Computes the weighted mean of the roll-outs' deviations from the plan. `least` is the lowest
+  /// cost of a roll-out.
   void Average(double least, double size) {
     sorted_ = costs_;
     const auto at = sorted_.begin() +
@@ -234,7 +239,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
     }
   }
 
-  /// Returns the mean rate of the plan within the control period [rad/s].
+  /// Returns the plan's mean steering rate over the control period [rad/s].
   [[nodiscard]] double FirstRate(double period) const {
     const double steps = std::min(period / step_, static_cast<double>(steps_));
     double turned = 0.0;
@@ -266,7 +271,7 @@ class Mppi final : public SteeringController, public SeesSurroundings {
   MppiOptions options_;
   std::size_t steps_;          // Number of steps of a roll-out.
   std::size_t pairs_;          // Number of pairs of roll-outs.
-  std::vector<double> noise_;  // Deviations of each pair, as multiples of the largest sigma.
+  std::vector<double> noise_;  // Deviations of each roll-out pair, in units of the largest sigma.
   std::vector<double> plan_;   // Steering rate of each step [rad/s].
   double step_ = 0.0;          // Duration of a step of the plan [s]; 0 before the first plan.
   double elapsed_ = 0.0;       // Time since the plan began [s].

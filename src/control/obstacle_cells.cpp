@@ -18,7 +18,7 @@ Rectangle RectangleIn(const Pose2& X_WA, const OrientedBox& box) {
           .half_width = 0.5 * box.width};
 }
 
-/// Returns the gap between `a` and `b` along the two axes of `a`.
+/// Returns the larger of the gaps between two rectangles along the two axes of the rectangle `a`.
 double GapAlongAxes(const Rectangle& a, const Rectangle& b) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
@@ -77,8 +77,8 @@ void ObstacleCells::FillCells() {
   pairs_.clear();
   for (std::size_t i = 0; i < still_.size(); ++i) {
     const Rectangle& box = still_[i];
-    // If the middle of the car is outside the cells from `low` to `high`, the car is farther away
-    // from the rectangle than the margin.
+    // Enter the rectangle in the cells from `low` to `high`. A car whose middle is in no such cell
+    // is farther from the rectangle than the margin.
     const double x = box.half_length * std::abs(box.cosine) + box.half_width * std::abs(box.sine);
     const double y = box.half_length * std::abs(box.sine) + box.half_width * std::abs(box.cosine);
     const double wider = radius_ + margin_;
@@ -98,7 +98,8 @@ void ObstacleCells::FillCells() {
   for (std::size_t cell = 0; cell < kCells; ++cell) {
     begins_[cell + 1] += begins_[cell];
   }
-  // Fills each cell from its end, so that begins_[cell + 1] becomes the start of the cell.
+  // Fill the list of each grid cell from its end, so that begins_[cell + 1] becomes the start of
+  // the cell's list.
   members_.resize(pairs_.size());
   for (const auto& [cell, box] : pairs_) {
     members_[--begins_[cell + 1]] = box;

@@ -9,7 +9,7 @@
 
 namespace trackbed {
 
-/// A rectangle whose direction is given by its cosine and sine.
+/// A rectangle whose heading is stored as cosine and sine.
 struct Rectangle {
   double x = 0.0;  ///< Middle [m].
   double y = 0.0;
@@ -19,22 +19,24 @@ struct Rectangle {
   double half_width = 0.0;   ///< [m]
 };
 
-/// Returns the largest gap between two rectangles along the axes of both: negative exactly if they
-/// overlap, otherwise at most their distance [m], and at least their distance divided by sqrt(2).
+/// Returns the largest gap between two rectangles along the axes of both rectangles [m]. A negative
+/// gap means that the rectangles overlap. The gap of disjoint rectangles is at most their distance,
+/// and at least their distance divided by sqrt(2).
 double GapOf(const Rectangle& a, const Rectangle& b);
 
-/// The obstacles near a car, in cells of a grid for fast queries. All coordinates are in a frame A
-/// of the world.
+/// Stores the obstacles near a car in a grid, for fast queries of the distance. All coordinates are
+/// in a frame A that is fixed in the world.
 class ObstacleCells {
  public:
-  /// Stores the obstacles whose distance from the car may be below `margin` [m] within `duration`
-  /// [s], while the middle of the car stays within `reach` [m] of the origin of A. The argument
+  /// Stores the obstacles that may come within `margin` [m] of the car during `duration` [s]. The
+  /// middle of the car must stay within `reach` [m] of the origin of the frame A. The argument
   /// `radius` [m] is the radius of the circle around the car.
   void Take(const std::vector<SeenObstacle>& obstacles, const Pose2& X_WA, double reach,
             double radius, double margin, double duration);
 
   [[nodiscard]] bool empty() const { return still_.empty() && moving_.empty(); }
-  /// Returns the smallest GapOf the car and any obstacle at `time` [s], but at most `margin`.
+  /// Returns the smallest gap (GapOf) between the car and any obstacle at `time` [s], but at most
+  /// `margin`.
   [[nodiscard]] double Gap(const Rectangle& car, double time) const;
 
  private:
@@ -53,9 +55,9 @@ class ObstacleCells {
   double margin_ = 0.0;
   std::vector<Rectangle> still_;
   std::vector<Moving> moving_;
-  // The rectangles of cell i are still_[members_[k]] for begins_[i] <= k < begins_[i + 1].
+  // The rectangles near grid cell i are still_[members_[k]] for begins_[i] <= k < begins_[i + 1].
   std::vector<std::size_t> begins_;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs_;  // Cell and rectangle.
+  std::vector<std::pair<std::size_t, std::size_t>> pairs_;  // Indices of grid cell and rectangle.
   std::vector<std::size_t> members_;
 };
 

@@ -19,13 +19,13 @@ struct SteeringInterval {
   double start = 0.0;
 };
 
-/// Returns the largest angle by which the wheels can turn while the car drives the problem's
-/// distance [rad].
+/// Returns the largest angle [rad] by which the wheels can turn while the car drives the distance
+/// given in `problem`.
 double Reach(const VehicleParams& vehicle, const SteeringProblem& problem) {
   return vehicle.steering_rate * std::abs(problem.distance) / problem.speed;
 }
 
-/// Subtracts the poses component by component, without rotation, since the cost does not depend on
+/// Subtracts two poses component by component in the world frame, since the cost does not depend on
 /// the direction of the axes.
 Deviation Difference(const Pose2& actual, const Pose2& wanted) {
   return {actual.x - wanted.x, actual.y - wanted.y, actual.yaw - wanted.yaw};
@@ -71,14 +71,15 @@ Pose2 PredictPose(const VehicleParams& vehicle, double steering, double wanted, 
   const double ramp = std::min(speed * move.ramp_time, std::abs(distance));
   Pose2 pose;
   if (ramp > 0.0) {
-    // The heading is the integral of tan(delta)/L over s, with delta = delta_0 + slope s.
+    // The heading is the integral of tan(delta)/L over s, where the steering angle delta = delta_0
+    // + slope s changes linearly with the distance s.
     const double slope = move.rate / speed;
     const double cosine = std::cos(steering);
     const auto heading = [&](double s) {
       return direction * std::log(cosine / std::cos(steering + slope * s)) /
              (vehicle.wheelbase * slope);
     };
-    // The integrals of x and y use the same quadrature nodes.
+    // Use the same quadrature nodes for the integrals of both coordinates x and y.
     using Quadrature = boost::math::quadrature::gauss<double, 10>;
     const double half = 0.5 * ramp;
     Vec2 sum = Vec2::Zero();
@@ -128,8 +129,8 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
   const double limit = problem.max_steering;
   const double lower = TurnShare(vehicle, own, -limit);
   const double upper = TurnShare(vehicle, own, limit);
-  // Start the search inside the bounds, because a simplex that starts on a bound gets stuck if the
-  // second point has a higher cost.
+  // Start the search inside the bounds, because a simplex search that starts on a bound gets stuck
+  // if its second point has a higher cost.
   const double margin = 0.05 * (upper - lower);
   const double start =
       std::clamp(TurnShare(vehicle, own, side * problem.start), lower + margin, upper - margin);

@@ -70,8 +70,8 @@ class OptimalSteeringController final : public SteeringController {
   }
 
  private:
-  /// Station of the primary (the path point to which the car is compared), and the primary's
-  /// planned speed if the matching method needs it.
+  /// Station of the primary, which is the path point to which the car is compared. Some matching
+  /// methods also need the primary's planned speed.
   struct Primary {
     double station = 0.0;
     std::optional<double> speed;
@@ -89,8 +89,8 @@ class OptimalSteeringController final : public SteeringController {
     return {station, std::max(input.reference.speed.SpeedAt(station), kCrawl)};
   }
 
-  /// Returns the path's pose at `station` with an unwrapped yaw. The returned yaw differs from the
-  /// car's yaw by all turning of the path between car and station, including full turns.
+  /// Returns the path's pose at `station` with an unwrapped yaw. The returned yaw counts all
+  /// turning of the path between the car and `station`, including full turns.
   static Pose2 RelativePathPose(const ControlInput& input, double station) {
     const Path& path = input.reference.path;
     const double here = path.At(input.station).pose.yaw;

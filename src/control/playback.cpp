@@ -33,8 +33,8 @@ class PlaybackController final : public SteeringController {
   }
 
  private:
-  /// Recordings over distance use the car's odometer and not the plan's station, because a new plan
-  /// must not restart the recording.
+  /// Look up recordings over distance by the car's odometer, not by the plan's station, because a
+  /// new plan must not restart the recording.
   [[nodiscard]] double Axis(const ControlInput& input) const {
     return options_.by == PlaybackAxis::kTime ? input.state.time : input.state.distance;
   }
@@ -48,7 +48,7 @@ double AxisAdvance(const PlaybackOptions& options, double speed, double period) 
   return options.by == PlaybackAxis::kTime ? period : std::abs(speed) * period;
 }
 
-/// Returns the last time of a recording over time [s]; none for a recording over distance.
+/// Returns the last time [s] of a recording over time, or nullopt for a recording over distance.
 std::optional<double> DurationOf(const PlaybackOptions& options) {
   const Signal& steering = options.recording.steering;
   if (options.by != PlaybackAxis::kTime || steering.empty() || steering.knots.back().x() <= 0.0) {
@@ -69,8 +69,8 @@ bool ReplaysRecord(const PlaybackOptions& options) {
   return options.file.empty();
 }
 
-/// Checks the recording of a scenario that a program filled in. The reader of scenario files checks
-/// the files of recordings.
+/// Checks the recording in a scenario that was created by a program instead of a file. Recordings
+/// in files are checked by the reader of scenario files.
 std::vector<OptionProblem> CheckRecording(const PlaybackOptions& options,
                                           const CouldReadKey& /*could_read*/) {
   const Recording& recording = options.recording;
@@ -98,7 +98,8 @@ std::vector<OptionProblem> CheckRecording(const PlaybackOptions& options,
   return problems;
 }
 
-/// Returns the default options, which hold until a file is read: a recording of straight driving.
+/// Returns the default options of the playback, used until a recording file is read: straight
+/// driving.
 PlaybackOptions StraightOn() {
   PlaybackOptions options;
   options.recording.steering = {{{0.0, 0.0}}};

@@ -27,8 +27,8 @@ class Preview final : public SteeringController {
     if (options_.distance) {
       path_.UpdateWithoutRamps(input);
     } else {
-      // On a straight path, the station of the point at the distance R is at most R ahead. In a
-      // turn of up to 200 degrees, the station is less than 2 R ahead.
+      // In a turn of up to 200 degrees, a preview point at the distance R from the car is less than
+      // 2 R farther along the path.
       path_.Update(input, std::max(TimelySteering::Horizon(input),
                                    2.0 * std::max(least, ReturnDistance(input))));
     }
@@ -64,19 +64,20 @@ class Preview final : public SteeringController {
 
  private:
   /// Returns the heading error [rad] of the car in the steady turn on its path. The curvature of
-  /// the turn is the mean over the next wheelbase, so that a short flaw of the path does not move
-  /// the wheels.
+  /// the steady turn is the path's mean curvature over the next wheelbase, so that a short flaw of
+  /// the path does not move the wheels.
   [[nodiscard]] double SteadyHeading(const ControlInput& input, int direction) const {
     const double ahead = input.vehicle.wheelbase;
     const double turned =
         AngleDifference(path_.At(input.station + ahead).pose.yaw, path_.At(input.station).pose.yaw);
     const double speed = direction * std::abs(input.state.speed);
-    // A slip angle of SteadyTurnOn is the ratio of the lateral to the longitudinal speed.
+    // The heading error that SteadyTurnOn returns is the ratio of lateral to longitudinal speed,
+    // not an angle.
     return std::atan(
         SteadyTurnOn(input.vehicle, turned / (direction * ahead), speed).heading_error);
   }
 
-  /// Returns the steering angle delta for a curvature [rad].
+  /// Returns the steering angle delta [rad] for a given curvature of the car's path.
   [[nodiscard]] double SteeringOn(const ControlInput& input, double curvature,
                                   int direction) const {
     const double speed = direction * std::abs(input.state.speed);

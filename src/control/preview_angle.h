@@ -15,9 +15,9 @@ double PreviewStation(const SomePath& path, const Vec2& p, double station, doubl
   if (beyond(station) >= 0.0) {
     return station + distance;
   }
-  // A path leaves the circle with radius `distance` around `p` no earlier than a straight line
-  // would. Steps of an eighth of `distance` find the first crossing if the path's radii of
-  // curvature are larger than a step.
+  // A path leaves the circle of radius `distance` around `p` no earlier than a straight path would.
+  // Steps of `distance`/8 find the path's first crossing of the circle if its radii of curvature
+  // exceed one step.
   const double stride = distance / 8.0;
   double inside = station;
   while (beyond(inside + stride) < 0.0) {

@@ -10,25 +10,25 @@
 namespace trackbed {
 namespace {
 
-constexpr double kWheelbases = 0.75;  ///< Minimum ratio of the preview distance R to the wheelbase
-                                      ///< L.
-/// Minimum ratio of the preview distance R to the distance v T that the car drives in its response
-/// time.
+constexpr double kWheelbases = 0.75;  ///< Minimum ratio of preview distance to wheelbase.
+/// Minimum ratio of the preview distance R to v T, the distance driven at the speed v in the
+/// response time T.
 constexpr double kResponses = 3.0;
 constexpr double kRampShare = 0.65;  ///< Factor of the ramp length S in the preview distance R.
-/// Ratio by which the distance from the car grows between successive sampled stations. A curvature
-/// step between two sampled stations is assumed at the station closer to the car.
+/// Ratio of the distances of successive sampled stations from the car. A curvature step between two
+/// sampled stations is assumed at the station closer to the car.
 constexpr double kSpacingRatio = 1.3;
 
-/// Computes the ramp length S [m] for a range of stations that can be extended at both ends.
+/// Computes the ramp length S [m], driven while the wheels lag behind the path, for a range of
+/// stations that can be extended.
 class RampScan {
  public:
   explicit RampScan(double turned)
       : min_minus_(turned), max_minus_(turned), min_plus_(turned), max_plus_(turned) {}
 
-  /// Adds a station at the signed distance `s` [m] from the car; `turned` is the value of v
-  /// delta/omega at this station [m]. A curvature step may lie anywhere in the `gap` [m] between
-  /// this station and the car.
+  /// Adds a station at the signed distance `s` [m] from the car. The argument `turned` is v
+  /// delta/omega at the station [m], with the steering angle delta and the steering rate omega. A
+  /// curvature step may lie anywhere within `gap` [m] before the added station.
   void Extend(double turned, double s, double gap) {
     if (s > 0.0) {
       ramp_ = std::max({ramp_, turned - s - min_minus_ + gap, max_plus_ - turned - s + gap});
@@ -45,21 +45,22 @@ class RampScan {
 
  private:
   double ramp_ = 0.0;
-  // Extreme values of turned - s and turned + s over all stations added so far.
+  // Extreme values of turned - s and turned + s over all sampled stations s added so far.
   double min_minus_;
   double max_minus_;
   double min_plus_;
   double max_plus_;
 };
 
-/// Returns the preview distance 0.65 S + v T for steering ramps at `speed`, but at least
-/// `shortest`; `response` is v T [m].
+/// Returns the preview distance 0.65 S + v T, with the ramp length S, but at least `shortest`. The
+/// argument `response` is the distance v T [m] driven in the response time T.
 double RampPreview(const ControlInput& input, double speed, double response, double shortest) {
   const Path& path = input.reference.path;
   const VehicleParams& vehicle = input.vehicle;
   // Distance that the car drives while the wheels turn by one radian [m/rad].
   const double way = speed / vehicle.steering_rate;
-  // Reuse the previous station's steering angle if the curvature is the same, as at most stations.
+  // Reuse the previous station's steering angle if the path's curvature has not changed, to save
+  // time.
   std::optional<double> last_curvature;
   double last_turned = 0.0;
   const auto turned = [&](const PathBend& bend) {
@@ -108,11 +109,11 @@ double RampPreview(const ControlInput& input, double speed, double response, dou
 
 /// Returns the lowest planned speed [m/s] within `distance` of the car, which drives at `speed`.
 /// The plan slows down before curvature steps, so the car passes a curvature step at the lowest
-/// planned speed. SlowestWithin returns at least a quarter of `speed`, so that a planned stop does
+/// planned speed. The returned speed is at least a quarter of `speed`, so that a planned stop does
 /// not shrink the preview distance to zero.
 double SlowestWithin(const ControlInput& input, double speed, double distance) {
   constexpr int kSamples = 6;
-  // Lower bound of the result as a fraction of the car's speed.
+  // Lower bound of the returned speed as a fraction of the car's speed.
   constexpr double kMinSpeedFraction = 0.25;
   const SpeedProfile& profile = input.reference.speed;
   double slowest = speed;
@@ -163,12 +164,12 @@ double HeldPreviewDistance::Next(const ControlInput& input, double delay) {
 }
 
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset) {
-  // The factor kShare was determined by trial, with offsets of 0.2 to 4 m and preview distances of
-  // 2 to 4 m. With kShare = 1.5, all cars converge to the path. With kShare = 1, some cars
-  // oscillate forever; with kShare = 2, all cars converge more slowly.
+  // The factor kShare was determined by simulations with initial offsets of 0.2 to 4 m and preview
+  // distances of 2 to 4 m. With kShare = 1.5, all cars converge to the path. With kShare = 1, some
+  // cars oscillate about the path forever; with kShare = 2, all cars converge more slowly.
   constexpr double kShare = 1.5;
-  // At speeds below this multiple of wheelbase times steering rate, the car is restricted by the
-  // limit of its steering angle, not by the limit of its steering rate.
+  // Multiple of wheelbase times steering rate. At lower speeds, the limit of the steering angle
+  // restricts the car, not the limit of the steering rate.
   constexpr double kMinSpeed = 1.25;
   const double slowest = kMinSpeed * vehicle.wheelbase * vehicle.steering_rate;
   const double curvature_rate =
@@ -176,7 +177,8 @@ double ReturnDistance(const VehicleParams& vehicle, double speed, double offset)
   // Tyres and actuator respond late, so the car drives the distance `response` before it turns.
   const double response = std::abs(speed) * ResponseTime(vehicle, speed, 0.0);
   const double turning = kShare * std::cbrt(std::abs(offset) / curvature_rate) + response;
-  // From the offset e, the arc to a path point at the distance R has the curvature 2 e/R^2.
+  // An arc from the cross-track offset e to a path point at the distance R has the curvature 2
+  // e/R^2.
   const double gripping = std::abs(speed) * std::sqrt(2.0 * std::abs(offset) /
                                                       (kReturnGripShare * LateralGrip(vehicle)));
   return std::max(turning, gripping);

@@ -4,7 +4,7 @@
 
 /// Default preview distance R [m] of controllers that steer toward a point of the path. The
 /// controller `preview` steers toward a point of RampedPath, which has no curvature steps, and uses
-/// only the first two terms of R.
+/// only the terms 3/4 L and 3 v T of the preview distance R (L: wheelbase, T: response time).
 ///
 /// The symbols are:
 ///   L      wheelbase [m]
@@ -26,19 +26,20 @@
 ///
 /// Reason for the term 3 v T: consider a kinematic car with a first-order steering lag T that
 /// follows a straight path. The car's characteristic polynomial is T s^3 + s^2 + (2 v/R) s + 2
-/// v^2/R^2. The motion is stable for R > v T (Routh), with a damping ratio of 0.37 at R = 3 v T and
-/// of 1/2 at R = 4 v T. For pure delays instead of lags, see Heredia and Ollero 2007. Preview
-/// distances proportional to the speed are common (Snider 2009). The time m v/(C_f + C_r) is the
-/// time constant of the tyres' lateral response.
+/// v^2/R^2. The car's motion is stable for preview distances R > v T (Routh). The motion's damping
+/// ratio is 0.37 at R = 3 v T and 1/2 at R = 4 v T. Heredia and Ollero 2007 treat a pure steering
+/// delay instead of a lag. Preview distances proportional to the speed are common (Snider 2009).
+/// The tyres' lateral response has the time constant m v/(C_f + C_r), with the cornering
+/// stiffnesses.
 ///
-/// Reason for the term 0.65 S + v T: at a curvature step, wheels with a limited steering rate need
-/// the distance S to turn. Ideally, half of the ramp length S lies before the curvature step, and
-/// half behind the step. With a preview distance below S/2, the wheels begin to turn too late, and
-/// the car swings out. In the term 0.65 S, the factor 0.65 instead of 1/2 leaves a margin for model
-/// errors. With the preview distance 0.65 S + v T, a car deviates by about kappa S^2/24 at a
-/// curvature step of size kappa. A path with a curvature ramp of length S deviates by the same
-/// distance from the path with the step. The distance S is 0 if the wheels can follow the path's
-/// curvature.
+/// Reason for the term 0.65 S + v T: at a step of the path's curvature, wheels with a limited
+/// steering rate need the ramp length S to turn. Ideally, half of the ramp length S lies before the
+/// curvature step, and half behind the step. With a preview distance below half of the ramp length
+/// S, the wheels begin to turn too late, and the car swings out. In the term 0.65 S of the preview
+/// distance, the factor 0.65 instead of 1/2 leaves a margin for model errors. With the preview
+/// distance 0.65 S + v T, a car deviates by about kappa S^2/24 at a curvature step of size kappa.
+/// Kappa S^2/24 is also the lateral distance between a path with a curvature ramp of length S and a
+/// path with the step. The ramp length S is 0 if the wheels can follow the path's curvature.
 namespace trackbed {
 
 /// Lower bound for speeds that are used as divisors [m/s].
@@ -48,12 +49,13 @@ inline constexpr double kCrawl = 0.5;
 /// are designed.
 inline constexpr double kReturnOffset = 0.125;
 
-/// Returns the response time T [s] of a car at `speed` with the control period `period`. The term m
-/// v/(C_f + C_r) of the response time T is 0 for a car without tyre coefficients.
+/// Returns the response time T [s] of a car at `speed` with the control period `period`. The time
+/// constant m v/(C_f + C_r) of the tyres is 0 for a car without tyre coefficients.
 double ResponseTime(const VehicleParams& vehicle, double speed, double period);
 
 /// Returns the default preview distance R [m] on a straight path: max(3/4 L, 3 v T), with the
-/// wheelbase L, the speed v and the response time T. The argument `delay` [s] is added to T.
+/// wheelbase L, the speed v and the response time T. The argument `delay` [s] is added to the
+/// response time T.
 double ShortestPreview(const VehicleParams& vehicle, double speed, double period,
                        double delay = 0.0);
 
@@ -63,11 +65,12 @@ double ShortestPreview(const VehicleParams& vehicle, double speed, double period
 /// an approximation. The sampling of the path's steering stops at the ends and cusps of the path.
 double PreviewDistance(const ControlInput& input, double delay = 0.0);
 
-/// The preview distance of a controller over time. PreviewDistance grows when a curvature step
-/// comes within reach, and shrinks at once when the step is no longer within reach. A preview point
-/// that moved backwards would make the steering command jump. HeldPreviewDistance therefore shrinks
-/// by at most the distance that the car drives, so the preview point never moves backwards. After a
-/// change of the direction of motion, the result is that of PreviewDistance.
+/// Limits how fast a controller's preview distance shrinks over time. PreviewDistance grows when a
+/// curvature step enters the previewed range, and shrinks at once when the step leaves this range.
+/// A preview point that moved backwards would make the steering command jump. HeldPreviewDistance
+/// therefore shrinks by at most the distance that the car drives, so the preview point never moves
+/// backwards. After a change of the direction of motion, HeldPreviewDistance starts again with the
+/// result of PreviewDistance.
 class HeldPreviewDistance {
  public:
   /// Returns the preview distance R [m] for the car's present state, with `delay` [s] added to the
@@ -81,12 +84,15 @@ class HeldPreviewDistance {
 
 /// Returns the shortest preview distance [m] with which a rate-limited car at `speed` returns from
 /// `offset` [m] to its path without oscillation and without sliding. At the maximum steering rate,
-/// the curvature of the car's track changes by c = omega/(L v) per meter. The distance of a return
-/// from an offset e is proportional to cbrt(e/c), plus the distance v T that the car drives before
-/// it responds. T is the response time without the control period. If `speed` is below 5/4 L omega,
-/// c is computed with 5/4 L omega instead of v. The returned distance is at least v sqrt(2 e/a),
-/// with a the fraction kReturnGripShare of LateralGrip (steering_limit.h). The lateral acceleration
-/// then does not exceed a: on an arc toward a point at the distance R, it is 2 e v^2/R^2.
+/// the curvature of the car's motion changes by c = omega/(L v) per meter, with the wheelbase L.
+/// The distance of a return from an offset e is proportional to cbrt(e/c), with the curvature
+/// change c per meter. ReturnDistance also includes the distance v T that the car drives before it
+/// responds. The response time T of ReturnDistance excludes the control period. At a speed v below
+/// 5/4 L omega, the curvature change omega/(L v) per meter is computed for v = 5/4 L omega. The
+/// returned distance is at least v sqrt(2 e/a), with the offset e and the acceleration a =
+/// kReturnGripShare LateralGrip (steering_limit.h). The bound v sqrt(2 e/a) limits the lateral
+/// acceleration to a, since an arc toward a point at the distance R has the lateral acceleration 2
+/// e v^2/R^2.
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset);
 
 /// Computes ReturnDistance (see above) for the car's present speed and its present offset from the

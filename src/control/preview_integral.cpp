@@ -16,14 +16,16 @@
 #include "src/control/turn_round.h"
 
 // MacAdam's optimal preview control (MacAdam 1981):
-//   1. Choose the preview distance R at which this law and the single-point law have equal gains.
-//   2. Compute the car's free motion y_0 and its response A to a unit step of the steering at ten
-//      Gauss nodes within R, by the linear single-track model; without tyres, by the kinematic one.
+//   1. Choose the preview distance R at which MacAdam's law and the single-point preview law have
+//      equal gains.
+//   2. At ten Gauss nodes within R, compute the car's free motion y_0 and its response A to a unit
+//      step of the steering. Use the linear single-track model, or the kinematic model if the tyres
+//      are unknown.
 //   3. Steer by the angle that minimizes the weighted integral of the squared distance from the
 //      path: int (f - y_0) A W / int A^2 W, with the lateral displacement f of the path and the
 //      weight W.
-//   4. Reduce the steering angle so far that the wheels can turn back in time (TimelySteering), and
-//      delay the angle.
+//   4. Reduce the steering angle until the wheels can turn back in time (TimelySteering). Finally,
+//      apply the configured delay to the steering angle.
 namespace trackbed {
 namespace {
 
@@ -31,10 +33,10 @@ namespace {
 /// kinematic and the dynamic model differ by less than 1 %.
 constexpr double kMinDynamicSpeed = 1.0;
 
-/// Predicted lateral displacement of the car at a future time.
+/// Predicted lateral displacement of the car, without steering and due to steering.
 struct Responses {
   double free = 0.0;  ///< Lateral displacement y_0 that the car would have without steering [m].
-  /// Lateral displacement A of the car caused by a unit step of the steering angle [m].
+  /// Lateral displacement A of the car caused by a steering angle step of 1 rad [m/rad].
   double step = 0.0;
 };
 
@@ -45,7 +47,8 @@ Responses KinematicResponses(const ControlInput& input, double way) {
 }
 
 /// Returns the lateral displacements of the linear single-track car after driving forward for
-/// `time` [s]. The model's states (y, psi, v, r) are relative to the car's present frame.
+/// `time` [s]. The states (y, psi, v, r) of the single-track model are lateral displacement,
+/// heading, lateral speed and yaw rate, relative to the car's present pose.
 Responses SingleTrackResponses(const ControlInput& input, double time) {
   const VehicleParams& vehicle = input.vehicle;
   const VehicleState& state = input.state;
@@ -71,8 +74,8 @@ class PreviewIntegral final : public SteeringController {
     UpdatePath(input, TimelySteering::Horizon(input));
     const Tracking tracking = path_.Track();
     const double distance = Distance(input, direction, tracking.cross_track);
-    // In a turn of up to 200 degrees, the station of the point at the distance R is less than 2 R
-    // ahead.
+    // In a turn of up to 200 degrees, a point at the distance R from the car is less than 2 R
+    // farther along the path.
     UpdatePath(input, std::max(TimelySteering::Horizon(input), 2.0 * distance));
     const Pose2& pose = input.state.pose;
     const double angle = AngleTo(path_, direction, pose, input.station, distance);
@@ -102,14 +105,14 @@ class PreviewIntegral final : public SteeringController {
  private:
   /// A node of the quadrature over the previewed path.
   struct Node {
-    double way = 0.0;     // Distance ahead [m].
+    double way = 0.0;     // Distance from the car along its motion [m].
     double weight = 0.0;  // Weight of the quadrature times the weight W of the previewed point.
     Responses responses;
   };
   using Gauss = boost::math::quadrature::gauss<double, 10>;
 
-  /// Returns the quadrature nodes over the preview distance. The car's responses at the nodes come
-  /// from the model for its present speed.
+  /// Returns the quadrature nodes over the preview distance. The car's lateral responses at the
+  /// quadrature nodes are computed by the car model for the present speed.
   [[nodiscard]] std::array<Node, 10> Nodes(const ControlInput& input, int direction,
                                            double distance) const {
     const bool dynamic = IsDynamic(input, direction);
@@ -132,7 +135,7 @@ class PreviewIntegral final : public SteeringController {
   }
 
   /// Updates the ramped path up to `ahead` [m] ahead of the car. If the options set a preview
-  /// distance, the path has no ramps.
+  /// distance, the path is used without curvature ramps.
   void UpdatePath(const ControlInput& input, double ahead) {
     if (options_.distance) {
       path_.UpdateWithoutRamps(input);
@@ -160,7 +163,7 @@ class PreviewIntegral final : public SteeringController {
     return std::clamp(direction * std::atan(moved / square), -limit, limit);
   }
 
-  /// Returns the preview distance R [m].
+  /// Returns the preview distance R [m] of MacAdam's law.
   double Distance(const ControlInput& input, int direction, double cross_track) {
     const double speed = input.state.speed;
     const double single = std::max(
@@ -171,19 +174,20 @@ class PreviewIntegral final : public SteeringController {
                      DistanceOfEqualGain(input, direction, single)});
   }
 
-  /// Returns the preview distance R [m] at which this law and the single-point law respond to an
-  /// offset with equal gains. The single-point law has the preview distance R_1 = `single`. The
-  /// gain of the single-point law with the preview distance R_1 is 2 L'/R_1^2, where L' is the
-  /// ratio of steering angle to curvature in a steady turn. For the kinematic car, L' is the
-  /// wheelbase, and R/R_1 is the square root of the ratio of the two laws' gains at equal preview
-  /// distances. Tyres respond late, so the step response A(eta) is smaller than for the kinematic
-  /// car, and the gain int A W/int A^2 W is larger. For a car with tyres, R is therefore longer:
-  /// with the kinematic ratio, a car with a limited steering rate would oscillate about its path
-  /// forever.
+  /// Returns the preview distance R [m] at which MacAdam's law and the single-point preview law
+  /// respond to an offset with equal gains. The single-point law has the preview distance R_1 =
+  /// `single`. The gain of the single-point law with the preview distance R_1 is 2 L'/R_1^2, where
+  /// L' is the ratio of steering angle to curvature in a steady turn. For the kinematic car, L' is
+  /// the wheelbase. For the kinematic car, the ratio R/R_1 of preview distances is the square root
+  /// of KinematicGainRatio. Because tyres respond late, the step response A is smaller than for the
+  /// kinematic car. The gain int A W/int A^2 W, with the weight W, is then larger. A car with tyres
+  /// needs a longer preview distance R. With the kinematic car's R, a car with a limited steering
+  /// rate would oscillate about its path forever.
   [[nodiscard]] double DistanceOfEqualGain(const ControlInput& input, int direction,
                                            double single) const {
     double distance = std::sqrt(KinematicGainRatio()) * single;
-    // The gain is nearly proportional to R^-2.5, so each iteration divides the error by -4.
+    // The law's gain is nearly proportional to R^-2.5, with the preview distance R, so each
+    // iteration divides the error of R by -4.
     constexpr int kIterations = 5;
     constexpr double kTolerance = 0.01;
     constexpr double kGentle = 1e-6;  // [1/m]
@@ -206,8 +210,8 @@ class PreviewIntegral final : public SteeringController {
     return distance;
   }
 
-  /// Returns, for the kinematic car, the ratio of this law's gain on a lateral offset to the gain
-  /// of the single-point law with the same preview distance. The ratio is R^2/2 times the integral
+  /// Returns the ratio of the gains of MacAdam's law and the single-point law on a lateral offset,
+  /// for a kinematic car and equal preview distances R. The gain ratio is R^2/2 times the integral
   /// of A W divided by the integral of A^2 W, with the step response A and the weight W.
   [[nodiscard]] double KinematicGainRatio() const {
     return options_.weight == PreviewWeight::kNear ? 5.0 / 2.0 : 5.0 / 3.0;

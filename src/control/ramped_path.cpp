@@ -8,9 +8,9 @@
 namespace trackbed {
 namespace {
 
-/// Ratio of the tail's length to the ramp's length.
+/// Ratio of the lengths of tail and curvature ramp (RampedPath).
 constexpr double kTail = 2.0;
-/// Minimum ratio of the tail's length to the ramp's length. At this ratio, the tail needs at most
+/// Minimum ratio of the lengths of tail and curvature ramp. At this ratio, the tail needs at most
 /// 1.25 times the maximum steering rate.
 constexpr double kShortestTail = 1.0;
 
@@ -21,19 +21,20 @@ struct Offset {
   double bend = 0.0;
 };
 
-/// Largest second derivative of the polynomial (1 - u)^3 (1 + 3 u + 6 u^2).
+/// Largest second derivative of the polynomial (1 - u)^3 (1 + 3 u + 6 u^2), the shape of a tail for
+/// u from 0 to 1.
 const double kTailBend = 10.0 / std::sqrt(3.0);
 
 /// Returns the offset of the ramped path at the distance x from a curvature step of height 1. The
-/// fraction `before` of the ramp's sideways shift lies ahead of the step.
+/// fraction `before` of the ramp's sideways shift lies before the curvature step.
 Offset OffsetFrom(double x, double ramp, double tail, double before) {
   const double side = x < 0.0 ? -1.0 : 1.0;
   const double half = 0.5 * ramp;
   const double d = std::abs(x);
   const double end = (x < 0.0 ? -before : 1.0 - before) * ramp * ramp / 24.0;
   if (d < half) {
-    // On the ramp, the second derivative of the offset is linear in the distance x. At the end of
-    // the ramp, the slope and the second derivative of the offset are 0.
+    // On the curvature ramp, the second derivative of the offset is linear in the distance x from
+    // the step. At the ramp's end, the slope and the second derivative of the offset are 0.
     const double left = half - d;
     return {.e = end - side * left * left * left / (6.0 * ramp),
             .slope = left * left / (2.0 * ramp),
@@ -64,7 +65,7 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
   const std::vector<Segment>& segments = input.reference.path.segments();
   steps_.reserve(segments.size());  // a path has at most one step per segment
   double station = 0.0;
-  double leg = 0.0;      // Station at which the present leg begins.
+  double leg = 0.0;      // Station at which the leg between cusps begins.
   std::size_t kept = 0;  // Number of curvature steps before the present leg.
   const auto end_leg = [&] {
     for (std::size_t i = kept; i < steps_.size(); ++i) {
@@ -73,7 +74,7 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
       step.ramp = std::min(step.ramp, room / (0.5 + kShortestTail));
       step.tail = std::min(kTail * step.ramp, room - 0.5 * step.ramp);
       // The tails of two neighboring curvature steps may overlap, so their curvatures add up. The
-      // factor 2 in `bend` therefore leaves steering angle for two tails.
+      // factor 2 in `bend` leaves enough steering angle for two overlapping tails.
       const double ramp_by_tail = step.ramp / step.tail;
       const double bend = 2.0 * kTailBend / 24.0 * ramp_by_tail * ramp_by_tail;
       const auto share = [&](double curvature) {
@@ -103,7 +104,7 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
                             .from = end,
                             .height = segment.curvature - end,
                             .ramp = ramp,
-                            .tail = leg,  // start of the leg, replaced when its end is known
+                            .tail = leg,  // start of the leg; end_leg replaces this value
                             .before = 0.5,
                             .direction = segment.direction});
         }
@@ -130,7 +131,7 @@ PathPoint RampedPath::At(double s) const {
     const double yaw = point.pose.yaw;
     point.pose.x -= step.height * e * std::sin(yaw);
     point.pose.y += step.height * e * std::cos(yaw);
-    // In reverse, the path turns to the other side of the car's heading.
+    // On a reverse segment, a slope of the offset turns the car's heading to the opposite side.
     point.pose.yaw = WrapAngle(yaw + step.direction * step.height * slope);
     point.curvature += step.height * bend;
   }

@@ -6,12 +6,13 @@
 
 namespace trackbed {
 
-/// A path whose steps of the curvature are replaced by ramps that the wheels can follow.
+/// A path whose curvature steps are replaced by curvature ramps that the wheels can follow.
 ///
-/// At a step of the curvature, wheels with a limited rate lag behind the path. A control law that
-/// tracks the path itself saturates at the step, and feeds back errors that no command can avoid. A
-/// car with a limited steering rate can drive the ramped path. A control law that tracks the ramped
-/// path receives no unavoidable errors, and commands rates within the limit.
+/// At a step of the curvature, wheels with a limited steering rate lag behind the path. A control
+/// law that tracks the original path saturates at a curvature step, and feeds back errors that no
+/// command can avoid. A car with a limited steering rate can drive the ramped path. A control law
+/// that tracks the ramped path sees no unavoidable errors, and commands steering rates within the
+/// limit.
 ///
 /// The symbols are:
 ///   x       distance from the step along the path [m], positive behind the step
@@ -25,49 +26,50 @@ namespace trackbed {
 /// e is negative ahead of the ramp and positive behind the ramp. The difference of the offset e
 /// across the ramp is the sideways shift. Beyond each end of the ramp, the offset e returns to 0
 /// along a tail of length T, a polynomial of degree 5. If the car can steer the tails on both
-/// sides, each side gets half of the sideways shift. The curvature of the tails is then at most
-/// 0.03 kappa, and their steering rate is at most 0.16 times the maximum omega. A turn at full lock
-/// leaves no steering angle for a tail, so the whole sideways shift lies on the other side of the
-/// step. The offsets of several curvature steps are added.
+/// sides, each side gets half of the sideways shift. The tails' curvature is then at most 0.03 of
+/// the curvature step, and their steering rate at most 0.16 times the maximum. A turn at full lock
+/// leaves no steering angle for a tail, so the whole sideways shift is on the other side of the
+/// curvature step. The offsets that several curvature steps cause are added.
 ///
 /// A path without steps of the curvature is returned unchanged. At cusps and at the ends of the
-/// path, the wheels turn at rest, so curvature steps at these points remain. The length S/2 + T of
-/// half a ramp and a tail is at most the distance of the step from the nearest cusp or end. The
-/// ramped path therefore passes through cusps and ends.
+/// path, the wheels turn at rest, so curvature steps at these points remain. Ramp and tail of a
+/// curvature step are shortened to end before the nearest cusp or path end. The ramped path
+/// therefore passes through the cusps and ends of the original path.
 class RampedPath {
  public:
   /// Finds the curvature steps whose ramps or tails lie between the car's station and `ahead` [m]
-  /// beyond it. SpeedAt returns the speed v at a step. `input` must outlive the calls of all other
-  /// functions. Allocates heap memory only if the path has more segments than all earlier paths.
-  /// Cost O(n) for a path of n segments.
+  /// beyond it. The function SpeedAt gives the speed at a curvature step. The object `input` must
+  /// exist during the calls of all other functions. Update allocates heap memory only if the path
+  /// has more segments than all earlier paths. Update costs O(n) for a path of n segments.
   void Update(const ControlInput& input, double ahead);
 
-  /// Uses the path of `input` as it is, without ramps.
+  /// Uses the path of `input` without adding curvature ramps.
   void UpdateWithoutRamps(const ControlInput& input);
 
-  /// Returns the ramped path's point beside station `s` of the path. The last call of Update must
-  /// have covered `s`.
+  /// Returns the ramped path's point beside station `s` of the original path. The range of the last
+  /// Update must include `s`.
   [[nodiscard]] PathPoint At(double s) const;
 
   /// Returns the speed [m/s] at which the car passes station `s`: the planned speed, plus the
-  /// amount by which the car now exceeds its planned speed. Without a planned speed, returns the
-  /// car's present speed.
+  /// amount by which the car now exceeds its planned speed. If no speed is planned, SpeedAt returns
+  /// the car's present speed.
   [[nodiscard]] double SpeedAt(double s) const;
 
   /// Returns the position of the car relative to the ramped path.
   [[nodiscard]] Tracking Track() const;
 
-  /// Returns CurvatureAfterLag (tracking.h) of the ramped path [1/m].
+  /// Returns the ramped path's curvature [1/m] at the place reached after the steering lag
+  /// (CurvatureAfterLag).
   [[nodiscard]] double CurvatureAfterLag() const;
 
  private:
   struct Step {
     double station;
-    double from;    // Curvature ahead of the step.
-    double height;  // Height kappa of the step.
+    double from;    // Curvature before the curvature step.
+    double height;  // Height kappa of the curvature step.
     double ramp;    // Ramp length S.
     double tail;    // Tail length T.
-    double before;  // Fraction of the offset that lies ahead of the step.
+    double before;  // Fraction of the sideways shift before the curvature step.
     int direction;
   };
 

@@ -33,8 +33,8 @@ class RecordingExcerpt {
     return excerpt_.table.Find(column) >= 0;
   }
 
-  /// Converts one column to a signal, which is empty if the column does not exist. The value in the
-  /// last row must be in the range `last`, all other values in `range`.
+  /// Converts one column to a signal, which is empty if the column does not exist. The column's
+  /// value in the last row must be in the range `last`, all other values in the range `range`.
   Signal Column(const std::string& column, const Range& range, const Range& last) {
     Signal signal;
     if (!Has(column)) {
@@ -56,7 +56,7 @@ class RecordingExcerpt {
     return Column(column, range, range);
   }
 
-  /// Throws one InputError that lists all problems, in the order of the file.
+  /// Throws one InputError that lists all problems of the recording, in the order of the file.
   void Finish() const { problems_.ThrowIfAny(); }
 
  private:

@@ -9,24 +9,26 @@
 
 // Simulates the single-track car for MPPI:
 //   1. Before the roll-outs of a control period, sample the path, its steady turns and its edges at
-//      nodes. Compute the planned speeds and the axle forces of each step. Also compute the
-//      regulator of lqr, which determines the remaining cost, and find the obstacles nearby.
+//      nodes. Compute the planned speed and the axle forces of each roll-out step. Compute the lqr
+//      regulator, which gives the cost beyond the horizon, and find the obstacles nearby.
 //   2. In each step of a roll-out, turn the actuator and the wheels. Solve the lateral motion by
-//      the implicit Euler method with secant stiffnesses, which is stable at any speed. Move the
-//      rear axle on an arc, and project it onto the arc between two nodes of the path.
-//   3. After each step, add the cost of the deviation from the path, of the lateral acceleration,
-//      and of small clearances.
+//      the implicit Euler method with secant tyre stiffnesses, which is stable at any speed. Move
+//      the rear axle on an arc, and project its position onto the path between two nodes.
+//   3. After each step of a roll-out, add the cost of the deviation from the path, of the lateral
+//      acceleration, and of small clearances.
 namespace trackbed {
 namespace {
 
-/// Cost of a collision per step; larger than the cost of any deviation on a detour.
+/// Cost of a collision per step. The cost of a collision exceeds the cost of any deviation from the
+/// path during a detour.
 constexpr double kCollision = 1e4;
-/// Cost per step of a car that touches an obstacle; the cost falls to 0 as the gap grows to the
-/// margin.
+/// Cost per step of a car that touches an obstacle. This cost falls to 0 as the gap to the obstacle
+/// grows to the margin.
 constexpr double kCloseness = 20.0;
 /// Cost of a lateral acceleration of twice the grip.
 constexpr double kBeyondGrip = 1e3;
-/// Angle at which lqr approaches the path from far away [rad]; as in ScheduledRegulator.
+/// Angle [rad] at which a car with the controller lqr approaches its path from far away
+/// (ScheduledRegulator).
 constexpr double kApproachAngle = 0.6;
 
 double Between(double a, double b, double share) {
@@ -71,7 +73,7 @@ RollOuts::Stage RollOuts::StageAt(double speed, double acceleration) const {
   const double hard = std::abs(acceleration);
   for (std::size_t i = 0; i < 2; ++i) {
     constexpr double kMinShare =
-        0.05;  // least ratio of load to static load, and of lateral to friction force
+        0.05;  // lower bound of load / static load and of lateral force / friction force
     const AxleGrip& axle = limit.axles[i];
     const double load =
         std::max(kMinShare, 1.0 + direction_ * axle.transfer * hard / (kGravity * axle.weight));
@@ -139,8 +141,8 @@ void RollOuts::PrepareNodes(const ControlInput& input, const Tracking& tracking,
       nodes_[static_cast<std::size_t>(i) - 1].curvature = (node.yaw - last) / spacing_;
     }
     last = node.yaw;
-    // Beyond its ends, a path is straight. The steady turn beyond an end has the curvature at this
-    // end, because a car that stands at a cusp must steer for the start of its path.
+    // Use the curvature at the path's end for the steady turn beyond that end, where the path is
+    // straight. A car that stands at a cusp must steer for the start of its path.
     const double within = std::clamp(input.station + station, 0.0, input.reference.path.length());
     node.steady = OperateOn(vehicle_, slips_ ? TyreForces::kBrush : TyreForces::kNone,
                             {.curvature = input.reference.path.BendAt(within).curvature,
@@ -189,7 +191,7 @@ void RollOuts::Advance(int k, double rate, RolledCar& car) const {
   }
   car.lateral_acceleration =
       speed * car.yaw_rate + (slips_ ? (car.lateral_speed - lateral_speed) / h : 0.0);
-  // The rear axle moves on an arc with the mean yaw rate of the step.
+  // The rear axle moves on an arc with the car's mean yaw rate during the roll-out step.
   const double turn = (slips_ ? 0.5 * (yaw_rate + car.yaw_rate) : car.yaw_rate) * h;
   const double across = car.lateral_speed - vehicle_.cg_to_rear * car.yaw_rate;
   const double chord = h * (1.0 - turn * turn / 24.0);
@@ -203,10 +205,10 @@ void RollOuts::Advance(int k, double rate, RolledCar& car) const {
   Project(car);
 }
 
-/// Solves the implicit Euler step of the lateral motion for the secant stiffness of each axle. The
-/// equations are multiplied by |u|, so that they also hold at rest:
+/// Solves the implicit Euler step of the lateral motion with the secant stiffness S of each axle.
+/// The equations of motion are multiplied by the speed |u|, so that they also hold at rest:
 ///   m (v' + u r) = F_f + F_r,  I r' = l_f F_f - l_r F_r,
-///   F_f = S_f (u tan(delta) - v - l_f r)/|u|,  F_r = -S_r (v - l_r r)/|u|,
+///   F_f = S_f (u tan(delta) - v - l_f r)/|u|,  F_r = -S_r (v - l_r r)/|u|.
 void RollOuts::Slide(const Stage& stage, double speed, RolledCar& car) const {
   const double h = settings_.step;
   const double l_f = vehicle_.cg_to_front();
@@ -251,8 +253,8 @@ void RollOuts::Project(RolledCar& car) const {
   const double k = node.curvature;
   const double along = dx * node.cosine + dy * node.sine;
   const double aside = dy * node.cosine - dx * node.sine;
-  // For a car beyond the center of curvature, the nearest point of the circle would be on the
-  // opposite side.
+  // Bound the distance to the center of curvature: for a car beyond this center, the nearest point
+  // of the circle would be on the opposite side.
   constexpr double kMinToCenter = 0.05;
   const double to_center = std::max(1.0 - k * aside, kMinToCenter);
   const double tangent = k * along / to_center;
@@ -305,7 +307,8 @@ double RollOuts::GapToEdges(const RolledCar& car) const {
   double gap = std::numeric_limits<double>::infinity();
   for (const double x : {vehicle_.length - vehicle_.rear_overhang, -vehicle_.rear_overhang}) {
     const double ahead = direction_ * x * cosine;
-    // Offset of the middle of the car's end, to the left of the direction of motion.
+    // Offset of the middle of the car's front or rear end from the path, to the left of the
+    // direction of motion.
     const double bend = node.curvature * direction_;
     const double offset = car.cross_track + x * sine - 0.5 * bend * ahead * ahead;
     const Node& beside = nodes_[static_cast<std::size_t>(PlaceOf(car.station + ahead))];

@@ -13,19 +13,19 @@
 
 namespace trackbed {
 
-/// Settings of the roll-outs, with all defaults replaced.
+/// Settings of the roll-outs of MPPI; options without a value have been replaced by their defaults.
 struct RollOutSettings {
   int steps = 50;          ///< Number of steps of a roll-out, >= 1.
   double step = 0.02;      ///< Duration of a step [s], > 0.
-  ErrorWeights weights{};  ///< Weights of the deviation from the path.
-  double margin = 0.0;     ///< Clearance below which obstacles cost [m], >= 0.
-  double grip = 1.0;       ///< Fraction of the lateral grip that is free of cost [1].
+  ErrorWeights weights{};  ///< Cost weights of the deviation from the path.
+  double margin = 0.0;     ///< Clearance below which an obstacle adds cost [m], >= 0.
+  double grip = 1.0;       ///< Fraction of the lateral grip that may be used without cost.
 };
 
-/// State of the predicted car. Positions are in the frame A, the path's pose at the station of the
-/// car at the beginning of the roll-out.
+/// State of the car in a roll-out. Positions are in the frame A, the path's pose at the station of
+/// the car at the beginning of the roll-out.
 struct RolledCar {
-  double x = 0.0;  ///< Rear axle [m].
+  double x = 0.0;  ///< Position of the rear axle [m].
   double y = 0.0;
   double yaw = 0.0;                   ///< Heading [rad].
   double lateral_speed = 0.0;         ///< Lateral speed of the center of gravity [m/s].
@@ -38,16 +38,17 @@ struct RolledCar {
   double heading_error = 0.0;         ///< Heading error psi relative to the path [rad].
 };
 
-/// Simulates a car along a path, and sums up the cost. The symbols are those of MppiOptions.
+/// Simulates a car along a path, and sums up the cost of its motion. The symbols of the cost are
+/// those of MppiOptions.
 class RollOuts {
  public:
-  /// Prepares the roll-outs of a control period. `tracking` is the deviation of the car from its
-  /// path, and `actuator` the angle from which the commands start [rad]. `surroundings` may be
-  /// null.
+  /// Prepares the roll-outs of a control period. The argument `tracking` is the deviation of the
+  /// car from its path, and `actuator` is the steering angle from which the commands start [rad].
+  /// The pointer `surroundings` may be null.
   void Prepare(const ControlInput& input, const Tracking& tracking, double actuator,
                const Surroundings* surroundings, const RollOutSettings& settings);
 
-  /// Returns the cost of a motion. `rate_of(k, car)` is the wanted steering rate [rad/s] in the
+  /// Returns the cost of a roll-out. `rate_of(k, car)` is the wanted steering rate [rad/s] in the
   /// step k, counted from 0. The function Cost clamps the wanted rate to the car's largest steering
   /// rate.
   template <typename RateOf>
@@ -62,10 +63,10 @@ class RollOuts {
     return cost + RemainingCost(car);
   }
 
-  /// Returns the steering rate with which lqr would steer the car [rad/s].
+  /// Returns the steering rate that the controller lqr would command for the car [rad/s].
   [[nodiscard]] double RegulatorRate(const RolledCar& car) const;
-  /// Returns the steering rate with which lqr would steer the car at the start of the roll-outs,
-  /// within the largest rate [rad/s].
+  /// Returns the steering rate [rad/s] that the controller lqr commands at the start of the
+  /// roll-outs, within the rate limit.
   [[nodiscard]] double StartRate() const {
     return std::clamp(RegulatorRate(start_), -rate_limit_, rate_limit_);
   }
@@ -73,20 +74,20 @@ class RollOuts {
   [[nodiscard]] double rate_limit() const { return rate_limit_; }
 
  private:
-  /// The path at a node, with the steady turn there.
+  /// A sampled point (node) of the path, with the car's steady turn at this point.
   struct Node {
     double x = 0.0;
     double y = 0.0;
     double yaw = 0.0;
     double cosine = 1.0;  // Cosine of the direction of motion.
     double sine = 0.0;
-    double curvature = 0.0;  // Mean curvature to the next node, in the direction of motion [1/m].
+    double curvature = 0.0;  // Mean path curvature to the next node, in the direction of motion.
     SteadyTurn steady{};
     EdgeDistances edges{};
   };
-  /// Values of a step that are the same for all roll-outs.
+  /// Values of a time step that are the same for all roll-outs.
   struct Stage {
-    double speed = 0.0;                      // Signed speed at the end of the step [m/s].
+    double speed = 0.0;                      // Signed speed of the car at the step's end [m/s].
     double station = 0.0;                    // Planned station at the end of the step [m].
     std::array<double, 2> stiffness{};       // Cornering stiffness of the axles [N/rad].
     std::array<double, 2> friction_force{};  // Largest lateral force of the axles [N].
@@ -102,13 +103,13 @@ class RollOuts {
   void Advance(int k, double rate, RolledCar& car) const;
   void Slide(const Stage& stage, double speed, RolledCar& car) const;
   void Project(RolledCar& car) const;
-  /// Returns the fractional index of the node at a station.
+  /// Returns the position of a station among the path nodes, as a fractional node index.
   [[nodiscard]] double PlaceOf(double station) const;
   [[nodiscard]] SteadyTurn SteadyAt(double station) const;
-  /// Returns the deviation z of the car from the steady turn on the path.
+  /// Returns the deviation z of the car's state from the steady turn on the path.
   [[nodiscard]] ErrorModel::Vector DeviationOf(const RolledCar& car) const;
   [[nodiscard]] double StageCost(int k, const RolledCar& car) const;
-  /// Returns the cost of small distances from obstacles and edges.
+  /// Returns the cost of small distances from obstacles and road edges.
   [[nodiscard]] double ClosenessCost(int k, const RolledCar& car) const;
   [[nodiscard]] double GapToEdges(const RolledCar& car) const;
   [[nodiscard]] double RemainingCost(const RolledCar& car) const;
@@ -119,14 +120,14 @@ class RollOuts {
   VehicleParams vehicle_;
   ErrorWeights weights_;
   Regulator regulator_;
-  double largest_offset_ = 0.0;  // Offset beyond which the remaining cost grows linearly [m].
+  double largest_offset_ = 0.0;  // Offset beyond which the terminal cost grows linearly [m].
   int direction_ = 1;
   bool slips_ = false;  // Whether the car has tyre coefficients.
   bool has_edges_ = false;
   double rate_limit_ = 0.0;
-  double lag_decay_ = 0.0;  // Factor by which the lag of the wheels decays in a step.
-  double lag_ = 0.0;        // Lag of the wheels [s].
-  double grip_ = 0.0;       // Lateral acceleration that is free of cost [m/s^2].
+  double lag_decay_ = 0.0;  // Factor by which the wheel angle's error decays in a step.
+  double lag_ = 0.0;        // Time constant of the wheels' lag [s].
+  double grip_ = 0.0;       // Lateral acceleration up to which no cost is added [m/s^2].
   double first_ = 0.0;      // Station of the first node [m].
   double spacing_ = 1.0;    // Distance between nodes [m].
   std::vector<Node> nodes_;

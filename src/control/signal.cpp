@@ -8,7 +8,7 @@
 namespace trackbed {
 namespace {
 
-/// Returns an iterator to the first knot beyond x.
+/// Returns an iterator to the signal's first knot beyond x.
 auto Beyond(const std::vector<Vec2>& knots, double x) {
   return std::upper_bound(knots.begin(), knots.end(), x,
                           [](double value, const Vec2& knot) { return value < knot.x(); });
@@ -34,7 +34,7 @@ double Signal::Mean(double from, double to) const {
   if (!(to > from)) {
     return At(from);
   }
-  // The trapezoidal rule is exact between two knots, because the signal is linear there.
+  // The trapezoidal rule is exact between two knots, because the signal is linear between knots.
   Vec2 last{from, At(from)};
   double area = 0.0;
   const auto add = [&](const Vec2& next) {

@@ -22,13 +22,13 @@ double MeanAcceleration(const SpeedProfile& profile, double s, double speed, dou
   return acceleration;
 }
 
-/// Tolerance factor of the acceleration options: a speed profile that exceeds the options by more
-/// than this factor exceeds them on purpose.
+/// Tolerance of the acceleration options: a speed profile whose acceleration exceeds an option by
+/// more than this factor does so on purpose.
 constexpr double kOnPurpose = 1.1;
 /// Maximum ratio of the commanded acceleration to the profile's acceleration; above 1, so that the
-/// car can catch up with the profile. For a plan at 0.9 of the tyres' limit, the factor 1.05 uses
-/// half of the remaining margin. A larger factor would be risky, because a locked or spinning wheel
-/// regains grip only when the commanded acceleration falls.
+/// car can catch up with the profile. For a speed profile at 0.9 of the tyres' limit, the factor
+/// 1.05 uses half of the remaining margin. A factor much above 1 would be risky, because a locked
+/// or spinning wheel regains grip only when the commanded acceleration falls.
 constexpr double kCatchUp = 1.05;
 
 /// Returns the deceleration at the end of a speed profile that ends at rest [m/s^2], >= 0.
@@ -52,9 +52,9 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
     const double last = LastDeceleration(profile);
     return -std::min(on_purpose(last) ? last : options.deceleration, limit);
   }
-  // Before the start of the speed profile, the car uses the acceleration at the start.
+  // Before the start of the speed profile, use the profile's acceleration at its start.
   const double from = profile.knots().empty() ? s : std::max(s, profile.knots().front().s);
-  // A car that rolls backward uses the profile's acceleration at its present station.
+  // For a car that rolls backward, use the profile's acceleration at the car's present station.
   const double ahead = std::max(speed, 0.0);
   // Evaluate the profile's acceleration at the middle of the period, but not beyond the profile's
   // end, because the profile has no acceleration there.
@@ -64,15 +64,15 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   }
   const bool ends = stops && from + ahead * period >= end;
   const double at_middle = profile.AccelerationAt(middle);
-  // A car before the start does not move along the profile, so its speed does not determine the
-  // profile's mean acceleration.
+  // A car before the start of the speed profile does not move along the profile, so its speed does
+  // not determine the profile's mean acceleration.
   const double feed_forward =
       ends || from > s ? at_middle : MeanAcceleration(profile, from, ahead, period, at_middle);
   const double error = profile.SpeedAt(s) - speed;
   const double hard = on_purpose(-feed_forward) ? -kCatchUp * feed_forward : 0.0;
   const double hardest = std::min(std::max(2.0 * options.deceleration, hard), limit);
   // Compare the profile's acceleration at the middle of the period and not the mean, because the
-  // mean may be larger when the car leaves rest.
+  // mean acceleration over the period may be larger when the car starts from rest.
   const double strongest =
       at_middle > kOnPurpose * options.acceleration ? kCatchUp * at_middle : options.acceleration;
   return std::clamp(feed_forward + options.gain * error, -hardest, strongest);

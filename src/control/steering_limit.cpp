@@ -12,16 +12,18 @@
 namespace trackbed {
 namespace {
 
-/// Fraction of g b/(2 h) to which a step of the steering angle is limited. The body of the car
-/// leans out of the turn, so the inner wheels lift at less than g b/(2 h) in a steady turn, and the
-/// roll angle overshoots after a step. The limit is the fraction at which the wheels lift in a
-/// steady turn, divided by the overshoot of the roll angle. For the four cars of models/ in MuJoCo,
-/// this quotient is 0.62 (prius) to 0.67 (bmw320i); see docs/algorithms/control.md. The BMW on
-/// contact tyres rolls over after steps to a fraction of 0.75.
+/// Fraction of the roll-over acceleration g b/(2 h) to which a steering step is limited, with the
+/// track b and the height h of the center of gravity. The body of the car leans out of the turn, so
+/// in a steady turn, the inner wheels lift at a lateral acceleration below g b/(2 h). After a
+/// steering step, the car's roll angle overshoots. The limit kRollShare is the fraction of g b/(2
+/// h) at which wheels lift in a steady turn, divided by the roll angle's overshoot. For the four
+/// cars of models/ in MuJoCo, this quotient is 0.62 (prius) to 0.67 (bmw320i); see
+/// docs/algorithms/control.md. The BMW on contact tyres rolls over after steering steps to 0.75 g
+/// b/(2 h).
 constexpr double kRollShare = 0.65;
 
-/// Returns the acceleration g b/(2 h) [m/s^2] at which the inner wheels of a rigid car lift.
-/// Infinite if unknown.
+/// Returns the acceleration g b/(2 h) [m/s^2] at which the inner wheels of a rigid car lift, or
+/// infinity if the car's dimensions are unknown.
 double RigidRollOver(const VehicleParams& vehicle) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   if (vehicle.braking.axles.empty()) {
@@ -32,8 +34,8 @@ double RigidRollOver(const VehicleParams& vehicle) {
   return height > 0.0 && track > 0.0 ? kGravity * track / (2.0 * height) : kUnknown;
 }
 
-/// Returns the steering angle [rad] of the steady turn with the lateral acceleration `allowed`
-/// [m/s^2], but at most the steering limit.
+/// Returns the steering angle [rad] of a steady turn with the lateral acceleration `allowed`
+/// [m/s^2], clamped to the steering limit.
 double SteeringAt(const VehicleParams& vehicle, double speed, double allowed) {
   const double tightest = CurvatureForSteering(vehicle, vehicle.steering_limit);
   if (vehicle.kind != VehicleKind::kSteered || !(speed * speed * tightest > allowed)) {
@@ -50,15 +52,16 @@ double FrontDirection(const VehicleParams& vehicle, const VehicleState& state) {
   return std::abs(state.speed) < kCrawl ? 0.0 : std::atan(across / state.speed);
 }
 
-/// Returns the lateral acceleration [m/s^2] at which the tyres slide; infinite if unknown.
+/// Returns the lateral acceleration [m/s^2] at which the tyres slide, or infinity if the friction
+/// is unknown.
 double SlidingAcceleration(const VehicleParams& vehicle) {
   return vehicle.friction_lateral > 0.0 ? vehicle.friction_lateral * kGravity
                                         : std::numeric_limits<double>::infinity();
 }
 
 /// Returns the largest lateral acceleration [m/s^2] after a step of the steering angle that does
-/// not lift the inner wheels; infinite if unknown. The step starts in a steady turn with the
-/// lateral acceleration `held` [m/s^2].
+/// not lift the inner wheels, or infinity if the car's dimensions are unknown. The step starts in a
+/// steady turn with the lateral acceleration `held` [m/s^2].
 double RollOverInAStep(const VehicleParams& vehicle, double held) {
   return kRollShare * RigidRollOver(vehicle) + (1.0 - kRollShare) * held;
 }
@@ -81,7 +84,7 @@ std::optional<FrontSlip> LargestSlipOfFront(const VehicleParams& vehicle, double
   if (!(speed > 0.0) || !HasTyres(vehicle) || axles.size() != 2 || !std::isfinite(sliding)) {
     return std::nullopt;
   }
-  // In the brush model, an axle slides at the normalized slip q = 1 (brush_axle.h).
+  // In the brush model of the tyres, an axle slides at the normalized slip q = 1 (brush_axle.h).
   const double force = 3.0 * vehicle.mass * sliding;
   const double front = force * axles[0].weight / vehicle.cornering_stiffness_front;
   const double rear = force * axles[1].weight / vehicle.cornering_stiffness_rear;
@@ -96,8 +99,8 @@ std::optional<FrontSlip> LargestSlipOfFront(const VehicleParams& vehicle, double
   return FrontSlip{slip, most};
 }
 
-/// Returns the largest steering angle [rad] to the side of the turn. `rolling` is the direction in
-/// which the front axle moves [rad], positive to the side of the turn.
+/// Returns the largest allowed steering angle [rad] to the side of the turn. The argument `rolling`
+/// is the direction in which the front axle moves [rad], positive to the side of the turn.
 double AllowedToOneSide(const VehicleParams& vehicle, double speed, double held, double rolling) {
   const double step = SteeringInAStep(vehicle, speed, held);
   double most = step;

@@ -7,8 +7,9 @@
 namespace trackbed {
 
 /// Returns the lateral acceleration [m/s^2] at which the car slides or its inner wheels lift, on a
-/// road with the friction factor 1: the smaller one of mu_y g and g b/(2 h), where b is the mean
-/// track and h the height of the center of gravity. Infinite if unknown.
+/// road with the friction factor 1. LateralGrip is the smaller one of mu_y g and g b/(2 h), with
+/// the mean track b and the height h of the center of gravity. LateralGrip returns infinity if
+/// friction and dimensions are unknown.
 double LateralGrip(const VehicleParams& vehicle);
 
 /// Fraction of the lateral grip that a car uses while it returns to its path. A step of the
@@ -20,22 +21,23 @@ inline constexpr double kReturnGripShare = 0.5;
 double SteeringAtGrip(const VehicleParams& vehicle, double speed);
 
 /// Returns the largest steering angle [rad] that a control law commands at `speed`, even in a step:
-/// the steering limit, or the angle of the steady turn with the lateral acceleration a, whichever
-/// is less. Beyond this angle, the tyres slide without more lateral force, or a tall car rolls
-/// over. The acceleration a follows from the grip and from roll-over:
+/// the smaller of the steering limit and the angle of the steady turn with the lateral acceleration
+/// a. Beyond the returned steering angle, the tyres slide without more lateral force, or a tall car
+/// rolls over. The acceleration a follows from the grip and from roll-over:
 ///   a = min(mu_y g, c g b/(2 h) + (1 - c) a_0), c = 0.65.
-/// A step from the lateral acceleration a_0 to a makes the car lean as in a steady turn with a +
-/// (1/c - 1) (a - a_0). This equivalent lateral acceleration must not exceed the roll-over limit g
-/// b/(2 h). The argument `held` is a_0 >= 0 [m/s^2]: the lateral acceleration of the steady turn,
-/// to the same side, that the car already drives. The steering angle of the steady turn is the
-/// largest of three angles: without slip, with linear tyres, and with the brush model. At the grip
-/// limit, an understeering car needs more steering than with linear tyres. An oversteering car
-/// needs more steering to enter the turn than to stay in the turn.
+/// A steering step from the lateral acceleration a_0 to a makes the car lean as in a steady turn
+/// with a + (1/c - 1) (a - a_0). The equivalent lateral acceleration a + (1/c - 1) (a - a_0) must
+/// not exceed the roll-over limit g b/(2 h). The argument `held` is a_0 >= 0 [m/s^2]: the lateral
+/// acceleration of the steady turn to the same side that the car already drives. The steering angle
+/// of the steady turn is the largest of three angles: of a car without slip, with linear tyres, and
+/// with brush-model tyres. At the grip limit, an understeering car needs a larger steering angle
+/// than the linear tyre model predicts. An oversteering car needs a larger steering angle to enter
+/// a turn than to stay in the turn.
 double SteeringInAStep(const VehicleParams& vehicle, double speed, double held = 0.0);
 
 /// Returns the largest steering angle [rad] with which a car may turn round at `speed` [m/s]: the
-/// steering limit, or the angle of the steady turn with the fraction kReturnGripShare of
-/// LateralGrip, whichever is less. A car of unknown grip uses its steering limit.
+/// smaller of the steering limit and the angle of the steady turn with kReturnGripShare times
+/// LateralGrip. A car of unknown grip uses its steering limit.
 double TurnRoundLimit(const VehicleParams& vehicle, double speed);
 
 /// Range of steering angles [rad] that a control law may command.
@@ -44,10 +46,10 @@ struct SteeringRange {
   double highest = 0.0;  ///< Leftmost angle, at least 0.
 };
 
-/// Returns the range of steering angles for the car's present motion: SteeringInAStep to both
-/// sides, extended up to the direction in which the front axle moves, but at most the steering
-/// limit. Wheels that roll in their direction of motion exert no lateral force, so a sliding car
-/// may always steer into its slide.
+/// Returns the range of allowed steering angles for the car's present motion. The range is
+/// SteeringInAStep to both sides, extended to the front axle's direction of motion, within the
+/// steering limit. Wheels that roll in their direction of motion exert no lateral force, so a
+/// sliding car may always steer into its slide.
 ///
 /// The front tyres of an understeering car slide first. In a turn that the car holds at its limit,
 /// the front tyres may need more steering than in the steady turn of the brush model. The load
@@ -62,10 +64,10 @@ struct SteeringRange {
 /// force unload the front tyres, so a fast car needs more steering than the steady turn of the
 /// brush model.
 ///
-/// `curvature` is the curvature of the path at the car [1/m]. The lateral acceleration a_0 of
-/// SteeringInAStep is the smaller of two: the car's present lateral acceleration, and that of a car
-/// on the path. If the accelerations of the car and of the path have opposite signs, a_0 is 0.
-/// Therefore, a turn that only the path or only the car has begun does not count as held.
+/// The argument `curvature` is the curvature of the path at the car [1/m]. The lateral acceleration
+/// a_0 of SteeringInAStep is the smaller of the car's present lateral acceleration and the path's.
+/// If the accelerations of the car and of the path have opposite signs, a_0 is 0. A turn that only
+/// the path or only the car has begun is therefore not regarded as a steady turn.
 SteeringRange AllowedSteering(const VehicleParams& vehicle, const VehicleState& state,
                               double curvature = 0.0);
 

@@ -33,8 +33,8 @@ double Phase(const SweptSineOptions& options, double tau) {
   if (options.sweep == Sweep::kLinear) {
     return 2.0 * kPi * (f0 + 0.5 * (f1 - f0) * tau / options.duration) * tau;
   }
-  // Computes (e^k - 1)/k with expm1, which stays precise for almost equal frequencies; the limit
-  // for equal frequencies is 1.
+  // Compute (e^k - 1)/k, with k = ln(f1/f0) tau/duration, by expm1, which is precise for almost
+  // equal frequencies f0 and f1. For equal frequencies, the limit is 1.
   const double k = std::log(f1 / f0) * tau / options.duration;
   return 2.0 * kPi * f0 * tau * (k == 0.0 ? 1.0 : std::expm1(k) / k);
 }

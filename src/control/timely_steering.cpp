@@ -51,7 +51,8 @@ void TimelySteering::Follow(const ControlInput& input, const RampedPath& path, b
     moments_.push_back({.tangent = tangent(curvature, speed),
                         .speed = speed,
                         .length = tangent(kGentle, speed) / kGentle});
-    // Stop when wheels that start at `most` reach the steering angle of the path.
+    // Stop the prediction when wheels that start at the angle `most` reach the steering angle of
+    // the path.
     const double first = most - std::atan(moments_.front().tangent);
     const double wheels = most - std::copysign(rate_ * step_ * (i + 1), first);
     if ((wheels - std::atan(moments_.back().tangent)) * first <= 0.0) {
@@ -79,7 +80,7 @@ GainedErrors TimelySteering::GainedFrom(double steering) const {
     if (begin <= 0.0) {
       break;
     }
-    // Fraction of the step after which the wheels reach the steering angle of the path.
+    // Fraction of the time step after which the wheels reach the steering angle of the path.
     const double share = end > 0.0 ? 1.0 : begin / (begin - end);
     const double way = moment.speed * share * step_;
     const double before = gained.heading;
@@ -97,14 +98,14 @@ double TimelySteering::Steer(const ControlInput& input, const RampedPath& path, 
                              const std::function<double(const GainedErrors&)>& law) {
   Follow(input, path, slip, untimely);
   if (moments_.empty()) {
-    return untimely;  // the path ends here
+    return untimely;  // the path ends at the car's station
   }
   const double planned = std::atan(moments_.front().tangent);
   const auto excess = [&](double steering) { return law(GainedFrom(steering)) - steering; };
   const double at_planned = untimely - planned;
   const double at_untimely = excess(untimely);
   if (at_planned * at_untimely >= 0.0) {
-    return untimely;  // the gained errors do not change the angle of the law
+    return untimely;  // the gained errors would not reduce the steering angle
   }
   std::uintmax_t iterations = 30;
   const bool left = at_planned > 0.0;

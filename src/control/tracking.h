@@ -17,20 +17,21 @@ struct Tracking {
 
 Tracking ProjectOntoPath(const ControlInput& input);
 
-/// Returns the distance [m] that the car drives within SteeringResponse::time_constant.
+/// Returns the distance [m] that the car drives within the lag of its steering actuator
+/// (SteeringResponse::time_constant).
 double WayInLag(const ControlInput& input);
 
 /// Returns the curvature of the path [1/m] at the place that the car reaches after the lag of its
-/// steering actuator (SteeringResponse::time_constant), but not beyond a cusp. A control law
-/// without preview that steers by this curvature turns the lagging wheels in time.
+/// steering actuator (SteeringResponse::time_constant), but not beyond a cusp. By using the
+/// curvature after the lag, a control law without preview turns the lagging wheels in time.
 double CurvatureAfterLag(const ControlInput& input);
 
 /// Returns whether the rear axle moves sideways, which is impossible for a kinematic car.
 bool RearAxleSlips(const ControlInput& input);
 
-/// Scales of a car relative to the Prius, for which the default gains and weights were chosen. If
-/// lengths and times are measured in these scales, cars of any wheelbase and steering rate behave
-/// alike.
+/// Length and time scales of a car relative to the Prius, for which the default gains and weights
+/// were chosen. If lengths and times are measured in these scales, cars of any wheelbase and
+/// steering rate behave alike.
 struct CarScale {
   double length = 1.0;  ///< Ratio of the car's wheelbase to that of the Prius: L divided by 2.7 m.
   /// Ratio of the steering rate of the Prius to that of the car: 0.1506 rad/s divided by the
@@ -41,7 +42,7 @@ struct CarScale {
 CarScale ComputeCarScale(const VehicleParams& vehicle);
 
 /// Returns the matrix of SingleTrackCar's lateral equations at the signed speed u: (v', r') =
-/// matrix (v, r, tan(delta)).
+/// matrix (v, r, tan(delta)), with lateral speed v and yaw rate r.
 Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle,
                                          const AxleStiffness& stiffness, double speed);
 

@@ -27,8 +27,8 @@ std::optional<double> TurnRound::Steer(const ControlInput& input, double u) {
 std::optional<double> TurnRound::Steer(const ControlInput& input) {
   const double heading_error =
       AngleDifference(input.state.pose.yaw, input.reference.path.At(input.station).pose.yaw);
-  // A law without a preview point needs no turn round if its heading error is below 90
-  // degrees.
+  // A control law without a preview point needs no turn round if the car's heading error is below
+  // 90 degrees.
   if (std::cos(heading_error) > 0.0) {
     side_ = 0.0;
     return std::nullopt;

@@ -9,8 +9,8 @@ namespace trackbed {
 namespace {
 
 /// The process's locale before the first ClassicLocale was constructed; the destructor of the last
-/// ClassicLocale restores this locale. A single saved locale suffices, because the locale is global
-/// to the process.
+/// ClassicLocale restores this locale. One saved locale is enough for all ClassicLocale objects,
+/// because the locale is global to the process.
 struct SavedLocale {
   std::mutex mutex;
   int users = 0;

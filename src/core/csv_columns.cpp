@@ -21,7 +21,7 @@ void ReadCsvColumns(const std::filesystem::path& file, const std::vector<std::st
                                     .timestamps = timestamps,
                                     .empty = true}};
   std::vector<double> ordered(columns.size());
-  // For each requested column, its index among the columns that were read.
+  // Index of each requested column among the columns that were read from the CSV file.
   std::vector<std::size_t> place;
   reader.take = [&](const std::vector<double>& numbers, int line) {
     if (place.empty()) {

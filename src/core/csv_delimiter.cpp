@@ -27,7 +27,7 @@ std::string_view NextLine(std::string_view& rest) {
   return {};
 }
 
-/// Splits a line at blanks and returns the number of cells; `numbers` becomes the number of cells
+/// Splits a line at blanks and returns the number of cells. Sets `numbers` to the number of cells
 /// that are numbers.
 std::size_t CountCells(std::string_view line, std::size_t& numbers) {
   std::size_t count = 0;
@@ -42,8 +42,8 @@ std::size_t CountCells(std::string_view line, std::size_t& numbers) {
   return count;
 }
 
-/// Returns whether blanks are the delimiter: they separate the numbers in `line`, or they separate
-/// names in `line` and the same number of numbers in the next line.
+/// Returns whether blanks are the delimiter of a CSV file. Blanks must separate numbers in `line`,
+/// or names in `line` and equally many numbers in the next line.
 bool HasBlanks(std::string_view line, std::string_view rest) {
   std::size_t numbers = 0;
   const std::size_t count = CountCells(line, numbers);

@@ -7,7 +7,7 @@
 namespace trackbed {
 
 /// Replaces runs of spaces and tabs by a tab, and removes spaces and tabs at the ends of lines. The
-/// text may be passed to Replace in parts.
+/// function Replace accepts the text in several parts.
 class BlankRuns {
  public:
   std::string Replace(std::string_view part);
@@ -17,7 +17,8 @@ class BlankRuns {
   bool is_pending_ = false;
 };
 
-/// Returns the delimiter of the file, as described at CsvLimits::delimiter for kFindDelimiter.
+/// Returns the delimiter found in a CSV file, as described at CsvLimits::delimiter for
+/// kFindDelimiter.
 char FindDelimiter(const std::filesystem::path& file);
 
 }  // namespace trackbed

@@ -14,8 +14,8 @@
 // 1. Splits the first lines of the file at the delimiter, outside of quotes.
 // 2. Finds the first row of numbers, and the lines directly above it that have the same number of
 //    cells.
-// 3. Of the lines with as many cells as the first row of numbers, the topmost line has the names;
-//    the lines between the names and the numbers are units.
+// 3. The topmost line with as many cells as the first row of numbers contains the column names. The
+//    lines between the column names and the numbers contain units.
 namespace trackbed {
 namespace {
 
@@ -114,7 +114,8 @@ bool IsUnit(const std::string& cell) {
   return std::find(kUnits.begin(), kUnits.end(), cell) != kUnits.end();
 }
 
-/// Returns the head of a table that has a preamble or units.
+/// Returns the head of a CSV table (preamble, names, units), or nullopt if the table has neither
+/// preamble nor units.
 std::optional<CsvHead> HeadWith(std::string_view begin, char delimiter) {
   std::vector<Line> lines = FirstLines(begin, delimiter);
   const bool has_decimal_commas = Normalize(lines, delimiter);

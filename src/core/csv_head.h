@@ -11,20 +11,20 @@ namespace trackbed {
 /// after the names.
 struct CsvHead {
   char delimiter = ',';
-  int preamble_lines = 0;  ///< Number of lines before the column names.
-  int first_row = 0;       ///< Line of the first row of numbers; 0 without lines of units.
-  std::vector<std::string> units{};  ///< Unit of each column; "": no unit.
+  int preamble_lines = 0;            ///< Number of lines before the column names.
+  int first_row = 0;                 ///< Line number of the first row of numbers; 0 without units.
+  std::vector<std::string> units{};  ///< Unit of each column; "" if the column has no unit.
   bool has_decimal_commas = false;   ///< Whether numbers have decimal commas.
   bool is_vbo = false;               ///< Whether the file is a VBO file.
 };
 
-/// Finds the head of a table in the first 64 KiB of the file. Of the lines directly above the first
-/// row of numbers that have the same number of cells as this row, the topmost line has the names.
-/// Lines above the names are a preamble only if the first line of the file has another number of
-/// cells. Lines between the names and the numbers are units if one of their cells is a unit and
-/// none is a number. Tries `delimiter` first, then other delimiters, and takes the first one with
-/// which the file has a preamble or units. If no delimiter leads to a preamble or units,
-/// FindCsvHead takes `delimiter`. In VBO files, finds the table by the names of sections
+/// Finds the head of a table in the first 64 KiB of the file. The column names are in the topmost
+/// of the adjacent lines above the first row of numbers with the same number of cells. Lines above
+/// the names are a preamble only if the file's first line has a different number of cells than the
+/// names. Lines between the names and the numbers are units if they contain at least one unit and
+/// no number. FindCsvHead tries `delimiter` first, then other delimiters, and uses the first one
+/// with which the file has a preamble or units. If no delimiter leads to a preamble or units,
+/// FindCsvHead uses `delimiter`. In VBO files, FindCsvHead finds the table by the names of sections
 /// (FindVboHead).
 CsvHead FindCsvHead(const std::filesystem::path& file, char delimiter);
 

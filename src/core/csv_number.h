@@ -5,10 +5,10 @@
 
 namespace trackbed {
 
-/// Returns whether the numbers of a table have decimal commas, as spreadsheets write them in many
-/// countries, with semicolons between cells. `rows` are rows of cells; the delimiter between the
-/// cells is not a comma. Returns true if no number has a point or several commas, and if at least
-/// one comma is not followed by three digits, as a comma between thousands is.
+/// Returns whether the numbers of a table have decimal commas. In many countries, spreadsheets
+/// write decimal commas, and semicolons between cells. `rows` are rows of cells; the delimiter
+/// between the cells must not be a comma. Decimal commas are assumed if no number has a point or
+/// several commas, and at least one comma is not followed by exactly three digits.
 bool HasDecimalCommas(const std::vector<std::vector<std::string>>& rows);
 
 /// Rewrites the number in a cell so that CellNumber reads it: removes the sign +, and replaces a

@@ -22,7 +22,7 @@
 
 // Reads rows of CSV files with libcsv, within limits of cells, columns and cell lengths.
 // 1. CommentFilter removes lines that begin with '#', before libcsv interprets quotes.
-// 2. RowReader collects the cells of a row, and passes each row with its line to the caller.
+// 2. RowReader collects the cells of a row, and passes each row with its line number to the caller.
 // 3. NamedRows skips a preamble (src/core/csv_head.h), and finds the names of columns in the
 // header, or in a comment before rows of numbers. NamedRows rewrites numbers such as "+1" and
 // "0,5", and the cells of VBO files (src/core/vbo.h).
@@ -91,15 +91,15 @@ struct RowReader {
   }
 };
 
-/// Splits the blocks of a file into comments and other text. Passes the other text to `parse`, in
-/// parts that end at the end of a line or of the block.
+/// Splits the blocks of a file into comments and other text. Passes all text outside of comments to
+/// `parse`, in parts that end at the end of a line or of the block.
 class CommentFilter {
  public:
-  /// The filter also removes the first `preamble` lines of the file.
+  /// CommentFilter also removes the first `preamble` lines of the file.
   CommentFilter(RowReader& reader, const csv_parser& parser, int preamble)
       : reader_(reader), parser_(parser), preamble_(preamble) {}
 
-  /// Processes a block; returns false to stop reading.
+  /// Processes a block of the file; returns false if reading must stop.
   template <typename Parse>
   bool Take(std::string_view block, const Parse& parse) {
     while (!block.empty()) {
@@ -192,8 +192,8 @@ void ReadRowsBehind(int preamble, const std::filesystem::path& file, const CsvLi
   };
   const auto row = [](int ending, void* self) { static_cast<RowReader*>(self)->EndOfRow(ending); };
   bool at_begin = true;
-  // Parse the file in blocks, so that reading can stop between blocks. libcsv itself cannot be
-  // stopped, and buffers a cell until the cell ends.
+  // Parse the file in blocks, so that reading can stop between blocks. The parser libcsv cannot be
+  // stopped within a block, and buffers a cell until the cell ends.
   BlankRuns blanks;
   std::string replaced;
   const auto parse = [&](std::string_view part) {
@@ -273,8 +273,8 @@ std::vector<std::string> CommentCells(std::string_view comment, char delimiter) 
   return cells;
 }
 
-/// Numbers names that repeat, as in "speed [m/s] (2)": loggers write the same quantity of several
-/// sensors.
+/// Appends a number to repeated column names, as in "speed [m/s] (2)". Loggers repeat a name if
+/// several sensors measure the same quantity.
 void NumberRepeats(std::vector<std::string>& names) {
   std::map<std::string, int> counts;
   for (std::string& name : names) {
@@ -283,7 +283,7 @@ void NumberRepeats(std::vector<std::string>& names) {
   }
 }
 
-/// Finds the names of a table's columns, and passes names and rows to the caller.
+/// Finds the column names of a CSV table, and passes names and rows to the caller.
 class NamedRows {
  public:
   NamedRows(const std::filesystem::path& file, const CsvLimits& limits, const CsvHead& head,
@@ -298,9 +298,10 @@ class NamedRows {
 
   void Take(std::vector<std::string>& cells, int line) {
     if (cells.front().starts_with('#')) {
-      // Comments between the rows cannot contain the names.
+      // Ignore comments after the first row, because only earlier comments can contain the column
+      // names.
       if (columns_ == 0 && !is_broken_) {
-        // A comment after spaces is split into cells already.
+        // A comment that begins with spaces was already split into cells, so join its cells again.
         const std::string text = fmt::format("{}", fmt::join(cells, std::string(1, delimiter_)));
         comments_.push_back({CommentCells(text, delimiter_), line});
         constexpr std::size_t kMaxComments = 100;
@@ -336,7 +337,8 @@ class NamedRows {
     int line;
   };
 
-  /// Takes the names from the first row or from a comment; returns whether the row has the names.
+  /// Reads the column names from the table's first row or from a comment above it. TakeNames
+  /// returns whether `row` contains the names.
   bool TakeNames(std::vector<std::string>& row, int line) {
     const bool is_data = std::all_of(row.begin(), row.end(), [](const std::string& cell) {
       return cell.empty() || CellNumber(cell).has_value();
@@ -392,8 +394,8 @@ class NamedRows {
   const TakeCsvNames& take_names_;
   const TakeCsvRow& take_;
   std::optional<VboCells> vbo_;    // Converts the cells of a VBO file.
-  std::vector<Comment> comments_;  // The last comments before the first row.
-  std::size_t columns_ = 0;        // Number of columns; 0 before the names are known.
+  std::vector<Comment> comments_;  // The last comments before the first row of the table.
+  std::size_t columns_ = 0;        // Number of columns; 0 before the column names are known.
   bool is_broken_ = false;
 };
 

@@ -16,11 +16,12 @@
 #include "trackbed/core/temporaries.h"
 
 // Reads and writes files such that a killed process or a full disk leaves no partial file.
-// 1. ReadFile accepts regular files only, because a pipe could block the program, and limits the
-//    size.
-// 2. TemporaryFile writes beside the final file under a temporary name, which contains the process
-//    id, and holds a lock. Publish closes the file and renames it, which is atomic.
-// 3. RemoveAbandonedTemporaries removes temporary files whose lock nobody holds.
+// 1. ReadFile accepts only regular files up to a maximum size, because a pipe could block the
+//    program.
+// 2. TemporaryFile writes a locked temporary file, whose name contains the process id, in the
+//    folder of the final file. Publish closes the temporary file and renames it to the final name,
+//    which is atomic.
+// 3. RemoveAbandonedTemporaries removes temporary files that no process has locked.
 // 4. Devices and pipes, such as /dev/stdout, are written directly, because they cannot be replaced.
 namespace trackbed {
 namespace {
@@ -48,7 +49,8 @@ int WriteAll(int out, std::string_view content) {
       fmt::format("cannot read {}: it has more than {} MiB", file.string(), max_bytes >> 20U));
 }
 
-/// Refuses a pointer of Git LFS, which a checkout without Git LFS has in place of large files.
+/// Throws an error if the file is a Git LFS pointer, which replaces a large file in a checkout
+/// without Git LFS.
 void RequireContent(const fs::path& file, std::string_view begin) {
   if (begin.starts_with("version https://git-lfs.github.com/spec/")) {
     throw RunError(fmt::format(
@@ -181,7 +183,7 @@ bool IsTemporaryName(std::string_view name) {
 }
 
 /// Locks a new temporary file. Returns false if another process has already locked or removed the
-/// file, because that process regarded the new file as abandoned.
+/// file, because that process assumed that the new file was abandoned.
 bool IsOurs(int descriptor) {
   const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   struct stat status {};
@@ -192,8 +194,8 @@ bool IsOurs(int descriptor) {
 
 TemporaryFile::TemporaryFile(fs::path file) : file_(std::move(file)) {
   RequireReplaceable(file_);
-  // The number in the name distinguishes the temporary files of different threads. A higher number
-  // also avoids the name of a file that a killed process with the same process id has left behind.
+  // Try names with increasing numbers until the name is new. Other threads, or a killed process
+  // with the same process id, may have created the earlier names.
   for (int number = 0;; ++number) {
     path_ = TemporaryName(file_, number);
     const bool created = AddTemporary(path_, [this] {
@@ -359,8 +361,8 @@ void MakeFolder(const fs::path& folder) {
 
 namespace {
 
-/// Returns the absolute path without links, "." and "..". The last components of the path need not
-/// exist.
+/// Returns the absolute path without links, "." and "..". The last components of the path may be
+/// missing in the file system.
 fs::path RealPath(const fs::path& path) {
   std::error_code error;
   const fs::path absolute = fs::absolute(path.empty() ? "." : path, error);

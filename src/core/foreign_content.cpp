@@ -7,7 +7,7 @@
 
 #include "src/core/markup.h"
 
-// Recognizes the kinds of files by their first bytes ("magic numbers"), as the program `file` does.
+// Recognizes file types by their first bytes ("magic numbers"), as the program `file` does.
 namespace trackbed {
 namespace {
 

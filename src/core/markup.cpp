@@ -8,8 +8,8 @@
 namespace trackbed {
 namespace {
 
-/// Skips comments and declarations, and returns the name of the first element; "" if no element
-/// follows.
+/// Returns the name of the first XML or HTML element after comments and declarations; "" if the
+/// text has no element.
 std::string FirstElement(std::string_view text) {
   constexpr std::string_view kSpaces = " \t\r\n";
   while (true) {

@@ -16,7 +16,7 @@
 namespace trackbed {
 namespace {
 
-/// Explains why a cell is not a number.
+/// Returns a message that explains why a cell of a table is not a number.
 std::string NotANumber(const std::string& cell) {
   std::string pointed = cell;
   const std::size_t comma = pointed.find(',');

@@ -26,17 +26,17 @@ struct ColumnSelection {
   }
 };
 
-/// Converts rows of text to a table of numbers.
+/// Converts rows of a CSV file to a table of numbers.
 struct NumberReader {
   std::string file;
   ColumnSelection selection;
-  // Function that receives the rows, if the file has all needed columns. If `take` is empty, the
-  // rows are added to the table.
+  // Callback that receives the rows of the file, if the file has all needed columns. Without this
+  // callback, the rows are added to the table.
   std::function<void(const std::vector<double>& numbers, int line)> take{};
   std::optional<Table> table{};
   std::vector<int> lines{};           // Line of the file from which each row of the table was read.
   std::vector<std::string> header{};  // Names of all columns of the file, in the order of the file.
-  std::vector<std::size_t> taken{};   // For each column of the table, its index in `header`.
+  std::vector<std::size_t> taken{};   // Index in `header` of each column of the table.
   std::vector<std::string> cells{};   // Cells of the current row.
   int line = 1;                       // Line of the file on which the current row begins.
   bool has_needed = true;             // Whether the file has all needed columns.
@@ -45,15 +45,15 @@ struct NumberReader {
   /// Records an error message about the current line.
   void AddError(std::string key, std::string message);
 
-  /// Records an error message about a cell. The error message contains the number of the cell in
-  /// its row, counted from 1, and the name of the column, because libcsv does not report the
-  /// position of characters.
+  /// Records an error message about a cell of the current row. The error message states the cell by
+  /// its number in the row, counted from 1, and its column name, because libcsv reports no
+  /// character positions.
   void AddCellError(std::size_t cell, std::string message);
 
   /// Reads the names of the columns from the first row, and the numbers from all other rows.
   void TakeRow();
 
-  /// Reads the given cells by TakeRow, and leaves them unchanged.
+  /// Calls TakeRow for the given cells, which stay unchanged.
   void Take(std::vector<std::string>& row, int row_line);
 
  private:

@@ -8,7 +8,8 @@
 
 namespace trackbed {
 
-/// Throws RunError "cannot WHAT FILE: REASON" with the reason of an errno.
+/// Throws RunError with a message "cannot WHAT FILE: REASON", where REASON describes the errno
+/// value `error`.
 [[noreturn]] void FailOnFile(const char* what, const std::filesystem::path& file, int error);
 
 /// Returns a description of a special file for error messages, for example "a pipe" or "a device".
@@ -22,12 +23,12 @@ bool IsDevice(const std::filesystem::path& file);
 /// name would replace the link, and creating the absent target could write anywhere.
 void RequireTarget(const std::filesystem::path& file);
 
-/// Throws RunError if a temporary file cannot replace the file: if the file is a folder, a device
-/// or a pipe, or a link whose target is absent.
+/// Throws RunError if a temporary file cannot replace the file, which may be a folder, a device, a
+/// pipe, or a link whose target is absent.
 void RequireReplaceable(const std::filesystem::path& file);
 
-/// Opens a device or a pipe for writing. Waits for at most one second until a process opens the
-/// pipe for reading; if no process does, throws RunError.
+/// Opens a device or a pipe for writing. Throws RunError if no process opens the pipe for reading
+/// within one second.
 Descriptor OpenDevice(const std::filesystem::path& file);
 
 }  // namespace trackbed

@@ -30,7 +30,7 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 std::string NearestSpelling(std::string_view word, const std::vector<std::string>& known) {
   std::string nearest;
-  // Ignore candidates that differ from the word in all letters, because the word is then not a
+  // Ignore candidates that differ from the word in all letters, because such a word is not a
   // misspelling of the candidate.
   std::size_t fewest = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
   for (const std::string& candidate : known) {

@@ -15,9 +15,9 @@
 // 1. ReadThrough passes the rows of a file to a NumberReader, which selects columns by the names in
 //    the header.
 // 2. The NumberReader converts each cell by std::from_chars, which does not depend on the locale.
-// 3. Problems are collected with line, column and cell, up to a maximum number, and thrown
-//    together.
-// 4. ToCsv writes each number in the shortest form from which the same double can be read.
+// 3. Problems in a CSV file are collected with line, column and cell, up to a maximum number, and
+//    thrown together.
+// 4. ToCsv writes each number with the fewest digits from which the same double can be read.
 namespace trackbed {
 namespace {
 

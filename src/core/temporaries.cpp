@@ -52,7 +52,7 @@ bool DropTemporary(const fs::path& path, const std::function<bool()>& remove) {
 
 void RemoveTemporariesForEver() noexcept {
   List& list = TheList();
-  list.mutex.lock();  // never unlocked, so that no thread can create another temporary file
+  list.mutex.lock();  // never unlocked, so that no thread can create a temporary file any more
   for (const fs::path& path : list.paths) {
     std::error_code ignored;
     fs::remove_all(path, ignored);

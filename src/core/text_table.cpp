@@ -18,7 +18,7 @@ std::string CsvLine(const std::vector<std::string>& cells) {
   std::string csv;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     csv += i == 0 ? "" : ",";
-    // Quote the empty cell of a row with a single cell, because CSV readers skip empty lines.
+    // Quote an empty cell that is the only cell of its row, because CSV readers skip empty lines.
     if (cells[i].find_first_of(",\"\r\n") == std::string::npos &&
         !(cells.size() == 1 && cells[i].empty())) {
       csv += cells[i];
@@ -43,7 +43,7 @@ std::optional<double> CellNumber(const std::string& cell) {
 }
 
 std::string ShortestText(double number) {
-  return fmt::format("{}", number + 0.0);  // adding 0.0 converts a negative zero to zero
+  return fmt::format("{}", number + 0.0);  // adding 0.0 to -0.0 gives 0.0
 }
 
 std::pair<std::string, std::string> FormatDistinct(double first, double second) {
@@ -78,7 +78,7 @@ std::string TextTable::ToCsv() const {
 }
 
 TextTable ReadTextCsv(const std::filesystem::path& file) {
-  constexpr std::size_t kMaxCells = 10'000'000;  // a cell takes at least 32 bytes of memory
+  constexpr std::size_t kMaxCells = 10'000'000;  // each cell takes at least 32 bytes of memory
   ProblemList problems;
   std::optional<TextTable> table;
   ReadCsvRows(

@@ -28,8 +28,8 @@ class Timestamp {
     return number;
   }
 
-  /// Skips the next character if it is one of the given characters. Returns the skipped character;
-  /// 0 if no character was skipped.
+  /// Skips the next character if it is one of the given characters. Skip() returns the skipped
+  /// character, or 0 if no character was skipped.
   char Skip(std::string_view characters) {
     if (rest_.empty() || characters.find(rest_.front()) == std::string_view::npos) {
       return '\0';

@@ -11,10 +11,10 @@
 #include "trackbed/core/csv_rows.h"
 #include "trackbed/core/text_table.h"
 
-// A VBO file has sections that begin with lines such as [header]. The lines of [header] describe
-// the columns one by one, for human readers; [column names] has the short names of the columns in
-// one line. Files without [column names] use the descriptions as names. FindVboHead does not find
-// the table of such a file, because the descriptions contain blanks.
+// A VBO file has sections that begin with lines such as [header]. Each line of the section [header]
+// describes a column in words. The section [column names] contains the short names of all columns
+// in one line. FindVboHead finds no table in a VBO file without [column names], because the
+// descriptions in [header] contain blanks.
 namespace trackbed {
 namespace {
 
@@ -27,7 +27,8 @@ std::string Lower(std::string_view text) {
   return lower;
 }
 
-/// Returns the quantity of a column without the underscores that mark a second receiver.
+/// Returns the name of a VBO column without leading underscores, which mark the data of a second
+/// receiver.
 std::string Plain(const std::string& name) {
   return boost::trim_left_copy_if(Lower(name), boost::is_any_of("_"));
 }
@@ -47,7 +48,8 @@ std::vector<std::string> Words(std::string_view line) {
   return words;
 }
 
-/// The unit at the end of a description such as "velocity kmh"; "" if the description has no unit.
+/// Returns the unit at the end of a column description such as "velocity kmh"; "" if the
+/// description has no unit.
 std::string UnitAtEnd(const std::string& description) {
   constexpr std::array kUnits{"kmh", "km/h", "mph", "knots", "m/s", "g", "deg/s", "rpm"};
   const std::vector<std::string> words = Words(description);
@@ -141,7 +143,8 @@ std::string VboCells::Convert(std::vector<std::string>& cells) {
     const double time = 3600.0 * hours + kMinutes * minutes + seconds;
     days_ += last_ && *last_ - time > 0.5 * kDay ? kDay : 0.0;
     last_ = time;
-    // Times have up to three decimals; further digits are rounding errors of hhmmss.
+    // Times in VBO files have up to three decimals (hhmmss.sss); round away further digits, which
+    // are rounding errors.
     cells[i] = fmt::format("{:.6f}", time + days_);
   }
   return problem;

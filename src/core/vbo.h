@@ -11,22 +11,22 @@
 /// Reads tables in VBO files, which data loggers of Racelogic and RaceChrono write.
 namespace trackbed {
 
-/// Finds the table in the first lines of a VBO file: the names of its columns in the section
-/// [column names], its rows in [data]. Columns get the units that their names in [header] end with,
-/// as in "velocity kmh", or the units to which VboCells converts their cells. FindVboHead returns
-/// nullopt if the text lacks the section [column names] or [data].
+/// Finds the table in the first lines of a VBO file. The column names are in the section [column
+/// names], the rows in the section [data]. The unit of a column is the last word of its description
+/// in [header], as in "velocity kmh", or the unit to which VboCells converts its cells. FindVboHead
+/// returns nullopt if the text lacks the section [column names] or [data].
 std::optional<CsvHead> FindVboHead(std::string_view begin);
 
-/// Converts the cells of a VBO file to the units and signs of other tables. Times, which the file
-/// has as hhmmss.ss, become seconds since the midnight (UTC) before the first row. Latitudes and
-/// longitudes, which the file has in minutes, positive to the north and to the west, become
-/// degrees, positive to the north and to the east. Rewrites all numbers (NormalizeNumber).
+/// Converts the cells of a VBO file to the units and signs of other tables. Times in the format
+/// hhmmss.ss become seconds since the midnight (UTC) before the first row. Latitudes and longitudes
+/// become degrees, positive to the north and east; in VBO files, they are minutes, positive to the
+/// north and west. VboCells also rewrites all numbers (NormalizeNumber).
 class VboCells {
  public:
   explicit VboCells(const std::vector<std::string>& names);
 
-  /// Converts the cells of a row. Returns a problem if the row has a time that does not exist;
-  /// otherwise "". Cells that are not numbers stay unchanged.
+  /// Converts the cells of a row of a VBO file. Returns an error message if the row contains an
+  /// invalid time of day; otherwise "". Cells that are not numbers stay unchanged.
   std::string Convert(std::vector<std::string>& cells);
 
  private:

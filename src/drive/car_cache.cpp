@@ -16,8 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the cache key of a model, a text that contains all data from which the model is
-/// compiled.
+/// Returns the cache key of a car model: a text with all data from which the model is compiled.
 std::string KeyOf(const Scene& scene, const fs::path& file) {
   std::string key = fmt::format("{}\n{}", file.string(), scene.xml);
   for (const SceneAsset& asset : scene.assets) {

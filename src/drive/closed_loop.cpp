@@ -17,8 +17,8 @@
 //   2. End the run if the termination criteria are met (termination.h).
 //   3. Compute steering and acceleration from the controller, the speed options or the plan's speed
 //      profile. Apply the disturbances and log the row.
-//   4. Step the plant until the next period. Prescribed angles and steering schedules change at
-//      every physics step; other commands are held constant.
+//   4. Step the plant until the next period. Prescribed steering angles and steering schedules
+//      change at every physics step; other commands are constant within a control period.
 namespace trackbed {
 
 LoopCore::LoopCore(Plant& plant, const SteeringController& controller, const FeasiblePlan& plan,
@@ -129,8 +129,8 @@ std::optional<Projection> LoopCore::FollowPlan(const VehicleState& state, bool a
 }
 
 bool LoopCore::Rests(const VehicleState& state) {
-  // Within the duration kMinRestDuration, a car that starts from rest with more than 0.02 m/s^2
-  // moves farther than 1 cm, the limit of Standstill.
+  // A car that starts from rest with more than 0.02 m/s^2 moves by more than 1 cm within
+  // kMinRestDuration, so the class Standstill detects its motion.
   constexpr double kMinRestDuration = 1.0;  // Duration for which a car must rest [s].
   const bool steers = sequencer_.stationary_steer().InProgress();
   const std::optional<double> since = standstill_.Update(state, !steers);
@@ -221,8 +221,7 @@ double LoopCore::Accelerate(SteeringController& controller, const ControlInput& 
 }
 
 double LoopCore::WantedAcceleration(SteeringController& controller, const ControlInput& input) {
-  // Speed of the car in the direction of the gear; negative if the car rolls in the opposite
-  // direction.
+  // Speed of the car in the direction of the gear; negative if the car rolls against the gear.
   const double speed = command_.gear * input.state.speed;
   std::optional<double> own =
       TimedSpeedControl(config_.speed, input.state.time, speed, input.period);
@@ -242,8 +241,9 @@ double LoopCore::WantedAcceleration(SteeringController& controller, const Contro
   double hardest =
       MaxDeceleration(controlled_, RoadFactor(config_.world, row_.state.pose.position()));
   if (at_limit && hardest > 0.0) {
-    // A plan at the limit brakes with the tyres and the drag, so at high speed it decelerates more
-    // than the tyres alone can. The deceleration of the plan is within the grip of the road.
+    // A speed profile at the car's limit brakes with tyres and drag, so at high speed it
+    // decelerates more than the tyres alone can. The planned deceleration is within the grip of the
+    // road, so allow it.
     hardest = std::max(hardest, -plan.AccelerationAt(input.station));
   }
   const double wanted =
@@ -255,8 +255,8 @@ std::optional<double> LoopCore::PlannedSpeed(const VehicleState& state) const {
   if (!sequencer_.has_path() || !plan_sets_speed_) {
     return std::nullopt;
   }
-  // The car may stop anywhere within the goal tolerance of the goal. Therefore the check of the
-  // planned speeds also accepts a stop within the goal tolerance along the path.
+  // Use the highest planned speed over the goal tolerance behind the car, because a car may stop
+  // anywhere within the goal tolerance of the goal.
   const double to = sequencer_.StationFor(state);
   const double from = to - config_.goal_tolerance * config_.vehicle.length -
                       std::abs(state.speed) * config_.control_period;
@@ -285,8 +285,8 @@ void LoopCore::StepPlant(const CommandOf& command) {
 Command LoopCore::CommandAt(int step) const {
   Command now = command_;
   if (config_.steering_input == SteeringInput::kPrescribed) {
-    // The wheels reach the commanded angle at the end of the control period; in earlier physics
-    // steps, the angle is interpolated.
+    // The prescribed wheel angle is interpolated over the physics steps, so that the wheels reach
+    // the commanded angle at the end of the control period.
     now.steering =
         std::lerp(steering_before_, command_.steering, static_cast<double>(step + 1) / steps_);
   }

@@ -7,12 +7,12 @@
 
 namespace trackbed {
 
-/// Detects the collisions of the car and its trailer in one run at every physics step.
-/// CollisionWatch also checks the motion between two steps, since the car may pass through a thin
-/// obstacle within one step.
+/// Detects the collisions of the car and its trailer at every physics step of a run. CollisionWatch
+/// also checks the motion between two steps, since the car may pass through a thin obstacle within
+/// one step.
 class CollisionWatch {
  public:
-  /// The world must outlive the CollisionWatch, which keeps a reference to it.
+  /// The object `world` must outlive the CollisionWatch, which keeps a reference to `world`.
   CollisionWatch(const World& world, const VehicleParams& vehicle,
                  const std::optional<TrailerParams>& trailer = std::nullopt);
 
@@ -22,19 +22,19 @@ class CollisionWatch {
 
   /// Smallest clearance and largest contact force since the last call of Take.
   struct Period {
-    /// Minimum clearance of car and trailer from the obstacles [m]; 0 in a collision; none without
-    /// obstacles.
+    /// Minimum clearance of car and trailer from the obstacles [m]; 0 in a collision, nullopt
+    /// without obstacles.
     std::optional<double> clearance;
     double force = 0.0;  ///< Largest contact force between car and obstacles [N].
   };
   Period Take();
 
-  /// Returns the time of the first contact with an obstacle [s]; none if the car touched no
+  /// Returns the time of the first contact with an obstacle [s], or nullopt if the car touched no
   /// obstacle.
   [[nodiscard]] const std::optional<double>& contact_time() const { return contact_time_; }
 
  private:
-  /// A footprint that moves, and its clearance from the obstacles at the last update.
+  /// Footprint of the car or its trailer, with its clearance from the obstacles at the last update.
   struct Body {
     VehicleParams shape;
     std::optional<ClearanceSample> last{};

@@ -11,19 +11,20 @@
 
 namespace trackbed {
 
-/// Logs the plant's configuration vector once per logging period, at the first physics step at or
-/// after each multiple of the period, and at the end of the run.
+/// Logs the plant's configuration vector (joint positions) once per logging period, and at the end
+/// of the run. The plant is logged at the first physics step at or after each multiple of the
+/// logging period.
 class ConfigurationLog {
  public:
-  /// `columns` names the components of the plant's configuration vector. If `columns` is empty,
-  /// nothing is logged. The columns of moving obstacles contain the planned positions of the
-  /// obstacles, even if the plant does not simulate the obstacles.
+  /// `columns` names the components of the plant's configuration vector. If `columns` is empty, no
+  /// configurations are logged. The columns of moving obstacles contain the planned positions of
+  /// the obstacles, even if the plant does not simulate the obstacles.
   ConfigurationLog(const std::vector<std::string>& columns, const World& world, double period);
 
-  /// Logs the configuration at `time` [s] if a logging period has passed.
+  /// Logs the plant's configuration at `time` [s] if a logging period has passed.
   void Record(const Plant& plant, double time);
-  /// Logs the configuration at the end of the run, at `time` [s], unless Record has logged it
-  /// or the plant has diverged.
+  /// Logs the plant's configuration at the end of the run, at `time` [s], unless Record has already
+  /// logged it or the plant has diverged.
   void RecordEnd(const Plant& plant, double time);
 
   /// Returns the table of configurations logged so far.
@@ -32,7 +33,8 @@ class ConfigurationLog {
   Table Take() { return std::move(table_); }
 
  private:
-  /// A column of a moving obstacle, which contains one coordinate of the obstacle's displacement.
+  /// A log column of a moving obstacle, which contains one coordinate of the obstacle's
+  /// displacement.
   struct Moving {
     std::size_t column = 0;
     Obstacle obstacle;

@@ -81,7 +81,7 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
 
 namespace {
 
-/// Makes the named plant of a scenario, at the scenario's start.
+/// Makes the plant (car model) with the given name, in the start state of the scenario.
 std::unique_ptr<Plant> PlantAtStart(const Scenario& scenario, const CarModel& car,
                                     const std::string& name) {
   StartState start = InitialState(scenario, car.params());

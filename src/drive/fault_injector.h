@@ -11,8 +11,8 @@
 
 namespace trackbed {
 
-/// Returns the vehicle parameters that the controller assumes, including the disturbance of the
-/// wheelbase.
+/// Returns the vehicle parameters that the controller assumes, including the configured error of
+/// the wheelbase.
 VehicleParams NominalVehicle(const Disturbances& disturbances, VehicleParams vehicle);
 
 /// Injects the disturbances of one run. The random numbers depend only on the seed, so all plants
@@ -22,28 +22,29 @@ class FaultInjector {
   struct Options {
     double timestep = 0.0;        ///< Timestep of the physics [s].
     double start_steering = 0.0;  ///< Initial angle of wheels and actuator [rad].
-    /// Options of the speed control; the gain and the deceleration determine the course of a speed
-    /// loss.
+    /// Options of the speed control; their gain and deceleration determine how a speed loss slows
+    /// the car down.
     SpeedControlOptions speed{};
     std::uint64_t seed = 0;
   };
 
   FaultInjector(const Disturbances& disturbances, const Options& options);
 
-  /// Returns a noisy measurement of the car's pose for this control period; none if no noise is
+  /// Returns a noisy measurement of the car's pose for this control period; nullopt if no noise is
   /// configured.
   std::optional<Pose2> Measure(const Pose2& pose);
 
-  /// Returns the commanded acceleration, changed by a speed loss if one acts [m/s^2]. Acceleration
-  /// and `speed` [m/s] are positive in the direction of the gear; `station` is a station of the
-  /// log.
+  /// Returns the commanded acceleration [m/s^2], reduced if a speed loss (a fault) is active.
+  /// Acceleration and `speed` [m/s] are positive in the direction of the gear. `station` [m] is
+  /// counted from the start of the run, as in the log.
   double LimitSpeed(double acceleration, double speed, double time, double station);
 
   /// Applies the steering faults to a commanded steering angle. Returns the steering angle that the
   /// actuator receives in the coming physics step [rad].
   double Steer(double wanted) { return steering_.Pass(wanted); }
 
-  /// Applies the lateral kicks due in the physics step `step`, counted from 0.
+  /// Applies the lateral kicks (disturbances of the car's motion) that are due in the physics step
+  /// `step`, counted from 0.
   void Kick(long step, Plant& plant) const;
 
  private:

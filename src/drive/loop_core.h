@@ -18,7 +18,7 @@
 
 namespace trackbed {
 
-/// Reports the progress of the run each time the progress has grown by one percent.
+/// Reports the progress of a run in steps of one percent.
 class Progress {
  public:
   explicit Progress(const std::function<void(double)>& callback) : callback_(callback) {}
@@ -44,7 +44,7 @@ class LoopCore {
   /// for the log. If `keeps_rows` is false, the log contains only the last row.
   LoopCore(Plant& plant, const SteeringController& controller, const FeasiblePlan& plan,
            const LoopConfig& config, bool keeps_rows = true);
-  /// Copies a loop; the copy steps `plant`, which must be in the same state as the plant of
+  /// Copies a loop. The new loop steps `plant`, which must be in the same state as the plant of
   /// `other`.
   LoopCore(const LoopCore& other, Plant& plant) : LoopCore(other) {
     plant_ = &plant;
@@ -53,13 +53,13 @@ class LoopCore {
   LoopCore& operator=(const LoopCore&) = delete;
   ~LoopCore() = default;
 
-  /// Returns how the run ended; nullopt if it has not ended.
+  /// Returns how the run ended, or nullopt if the run has not ended.
   [[nodiscard]] const std::optional<DriveStatus>& status() const { return status_; }
-  /// Returns the row of the log that begins the control period; the row has the last command.
+  /// Returns the log row of the start of the control period; the row contains the last command.
   [[nodiscard]] const LogRow& row() const { return row_; }
   [[nodiscard]] const Plan& plan() const { return sequencer_.plan(); }
-  /// Returns the input of the controller for the control period. The returned input refers to data
-  /// of this loop.
+  /// Returns the input of the controller for the control period. The returned input contains
+  /// references to data of the LoopCore.
   [[nodiscard]] ControlInput Input() const;
 
   /// Simulates the control period with the commands of `controller`, then begins the next period.
@@ -67,7 +67,7 @@ class LoopCore {
   /// otherwise, the controller steers. Do not call Step after the end of the run.
   void Step(SteeringController& controller, bool follow_schedule);
 
-  /// Moves the log out of this loop, whose run must have ended.
+  /// Moves the log out of the LoopCore; the run must have ended.
   RunLog TakeLog() {
     recorder_.SampleEnd(*plant_, row_.state.time);
     return recorder_.Finish(*status_, termination_.cause());
@@ -81,13 +81,14 @@ class LoopCore {
  private:
   LoopCore(const LoopCore&) = default;
 
-  /// Observes the plant, follows the plan, and ends the run if an end criterion is met.
+  /// Begins a control period: observes the plant, follows the plan, and ends the run if an end
+  /// criterion is met.
   void BeginPeriod();
   /// Returns the plant's state at the beginning of the control period.
   [[nodiscard]] VehicleState Observe() const;
 
-  /// Switches to a new plan or to the next segment if a switch is due. Returns the car's projection
-  /// onto the plan, or none without a path.
+  /// Switches to a new plan or to the next segment of the plan if a switch is due. Returns the
+  /// car's projection onto the plan, or nullopt without a path.
   std::optional<Projection> FollowPlan(const VehicleState& state, bool at_rest);
 
   /// Returns whether the car is at rest and will stay at rest. A car at standstill counts as at
@@ -107,7 +108,7 @@ class LoopCore {
   /// Returns the commanded acceleration along the car's x axis [m/s^2] over the control period.
   double Accelerate(SteeringController& controller, const ControlInput& input);
   /// Returns the wanted acceleration of the car, before disturbances. Options that prescribe the
-  /// speed over time override the controller, and the controller overrides the plan's speed
+  /// speed over time have priority over the controller, which has priority over the plan's speed
   /// profile.
   double WantedAcceleration(SteeringController& controller, const ControlInput& input);
   /// Returns the planned speed that is logged in LogRow::planned_speed.
@@ -129,7 +130,7 @@ class LoopCore {
   const LoopConfig& config_;
   VehicleState start_;
   VehicleParams controlled_;  // Parameters of the nominal vehicle, which the controller assumes.
-  int steps_;                 // Number of plant steps per control period.
+  int steps_;                 // Number of physics steps per control period.
   SegmentSequencer sequencer_;
   LoopSurroundings surroundings_;
   std::optional<ReplanningMonitor> monitor_;
@@ -140,11 +141,11 @@ class LoopCore {
   Progress progress_;
   bool plan_sets_speed_ = false;
   bool throttle_released_ = false;  // Whether the car has reached LoopConfig::coasts_from.
-  Command command_;                 // The last command.
+  Command command_;                 // The last command to the plant.
   double steering_before_;          // Prescribed steering angle at the start of the period [rad].
-  // Whether the loop has adopted, in this control period, a plan that does not stop at an obstacle.
-  // After a change to a plan without a stop, the last command may still stop the car for the
-  // previous plan; this stop must not end the run.
+  // Whether the loop adopted, in the present control period, a plan that does not stop at an
+  // obstacle. The last command may still stop the car for the previous plan; the stop for the
+  // previous plan must not end the run.
   bool continues_past_obstacle_ = false;
   std::vector<double> values_;  // Diagnostic values of the controller's last update.
   long tick_ = 0;               // Number of control periods before the present one.

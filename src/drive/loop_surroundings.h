@@ -14,13 +14,14 @@
 
 namespace trackbed {
 
-/// Collects the surroundings that controllers may know. The world must outlive this object.
+/// Collects the surroundings that controllers may know. The world must outlive the LoopSurroundings
+/// object.
 class LoopSurroundings final : public Surroundings {
  public:
   LoopSurroundings(const World& world, const VehicleParams& vehicle);
 
-  /// Begins a control period of the car in `state` on `plan`, which must stay unchanged until the
-  /// next call. An obstacle that has become known stays known.
+  /// Begins a control period of the car in `state` on `plan`. The plan must not change until the
+  /// next call of BeginPeriod. A known obstacle stays known until the end of the run.
   void BeginPeriod(const VehicleState& state, const Plan& plan);
   /// Call ForgetPath when the car begins another plan or another segment.
   void ForgetPath() { edges_.reset(); }
@@ -35,7 +36,7 @@ class LoopSurroundings final : public Surroundings {
   std::vector<bool> known_;  // Whether each obstacle of the world is known.
   VehicleState state_;
   const Plan* plan_ = nullptr;
-  // Computed on demand.
+  // The following members are computed when a controller needs them.
   mutable bool sees_ = false;               // Whether the obstacles are collected for this period.
   mutable std::vector<SeenObstacle> seen_;  // Walls of the map, followed by known obstacles.
   mutable std::optional<PathEdges> edges_;  // Edges beside the present path.

@@ -25,12 +25,12 @@
 
 // Plans the mission of a scenario before the run.
 // 1. Refuses a start at which the car overlaps an obstacle (StartOverlap).
-// 2. Makes the PlanRequest from the scenario: waypoints, obstacles known at the start, road,
-//    limits.
-// 3. MakePlan calls the planner and checks the feasibility. If there is no plan, PlanRemedies
-//    finds changes of the mission that lead to a plan.
-// 4. Adds notes on slow turns, missed waypoints, obstacles in the way, and turning round at the
+// 2. Makes the PlanRequest from the scenario's waypoints, road, limits, and obstacles known at the
 //    start.
+// 3. MakePlan calls the planner and checks whether the car can drive the plan. If planning fails,
+//    PlanRemedies finds changes of the mission that lead to a plan.
+// 4. Adds notes to the plan on slow turns, missed waypoints, obstacles on the path, and turning
+//    round at the start.
 // 5. With plan.avoid, PlanAround changes the plan so that it passes around the known obstacles.
 namespace trackbed {
 namespace {
@@ -41,7 +41,7 @@ void NoteSlowTurns(FeasiblePlan& plan, double speed) {
   const auto slowest =
       std::min_element(plan->caps.begin(), plan->caps.end(),
                        [](const SpeedCap& a, const SpeedCap& b) { return a.speed < b.speed; });
-  // Fraction of the mission's speed below which a turn counts as slower.
+  // Fraction of the mission's speed below which a turn is reported as slower.
   constexpr double kNotedFraction = 0.99;
   if (plan->notes.empty() && slowest != plan->caps.end() &&
       slowest->speed < kNotedFraction * speed) {
@@ -50,7 +50,7 @@ void NoteSlowTurns(FeasiblePlan& plan, double speed) {
   }
 }
 
-/// Adds a note if plans made during the run would omit stops or waits of the initial plan.
+/// Adds a note to the plan if plans made during the run would omit its stops or waits.
 void NoteStops(FeasiblePlan& plan, const Scenario& scenario) {
   std::vector<double> stations = plan->stops;
   for (const PlannedWait& wait : plan->waits) {
@@ -66,7 +66,7 @@ void NoteStops(FeasiblePlan& plan, const Scenario& scenario) {
                   scenario.plan->avoid ? "plan.avoid" : "plan.replan", fmt::join(stations, ", ")));
 }
 
-/// Adds the notes on the file of the track or of the roads to the plan.
+/// Adds to the plan the notes about the file of the track or roads.
 void NoteInputs(FeasiblePlan& plan, const Scenario& scenario) {
   if (scenario.mission.track) {
     for (const std::string& note : scenario.mission.track->notes) {
@@ -91,7 +91,8 @@ void NoteObstacle(FeasiblePlan& plan, const VehicleParams& vehicle,
 }
 
 /// Adds a note to the plan if the path passes a waypoint at a distance of more than a car length.
-/// Adds no note to a blocked or partial plan, which already states where it ends.
+/// NoteMissedWaypoint adds no note to a blocked or partial plan, which already states where the
+/// plan ends.
 void NoteMissedWaypoint(FeasiblePlan& plan, const VehicleParams& vehicle) {
   const auto miss = LargestWaypointMiss(plan->reference.path, plan->waypoints);
   if (miss && miss->distance > vehicle.length && plan->blocked.empty() && plan->partial.empty()) {
@@ -103,7 +104,7 @@ void NoteMissedWaypoint(FeasiblePlan& plan, const VehicleParams& vehicle) {
 
 /// Adds a note to the plan if the path makes a long detour between two successive waypoints. A long
 /// detour exceeds the straight line by at least a full circle with the car's smallest turning
-/// radius. Adds no note if there are obstacles, around which detours are common.
+/// radius. NoteLongLeg adds no note in a world with obstacles, around which detours are common.
 void NoteLongLeg(FeasiblePlan& plan, const VehicleParams& vehicle, const Scenario& scenario,
                  const std::vector<OrientedBox>& known) {
   if (vehicle.kind != VehicleKind::kSteered || !known.empty() || !plan->blocked.empty() ||
@@ -123,7 +124,7 @@ void NoteLongLeg(FeasiblePlan& plan, const VehicleParams& vehicle, const Scenari
   }
 }
 
-/// Adds a note to the plan if the run ends before the end of the plan.
+/// Adds a note to the plan if the run's time limit ends before the plan.
 void NoteTimeLimit(FeasiblePlan& plan, double time_limit) {
   const double duration = plan->Duration();
   if (duration >= time_limit) {
@@ -135,8 +136,8 @@ void NoteTimeLimit(FeasiblePlan& plan, double time_limit) {
 }
 
 /// Returns the path of a car that turns round to the shorter side until it has the heading of the
-/// path point `to`. On this path, the wheels turn from straight ahead to full lock at their full
-/// rate.
+/// path point `to`. On the returned path, the wheels turn from straight ahead to full lock at their
+/// maximum rate.
 Path TurnRoundPath(const VehicleParams& vehicle, const StartState& start, const PathPoint& to,
                    double speed) {
   const double turn = AngleDifference(to.pose.yaw, start.pose.yaw);
@@ -153,8 +154,8 @@ Path TurnRoundPath(const VehicleParams& vehicle, const StartState& start, const 
   return {start.pose, segments};
 }
 
-/// If the car starts with its back to the path, adds a note to the plan: where the car turns round,
-/// and whether an obstacle is in its way.
+/// If the car starts with its back to the path, adds a note on where it turns round, and whether an
+/// obstacle is in its way.
 void NoteTurnRound(FeasiblePlan& plan, const VehicleParams& vehicle, const StartState& start,
                    const SpeedControlOptions& speed, const std::vector<OrientedBox>& known) {
   if (plan->reference.path.length() == 0.0 || vehicle.kind != VehicleKind::kSteered) {
@@ -165,8 +166,8 @@ void NoteTurnRound(FeasiblePlan& plan, const VehicleParams& vehicle, const Start
   if (std::cos(turn) >= 0.0) {
     return;
   }
-  // Before the start of the path, the speed control holds a speed that exceeds the start speed by
-  // acceleration/gain.
+  // Assume the speed that the speed control holds before the path's start: the start speed plus
+  // `acceleration`/`gain` of the speed control.
   const Path path =
       TurnRoundPath(vehicle, start, to, std::abs(start.speed) + speed.acceleration / speed.gain);
   std::string note = fmt::format(
@@ -182,7 +183,8 @@ void NoteTurnRound(FeasiblePlan& plan, const VehicleParams& vehicle, const Start
   plan.AddNote(std::move(note));
 }
 
-/// Returns the bound on the distance of the path from waypoints [m]; nullopt if there is no bound.
+/// Returns the maximum distance of the path from the waypoints [m], or nullopt if the distance is
+/// not limited.
 std::optional<double> MaxWaypointMiss(const PlanSpec& plan, const VehicleParams& vehicle) {
   const bool is_bounded = PlannerFor(plan.global).bounds_waypoint_miss && vehicle.length > 0.0;
   return plan.max_waypoint_miss || !is_bounded ? plan.max_waypoint_miss
@@ -216,7 +218,7 @@ std::vector<double> Roads(const World& world) {
   return roads;
 }
 
-/// Refuses a mission with the reason `reason`.
+/// Returns a failed plan with the given status and the reason `reason`.
 FeasiblePlan Refused(PlanStatus status, std::string reason, const PlanRequest& request) {
   Plan plan;
   plan.status = status;
@@ -224,7 +226,7 @@ FeasiblePlan Refused(PlanStatus status, std::string reason, const PlanRequest& r
   return MakeFeasible(std::move(plan), request);
 }
 
-/// Adds to the reason of a plan that failed which remedies lead to a plan.
+/// Adds to the failure reason of a plan the changes of the scenario that lead to a plan.
 FeasiblePlan WithRemedies(FeasiblePlan plan, const PlanRequest& request, const Scenario& scenario) {
   const std::vector<std::string> remedies =
       PlanRemedies(plan->status, request, *scenario.plan, MapWalls(scenario.world));
@@ -242,8 +244,9 @@ FeasiblePlan WithoutPath(const Scenario& scenario, const VehicleParams& vehicle)
   return MakeFeasible(std::move(plan), RequestOn({}, vehicle, MakeSpeedLimits(scenario)));
 }
 
-/// Returns the data for planning speeds at the car's limit; none if the mission does not ask for
-/// such speeds. `diagram` returns the g-g-v diagram for given friction coefficients.
+/// Returns the data for planning speeds at the car's limit, or nullopt if the mission does not ask
+/// for such speeds. The function `diagram` returns the g-g-v diagram for given friction
+/// coefficients.
 std::optional<SpeedAtLimit> LimitsFor(const Scenario& scenario, const DiagramOfRoads& diagram) {
   const auto& profile = scenario.mission.speed_profile;
   const auto* limits = profile ? std::get_if<LimitProfileOptions>(&*profile) : nullptr;

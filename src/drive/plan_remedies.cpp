@@ -13,13 +13,13 @@
 namespace trackbed {
 namespace {
 
-/// Bounds of the computing time of a remedy: number of random samples, and number of poses of a
-/// search.
+/// Limits of the computing time of a remedy (a changed scenario): the numbers of random samples and
+/// of searched poses.
 constexpr long kRemedySamples = kMaxSamples / 20;
 constexpr int kRemedyPoses = 20'000;
 
-/// Returns whether planning failed for lack of room, so that another start or another kind of path
-/// may help.
+/// Returns whether planning failed for lack of space, so that another start or another planner may
+/// help.
 bool LacksRoom(PlanStatus status) {
   return status == PlanStatus::kNoPath || status == PlanStatus::kTurnTooTight ||
          status == PlanStatus::kCollides || status == PlanStatus::kBudgetUsedUp ||
@@ -32,8 +32,9 @@ bool Succeeds(const PlanRequest& request, const PlannerOptions& planner) {
   return plan.ok() && plan->partial.empty();
 }
 
-/// Returns the options of `plan: {method: hybrid_astar}` for a car, with a smaller budget. For
-/// small cars, the lengths in the options are scaled with the car's length, as in scenarios.
+/// Returns the options of the planner hybrid_astar (`plan: {method: hybrid_astar}`) for a car, with
+/// a smaller budget of poses. For small cars, the lengths in the options are scaled with the car's
+/// length, as in scenarios.
 HybridAStarOptions HybridFor(const VehicleParams& vehicle) {
   HybridAStarOptions options;
   const double scale = std::min(1.0, vehicle.length / kFullSizeCar);

@@ -72,7 +72,7 @@ RunLog RecordedLog(const Scenario& scenario, const CarModel& car) {
   const long periods = static_cast<long>(std::floor(end / spec.control_period + 1e-6));
   const long steps = std::lround(spec.control_period / spec.timestep);
   for (long tick = 0; tick <= periods; ++tick) {
-    // Round the times to nanoseconds, as ClosedLoop does.
+    // Round the times of the log to nanoseconds, as the closed loop does.
     const auto time = [&](long step) {
       const double exact = static_cast<double>(tick) * spec.control_period +
                            static_cast<double>(step) * spec.timestep;

@@ -32,8 +32,8 @@ Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller
       configurations_(config.configuration_columns, config.world, config.state_period),
       collisions_(config.world, config.vehicle, config.trailer) {
   if (keeps_rows_) {
-    // Without reservation, a growing vector would copy all rows, and need twice the memory during
-    // the copy. Reserved rows take memory only when they are written.
+    // Reserve memory for all rows: a growing vector would copy all rows, and need twice the memory
+    // during the copy. The reserved memory is used only when the rows are written.
     log_.rows.reserve(MostRows(config));
   }
 }

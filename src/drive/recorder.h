@@ -13,8 +13,8 @@ namespace trackbed {
 /// Records the log of one run: rows, plan changes, configurations and the first contact.
 class Recorder {
  public:
-  /// World, vehicle and hooks of `config` must outlive the Recorder, which keeps references to all
-  /// three. If `keeps_rows` is false, the log contains only the last row.
+  /// World, vehicle and hooks of `config` must outlive the Recorder, which keeps references to
+  /// them. If `keeps_rows` is false, the log contains only the last row.
   Recorder(const LoopConfig& config, std::vector<std::string> controller_columns,
            bool keeps_rows = true);
 
@@ -30,13 +30,14 @@ class Recorder {
   void AddRow(const LogRow& row);
   void AddPlanChange(PlanChange change) { log_.changes.push_back(std::move(change)); }
 
-  /// Returns the time of the first contact with an obstacle [s]; none if the car touched no
+  /// Returns the time of the first contact with an obstacle [s], or nullopt if the car touched no
   /// obstacle.
   [[nodiscard]] const std::optional<double>& contact_time() const {
     return collisions_.contact_time();
   }
 
-  /// Records the plant's configuration at the end of the run, at `time` [s]. Call it before Finish.
+  /// Records the plant's configuration at the end of the run, at `time` [s]. Call SampleEnd before
+  /// Finish.
   void SampleEnd(const Plant& plant, double time) { configurations_.RecordEnd(plant, time); }
   /// Completes the log and moves it out of this recorder.
   RunLog Finish(DriveStatus status, std::string cause = "");

@@ -10,16 +10,17 @@
 
 // ReplanningMonitor decides in every control period whether to plan again:
 //   1. Register the obstacles that become known.
-//   2. While the car is on the route, call the avoider, if configured, for obstacles that block the
-//      plan in a turn. The avoider is called only after its configured delay has passed.
+//   2. While the car is on its route, call the avoider (a planner around single obstacles), if
+//      configured, for obstacles that block the plan in a turn. The avoider is called after its
+//      configured delay.
 //   3. If the avoider is not called and replanning is configured, replan at multiples of the
 //      replanning period. Replan at once if a new obstacle is within stopping distance.
 namespace trackbed {
 namespace {
 
 constexpr double kSameTime = 1e-9;  // Tolerance for comparing times [s].
-/// Deviations from the plan beyond which replanning no longer assumes that the car follows the
-/// plan.
+/// The following constants are the deviations from the plan beyond which replanning no longer
+/// assumes that the car follows the plan.
 constexpr double kStrayed = 0.5;  // Largest distance of the car from the plan [m].
 // Largest difference between car and plan in heading [rad].
 constexpr double kStrayedHeading = 0.2;
@@ -146,8 +147,8 @@ std::vector<MovingBox> ReplanningMonitor::KnownObstacles(const VehicleState& sta
       continue;
     }
     const OrientedBox box = FootprintAt(obstacle, state.time);
-    // The avoider handles an obstacle before the replanner, once the avoider's delay has passed. If
-    // the avoider finds no path, replanning handles the obstacle.
+    // Omit obstacles that the avoider handles first. If the avoider finds no path around an
+    // obstacle, replanning handles this obstacle.
     const bool for_avoider =
         !knowledge_[i].avoided && driving_.on_route &&
         IsForAvoider(options_.replanning, options_.vehicle, path, station, box);
@@ -186,8 +187,7 @@ double ReplanningMonitor::HardestBraking(const Path& path, double station, doubl
   constexpr double kSpacing = 1.0;          // [m]
   constexpr double kMinDeceleration = 0.1;  // [m/s^2]
   double hardest = MaxDeceleration(options_.vehicle, 1.0);
-  // Low friction extends the range of the search, since the car then needs a longer distance to
-  // stop.
+  // Low friction extends the searched distance, since the car then needs a longer distance to stop.
   for (double ahead = 0.0; hardest > kMinDeceleration && 2.0 * hardest * ahead <= speed * speed;
        ahead += kSpacing) {
     const PathPoint at = path.At(station + ahead);
@@ -196,9 +196,9 @@ double ReplanningMonitor::HardestBraking(const Path& path, double station, doubl
       road = std::min(road, RoadFactor(options_.world, corner));
     }
     const double grip = MaxDeceleration(options_.vehicle, road);
-    // Friction ellipse: in a bend, the lateral force reduces the braking force. The search assumes
-    // that at least about a third (sqrt 0.1) of the braking force remains, since a car that is too
-    // fast for the bend slides anyway.
+    // In a bend, the lateral force reduces the braking force (friction ellipse). Assume that at
+    // least about a third (sqrt 0.1) of the braking force remains, since a car that is too fast for
+    // the bend slides anyway.
     const double across = (speed * speed - 2.0 * hardest * ahead) * std::abs(at.curvature);
     const double most = MaxLateralAcceleration(options_.vehicle, road);
     const double rest =

@@ -10,13 +10,13 @@
 namespace trackbed {
 
 /// Returns whether the avoider handles an obstacle. The avoider handles obstacles in a turn, and
-/// replanning handles all other obstacles. If only one of the two methods is configured, this
-/// method handles all obstacles.
+/// replanning handles all other obstacles. If only the avoider or only replanning is configured, it
+/// handles all obstacles.
 bool IsForAvoider(const ReplanningConfig& config, const VehicleParams& vehicle, const Path& path,
                   double station, const OrientedBox& obstacle);
 
 /// Tracks which obstacles are known, and makes new plans during a run. The avoider plans around a
-/// blocking obstacle after the avoider's delay; replanning runs periodically.
+/// blocking obstacle after a configured delay; replanning runs periodically.
 class ReplanningMonitor {
  public:
   struct Options {
@@ -29,8 +29,8 @@ class ReplanningMonitor {
   /// `plan` is the initial plan of the run.
   ReplanningMonitor(const Options& options, const FeasiblePlan& plan);
 
-  /// Returns a new plan for the car, or none if no new plan is due. `at` is the car's projection
-  /// onto `plan`. Call Update once per control period, from time 0 on.
+  /// Returns a new plan for the car, or nullopt if no new plan is due. `at` is the car's projection
+  /// onto its present plan `plan`. Call Update once per control period, from time 0 on.
   std::optional<FeasiblePlan> Update(const VehicleState& state, const Plan& plan,
                                      const Projection& at);
 
@@ -55,16 +55,16 @@ class ReplanningMonitor {
   [[nodiscard]] bool IsUrgent(const VehicleState& state, const Plan& plan,
                               const Projection& at) const;
   /// Returns the deceleration that the road ahead permits over the stopping distance [m/s^2]. The
-  /// lowest friction under the footprint determines the deceleration, less the effects of downhill
-  /// slopes and of the lateral force in bends. Returns 0 if the car's deceleration limit is
-  /// unknown.
+  /// permitted deceleration depends on the lowest friction under the footprint, minus the effects
+  /// of downhill slopes and of lateral forces in bends. HardestBraking returns 0 if the car's
+  /// deceleration limit is unknown.
   [[nodiscard]] double HardestBraking(const Path& path, double station, double speed) const;
   std::optional<FeasiblePlan> ReplanIfDue(const VehicleState& state, const Plan& plan,
                                           const Projection& at);
   [[nodiscard]] ReplanRequest RequestFor(const VehicleState& state, const Plan& plan,
                                          const Projection& at) const;
-  /// Returns the car's station on the route [m]; the search covers the distance that the car can
-  /// move in a replanning period around the previous station.
+  /// Returns the car's station on the route [m]. StationOnRoute searches around the previous
+  /// station, within the distance that the car can move in a replanning period.
   [[nodiscard]] double StationOnRoute(const VehicleState& state) const;
   void SetRoute(const Plan& plan);
   /// Returns the road conditions that new plans must meet.

@@ -41,7 +41,7 @@ const char* ToString(DriveStatus status) {
 
 namespace {
 
-/// Appends the states of the driver aids, in the order of LogColumns.
+/// Appends the cells of the driver aids to a log row, in the order of LogColumns.
 void AddAids(const AidState& aids, std::vector<double>& cells) {
   if (aids.abs_active) {
     for (const bool active : *aids.abs_active) {
@@ -57,7 +57,7 @@ void AddAids(const AidState& aids, std::vector<double>& cells) {
   }
 }
 
-/// Tells which groups of columns the table of a log has.
+/// States which groups of columns the table of a run log contains.
 struct Groups {
   bool tracked = false;
   bool obstacles = false;
@@ -96,7 +96,7 @@ Table EmptyTable(const RunLog& log, const Groups& groups) {
                            .controller = log.controller_columns}));
 }
 
-/// Returns the cells of a row of the log, in the order of EmptyTable.
+/// Returns the cells of a row of the log, in the order of the columns of EmptyTable.
 std::vector<double> CellsOf(const RunLog& log, const Groups& groups, const LogRow& row) {
   const VehicleState& state = row.state;
   std::vector<double> cells{state.time,
@@ -177,7 +177,7 @@ std::function<std::string()> CsvParts(const RunLog& log) {
       part.AddRow(CellsOf(log, groups, log.rows[next]));
     }
     const std::string text = part.ToCsv();
-    // Only the first part of the CSV text has the line of column names.
+    // Write the column names of the log only once, in the first part of the CSV text.
     return std::exchange(begun, true) ? text.substr(text.find('\n') + 1) : text;
   };
 }

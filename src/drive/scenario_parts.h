@@ -3,7 +3,7 @@
 #include "trackbed/drive/closed_loop.h"
 #include "trackbed/scenario/scenario.h"
 
-/// Functions that convert a scenario into the parts of the closed loop.
+/// Functions that convert a scenario into the inputs of the closed loop simulation.
 namespace trackbed {
 
 SpeedLimits MakeSpeedLimits(const Scenario& scenario);

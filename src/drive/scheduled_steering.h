@@ -16,14 +16,14 @@ struct MotionAlong {
 };
 
 /// Returns the command [rad] with which a steering actuator follows a steering schedule over
-/// distance in one physics step. `rate` is the maximum rate of the actuator [rad/s]. With a rate of
-/// 0, the actuator has no rate limit: the command is the schedule's angle at the end of the step.
+/// distance in one physics step. `rate` is the maximum rate of the actuator [rad/s]. A rate of 0
+/// means no rate limit: the command is the schedule's angle at the end of the physics step.
 ///
 /// An actuator with a rate limit turns at its full rate until it reaches the command, and then
 /// waits for the next step. If the schedule is slower than the actuator's full rate, the actuator
-/// is therefore, on average, ahead of the schedule by half of the waiting time. To compensate for
-/// this lead, the schedule is evaluated half of the waiting time before the end of the step. If the
-/// schedule has the actuator's full rate, the waiting time is zero.
+/// is ahead of the schedule by half of the waiting time on average. To compensate for this lead,
+/// the schedule is evaluated half of the waiting time before the end of the physics step. If the
+/// schedule turns at the actuator's full rate, the actuator's waiting time is zero.
 inline double ScheduledSteering(const SteeringSchedule& schedule, const MotionAlong& motion,
                                 double timestep, double rate) {
   const auto after = [&](double time) {

@@ -14,9 +14,11 @@ namespace trackbed {
 
 namespace {
 
-/// Returns the waits at the start of `stretch`. The returned waits have the station 0.
+/// Returns the planned waits at the start of the station range `stretch`. The returned waits have
+/// the station 0.
 std::vector<PlannedWait> WaitsWithin(const Plan& plan, const Stations& stretch) {
-  // Tolerance between the station of a wait and the station of its stop, as in SplitIntoLegs [m].
+  // Tolerance between the station of a planned wait and the station of its stop, as in
+  // SplitIntoLegs [m].
   constexpr double kSameStation = 1e-9;
   std::vector<PlannedWait> waits;
   for (const PlannedWait& wait : plan.waits) {
@@ -66,7 +68,7 @@ void StationarySteer::Begin(double until) {
 }
 
 void StationarySteer::Update(double steering, double time) {
-  // Limit of the steering change in a control period below which the wheels count as still [rad].
+  // Steering change per control period below which the wheels are considered to be still [rad].
   constexpr double kMaxSteeringChange = 1e-4;
   const bool is_still = std::abs(steering - last_steering_) < kMaxSteeringChange;
   in_progress_ = in_progress_ && (!is_still || time < until_);
@@ -136,9 +138,9 @@ bool SegmentSequencer::IsAtEnd(const VehicleState& state) const {
     const double reach = std::min(options_.goal_tolerance, 0.5 * path.length());
     return StationFor(state) >= path.length() - reach;
   }
-  // On a closed path, the start and the end are at the same place, so the station must also be near
-  // the end. The factor pi/2 allows for curved paths: an arc of at most half a turn is at most pi/2
-  // times as long as its chord.
+  // On a closed path, the start and the end are at the same place, so the car's station must also
+  // be near the path's end. The factor pi/2 allows for curved paths: an arc of at most half a turn
+  // is at most pi/2 times as long as its chord.
   const Vec2 place = state.pose.position();
   const double away = std::min((path.At(path.length()).pose.position() - place).norm(),
                                (plan_.goal.position() - place).norm());

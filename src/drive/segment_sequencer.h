@@ -22,14 +22,16 @@ std::deque<Plan> SplitIntoSegments(const Plan& plan);
 int PlanGear(const Plan& plan);
 
 /// At a cusp, a stop, or a start on a bend, keeps the car at standstill until the wheels have
-/// reached the target angle and a planned wait is over. Then the gear changes.
+/// reached the target angle and a planned wait is over. At the end of the standstill, the gear
+/// changes.
 class StationarySteer {
  public:
   /// Begins a standstill that lasts at least until the time `until` [s].
   void Begin(double until);
 
   /// Ends the standstill when the actuator's angle `steering` [rad] stops changing, but not before
-  /// the end of the wait. `time` is the time of the run [s]. Call Update once per control period.
+  /// the planned wait is over. The argument `time` is the time since the start of the run [s]. Call
+  /// Update once per control period.
   void Update(double steering, double time);
 
   [[nodiscard]] bool InProgress() const { return in_progress_; }
@@ -41,7 +43,7 @@ class StationarySteer {
   double last_steering_ = std::numeric_limits<double>::infinity();
 };
 
-/// Tracks the present segment and the car's position on it.
+/// Tracks the present segment of the plan and the car's position on this segment.
 ///
 /// In SegmentSequencer, a station is the distance along the present segment. A station of the log
 /// also includes the lengths of all segments and plans that the car drove before.
@@ -72,32 +74,33 @@ class SegmentSequencer {
   /// returns.
   [[nodiscard]] const SpeedProfile& speed() const;
 
-  /// Returns the station that the controller receives in `state` [m]. Depending on the controller's
-  /// StationSource, the returned station is the station of the last projection or the distance
-  /// driven since the start of the segment. At a standstill, the station is at least 0: a car that
-  /// stands a little before a bend turns its wheels for the bend, not for the straight extension of
-  /// the path.
+  /// Returns the station that the controller receives in `state` [m]. The controller's
+  /// StationSource selects the station of the last projection or the distance driven since the
+  /// start of the segment. At a standstill, the controller's station is at least 0. With a station
+  /// of at least 0, a car that stands slightly before a bend steers for the bend, not for the
+  /// straight extension of the path.
   [[nodiscard]] double StationFor(const VehicleState& state) const;
 
   /// Projects the car onto the path near the car's last station. Returns the station of the log and
-  /// the car's deviation from the path without extensions; none without a path.
+  /// the car's deviation from the path without extensions, or nullopt without a path.
   std::optional<Projection> Project(const VehicleState& state);
 
-  /// Returns the station of a measured pose [m], searched near the last projection; at a
-  /// standstill at least 0.
+  /// Returns the station of a measured pose [m], searched near the last projection. At a
+  /// standstill, StationNear returns at least 0.
   [[nodiscard]] double StationNear(const Pose2& pose) const;
 
   /// Replaces the remaining plan by `plan`, which begins at the car's state.
   void Replace(const FeasiblePlan& plan, const VehicleState& state);
 
   /// Returns whether a car at rest is at the end of its segment. In the last segment, the car must
-  /// be within the goal tolerance of the goal or of the path's end. In other segments, the car's
-  /// station must be within the goal tolerance of the segment's end, or in the second half of a
-  /// short segment.
+  /// be within the goal tolerance of the goal or of the path's end. In all earlier segments, the
+  /// car's station must be within the goal tolerance of the segment's end, or in the second half of
+  /// a short segment.
   [[nodiscard]] bool IsAtEnd(const VehicleState& state) const;
 
   /// If a car at rest is at the end of its segment, begins the next segment with steering at
-  /// standstill. Returns whether a new segment began; the caller must then project the car again.
+  /// standstill. Advance returns true if a new segment began, onto whose path the caller must
+  /// project the car.
   bool Advance(const VehicleState& state);
 
   [[nodiscard]] StationarySteer& stationary_steer() { return stationary_steer_; }

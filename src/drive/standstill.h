@@ -6,13 +6,13 @@
 
 namespace trackbed {
 
-/// Measures how long a car has stood still. A car counts as standing still while it has moved by at
-/// most one centimeter.
+/// Measures how long a car has stood still. A car is regarded as standing still while it has moved
+/// by at most one centimeter.
 class Standstill {
  public:
-  /// Returns the time since which the car has stood still [s]. Returns none, and restarts the
-  /// measurement, if `counts` is false because the caller does not want to count the standstill.
-  /// Call Update once per control period.
+  /// Returns the time at which the car's present standstill began [s]. If `counts` is false, Update
+  /// returns nullopt and restarts the measurement; callers use this to ignore an intended
+  /// standstill. Call Update once per control period.
   std::optional<double> Update(const VehicleState& state, bool counts) {
     constexpr double kNoMotion = 0.01;  // [m]
     const Vec2 place = state.pose.position();

@@ -8,7 +8,7 @@
 namespace trackbed {
 
 std::string StartOverlap(const Scenario& scenario, const VehicleParams& vehicle) {
-  // Overlap below which boxes count as only touching: rounding errors make touching boxes overlap
+  // Overlap of two boxes that is ignored [m], because rounding errors make touching boxes overlap
   // by 1e-12 m at coordinates of kilometers.
   constexpr double kRounding = 1e-9;  // [m]
   const StartState state = InitialState(scenario, vehicle);

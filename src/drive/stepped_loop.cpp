@@ -10,8 +10,8 @@
 namespace trackbed {
 namespace {
 
-/// Returns commands that the caller of SteppedLoop::Step gave. The columns and values of the log
-/// remain those of the loop's own controller.
+/// Returns commands that the caller of SteppedLoop::Step gave. The controller columns of the log
+/// still contain the values of the scenario's controller.
 class GivenCommands final : public SteeringController {
  public:
   GivenCommands(const SteeringController& own, double steering, std::optional<double> acceleration)

@@ -25,8 +25,8 @@ bool HasRolledOver(const VehicleState& state) {
   return std::cos(state.roll) * std::cos(state.pitch) < kUpright;
 }
 
-// Longest permitted time in the air, for example over a bump, and longest permitted unintended
-// standstill [s].
+// Longest permitted time of the car in the air, for example over a bump, and longest permitted
+// unintended standstill [s].
 constexpr double kMaxAirborneTime = 1.0;
 constexpr double kMaxStandstillTime = 10.0;
 

@@ -9,12 +9,12 @@
 namespace trackbed {
 namespace {
 
-/// Builds expectations that every repetition of a run meets: the expectations that the run met, and
-/// the negations of the expectations that the run violated.
+/// Builds expectations that every repetition of a run meets. The built expectations are those that
+/// the run met, and the negations of those that the run violated.
 class OutcomeExpectations {
  public:
-  /// Adds an expectation that is met if and only if a check has the same outcome again. Returns
-  /// false if no expectation can express this outcome.
+  /// Adds an expectation that is met if and only if a repetition of the check has the same outcome.
+  /// Add() returns false if no expectation can express the outcome.
   bool Add(const Check& check) {
     switch (check.reason) {
       case CheckReason::kSteeringRate:
@@ -42,8 +42,8 @@ class OutcomeExpectations {
         break;
     }
     if (!check.other.empty()) {
-      // A met check between two plants needs no new expectation, because the scenario keeps the
-      // section `between`; a violated check cannot be negated.
+      // A passed check between two plants needs no new expectation, because the scenario keeps the
+      // section `between`. A failed check between two plants cannot be negated.
       return check.met;
     }
     return check.relation == Relation::kEquals ? AddEqual(check) : AddLimit(check);
@@ -96,14 +96,15 @@ class OutcomeExpectations {
     }
     (is_upper ? OfMetric(check).max : OfMetric(check).min) = *bound;
     if (check.metric == "cross_track.max" && real != nullptr) {
-      // Set the bound explicitly, because otherwise the default bound of one car width would apply.
+      // Set the bound of the cross-track error explicitly, because otherwise the default bound of
+      // one car width would apply.
       Of(check.plant).max_cross_track = 2.0 * *real;
     }
     return true;
   }
 
-  /// Expects an oscillation of at least half of the found amplitude. The scenario's limit cannot
-  /// serve as the bound, because this limit is 0, which every amplitude reaches.
+  /// Expects a steering oscillation of at least half of the found amplitude. The scenario's limit
+  /// of the amplitude is 0, so it cannot be used as a lower bound.
   bool AddOscillation(const Check& check) {
     const double* amplitude = std::get_if<double>(&check.value);
     if (amplitude == nullptr) {

@@ -13,13 +13,13 @@
 #include "trackbed/core/text_table.h"
 #include "trackbed/scenario/study_points.h"
 
-// Searches a study for a point at which the run violates an expectation. Falsification first runs
-// the nominal point. After the nominal point, a search (point_search.cpp) proposes batches of
-// points to find the smallest robustness. The search ends when a run fails (unless `stop` is
-// false), when all runs are used up, or when the time is over. The failing point nearest to the
-// nominal point becomes the counterexample, which is then moved closer to the nominal point
-// (shrink.cpp). All runs are recorded (search_runs.cpp), so that an interrupted search continues
-// without repeating runs.
+// Searches the parameter space of a study for a point at which the run violates an expectation.
+// Falsification first runs the nominal point. After the nominal point, a search algorithm
+// (point_search.cpp) proposes batches of points to find the smallest robustness. The search ends
+// when a run fails (unless `stop` is false), when the budget of runs is exhausted, or when the time
+// budget is exhausted. The failing point nearest to the nominal point becomes the counterexample,
+// which is then moved closer to the nominal point (shrink.cpp). All runs are recorded
+// (search_runs.cpp), so that an interrupted search continues without repeating runs.
 namespace trackbed {
 namespace {
 
@@ -50,7 +50,7 @@ class Falsifier {
   }
 
  private:
-  /// Runs the scenario at the nominal point; returns none if the run was interrupted.
+  /// Runs the scenario at the study's nominal point; returns nullopt if the run was interrupted.
   std::optional<SearchRun> RunNominal() {
     const UnitPoint& nominal = search_.space.nominal();
     const auto runs = runs_.Run({nominal}, "nominal");
@@ -241,8 +241,8 @@ CheckedSearch CheckSearch(Study study) {
   try {
     base = ReadPoint(study, {});
   } catch (const InputError&) {
-    // Ignore the error, because the scenario may be invalid without values of the searched keys. If
-    // the scenario is invalid, the study must specify the nominal values in `nominal`.
+    // Ignore an error in the scenario, which may be invalid without values of the searched keys.
+    // For an invalid scenario, the study must specify the nominal values in `nominal`.
   }
   SearchSpace space(study, base ? &*base : nullptr);
   return {.study = std::move(study), .runs = std::move(runs), .space = std::move(space)};
@@ -261,7 +261,7 @@ ordered_json FalsifyHeader(const CheckedSearch& search) {
   for (const SearchKey& key : search.space.keys()) {
     header["nominal"][key.key] = key.nominal;
   }
-  // Add 1 for the run of the nominal point.
+  // The expected number of rows includes 1 for the run of the nominal point.
   header["rows_expected"] = spec.runs + spec.shrink_runs + 1;
   header["columns"] = SearchColumns(study);
   return header;

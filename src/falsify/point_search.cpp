@@ -15,8 +15,7 @@
 namespace trackbed {
 namespace {
 
-/// Search that proposes the points of a sample one after the other and ignores the values of the
-/// objective.
+/// A search that proposes the points of a fixed sample and ignores the values of the objective.
 class SampledPoints : public PointSearch {
  public:
   SampledPoints(const SampleSpec& spec, const SearchSpace& space)
@@ -53,16 +52,16 @@ SearchMethod NloptMethod(const std::string& name) {
   throw InternalError("no search of this name: " + name);
 }
 
-/// Runs several NLopt searches in parallel. NLopt requests the values of points one after the
-/// other, so each search runs in a separate thread. A batch contains one point of each search that
-/// has not ended.
+/// Runs several NLopt searches in parallel. An NLopt search requests the values of points one after
+/// the other, so each search runs in a separate thread. A batch contains one point of each
+/// unfinished search.
 class NloptSearches : public PointSearch {
  public:
   NloptSearches(const SearchSpec& spec, const SearchSpace& space, int restarts)
       : spec_(spec), space_(space), lanes_(static_cast<std::size_t>(restarts)) {
     const bool finishes = spec.finish != "none";
     const int last = finishes ? spec.runs / 4 : 0;
-    // The first search starts at the nominal point, and each other search starts at a point of a
+    // The first NLopt search starts at the nominal point; all other searches start at points of a
     // sample.
     const Eigen::MatrixXd starts =
         UnitSample({.count = restarts, .method = SampleMethod::kSobol, .seed = spec.seed},
@@ -135,7 +134,7 @@ class NloptSearches : public PointSearch {
     UnitPoint start;
     State state = State::kRuns;
     UnitPoint point;     // Point for which the NLopt search requests a value.
-    double value = 0.0;  // Value of the objective at `point`, which the search minimizes.
+    double value = 0.0;  // Value of the minimized objective at `point`.
     std::exception_ptr failure;
     std::thread thread;
   };
@@ -186,7 +185,7 @@ class NloptSearches : public PointSearch {
   void RunLane(Lane& lane, std::uint64_t number, int first_runs, int last_runs) {
     try {
       const SearchMethod method = NloptMethod(spec_.method);
-      // Difference between the random seeds of consecutive restarts.
+      // Difference between the random seeds of consecutive restarts of a search.
       constexpr std::uint64_t kSeedStride = 1000003;
       SearchResult best;
       for (std::uint64_t again = 0; first_runs > 0; ++again) {
@@ -198,14 +197,14 @@ class NloptSearches : public PointSearch {
           best = found;
         }
         if (method == SearchMethod::kDirect) {
-          break;  // DIRECT is deterministic, so a repetition would find the same point
+          break;  // a repetition of the deterministic method DIRECT would find the same point
         }
       }
       if (last_runs > 0 && best.ok()) {
         SearchFrom(lane, NloptMethod(spec_.finish), best.x, last_runs, spec_.seed);
       }
     } catch (const Stopped&) {
-      // End the thread, because the caller stopped the search.
+      // End the thread of the NLopt search, because the caller stopped the search.
     } catch (...) {
       lane.failure = std::current_exception();
     }

@@ -8,16 +8,17 @@
 
 namespace trackbed {
 
-/// Proposes points of a study in batches; the scenarios of a batch can be run in parallel. The
-/// proposals depend only on the search options and on the values passed to Tell.
+/// Proposes points (values of the searched keys) in batches; the runs of a batch can be parallel.
+/// The proposed points depend only on the search options and on the objective values passed to
+/// Tell.
 class PointSearch {
  public:
   virtual ~PointSearch() = default;
-  /// Returns the next points to run; returns no points at the end of the search.
+  /// Returns the next points to run, or an empty list at the end of the search.
   virtual std::vector<UnitPoint> Ask() = 0;
   /// Passes to the search the objective values, which the search minimizes, at the points that the
-  /// last call of Ask returned. The list `values` contains none for a point whose run has no
-  /// objective.
+  /// last call of Ask returned. The list `values` contains nullopt for a point whose run has no
+  /// objective value.
   virtual void Tell(const std::vector<std::optional<double>>& values) = 0;
 };
 

@@ -8,8 +8,8 @@
 
 namespace trackbed {
 
-/// Function that runs the scenarios of points and returns the objective value of each point. The
-/// function returns none to end the search.
+/// Function that runs the scenario at several points and returns the objective value of each point.
+/// A RunBatch returns nullopt to end the search.
 using RunBatch = std::function<std::optional<std::vector<std::optional<double>>>(
     const std::vector<UnitPoint>& points)>;
 

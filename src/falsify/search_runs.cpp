@@ -59,7 +59,7 @@ std::optional<std::vector<SearchRun>> SearchRuns::Run(const std::vector<UnitPoin
   };
   std::vector<Task> tasks;
   std::vector<std::vector<std::string>> texts;
-  // Row number of each new point, keyed by the values of the point.
+  // Row number of each new point in the table of runs, keyed by the values of the point.
   std::map<std::vector<std::string>, std::size_t> rows;
   for (const UnitPoint& point : points) {
     texts.push_back(Texts(point));

@@ -30,8 +30,8 @@ class SearchRuns {
   SearchRuns(const CheckedSearch& search, SweepRecords& records, const FalsifyOptions& options)
       : search_(search), records_(records), options_(options) {}
 
-  /// Returns the results of all points, or none if the runs were interrupted. Points without a
-  /// known result are run in parallel.
+  /// Returns the results of the runs at all `points`, or nullopt if the runs were interrupted.
+  /// Points that have not been run before are run in parallel.
   std::optional<std::vector<SearchRun>> Run(const std::vector<UnitPoint>& points,
                                             const char* phase);
 
@@ -48,7 +48,7 @@ class SearchRuns {
   const CheckedSearch& search_;
   SweepRecords& records_;
   const FalsifyOptions& options_;
-  // Known results, keyed by the values of the searched keys.
+  // Known results of runs, keyed by the values of the searched keys.
   std::map<std::vector<std::string>, SearchRun> known_;
   std::size_t next_ = 0;  // Number of the next row that is added to the table of runs.
   std::mutex mutex_;      // Protects the progress reports of parallel runs.

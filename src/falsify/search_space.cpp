@@ -14,8 +14,8 @@
 namespace trackbed {
 namespace {
 
-/// Rounds `value` to the nearest number in the key's range that is a whole number of steps from the
-/// start of the range.
+/// Rounds `value` to the nearest multiple of the key's step, counted from the start of the key's
+/// range, within the range.
 double NearestStep(const SearchKey& key, double value) {
   return SteppedValue(key.from, key.step, std::round((value - key.from) / key.step));
 }
@@ -131,7 +131,7 @@ class SpaceReader {
   std::vector<Problem> problems_;
 };
 
-/// Returns the exponent e such that the values of a key are rounded to multiples of 10^e.
+/// Returns the exponent e of the step 10^e to which values of a key are rounded.
 int DecimalExponent(const SearchKey& key) {
   return static_cast<int>(std::floor(std::log10(1e-3 * (key.to - key.from))));
 }
@@ -207,7 +207,7 @@ double SearchSpace::Step(std::size_t i) const {
     case DistributionKind::kInteger:
       return 1.0 / (key.to - key.from);
     case DistributionKind::kLogUniform:
-      // The values of the key are rounded to about five digits.
+      // Values of a log-uniform key are rounded to about five digits.
       return 1e-4 / std::log(key.to / key.from);
     default:
       if (key.step > 0.0) {

@@ -10,12 +10,14 @@
 namespace trackbed {
 namespace {
 
-/// Avoids Boost's tables of long doubles, which overflow under valgrind, as in statistics.cpp.
+/// Boost policy that avoids long doubles, whose tables in Boost overflow under valgrind (as in
+/// statistics.cpp).
 using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-/// Returns the logarithm of a likelihood ratio: the mean likelihood of all probabilities q below p
-/// (or above p, if `above` is set), divided by the likelihood of p. The likelihood of a probability
-/// q is q^s (1 - q)^f for s successes and f failures.
+/// Returns the logarithm of a likelihood ratio. The numerator of the ratio is the mean likelihood
+/// of all probabilities q below p (or above p, if `above` is set). The denominator of the ratio is
+/// the likelihood of p. The likelihood of a probability q is q^s (1 - q)^f for s successes and f
+/// failures.
 double LogRatio(double successes, double failures, double p, bool above) {
   const DoublePrecision policy;
   const double a = successes + 1.0;
@@ -23,7 +25,7 @@ double LogRatio(double successes, double failures, double p, bool above) {
   const double share =
       above ? boost::math::ibetac(a, b, p, policy) : boost::math::ibeta(a, b, p, policy);
   if (share < std::numeric_limits<double>::min()) {
-    // The likelihood ratio underflows to 0, which is far from a decision of the test.
+    // Return -infinity if the likelihood ratio underflows to 0; the test then remains undecided.
     return -std::numeric_limits<double>::infinity();
   }
   const double log_beta = boost::math::lgamma(a, policy) + boost::math::lgamma(b, policy) -

@@ -28,7 +28,7 @@ class Shrinker {
       MeasureSingleKeys();
       result_.complete = true;
     } catch (const BudgetExhausted&) {
-      // Return the result so far if the budget of runs is exhausted.
+      // If the budget of runs is exhausted, return the counterexample found so far.
     }
     if (result_.point.empty()) {
       result_.point = violation;
@@ -48,8 +48,8 @@ class Shrinker {
     return *evaluation;
   }
 
-  /// Runs the scenario of a point. If the run violates an expectation, Take() stores the point as
-  /// the new result and returns true.
+  /// Runs the scenario at a point. If the run violates an expectation, Take() stores the point as
+  /// the new counterexample and returns true.
   bool Take(const UnitPoint& point) {
     const Evaluation evaluation = Evaluate(point);
     if (evaluation.violated) {
@@ -59,8 +59,8 @@ class Shrinker {
     return evaluation.violated;
   }
 
-  /// Moves the result toward the point `to`: bisects the straight line from the current result to
-  /// `to`, to find a violation as near to `to` as possible.
+  /// Moves the counterexample toward the point `to`. Bisection on the straight line to `to` finds a
+  /// violation as near to `to` as possible.
   void MoveToward(const UnitPoint& to) {
     if (Take(to)) {
       return;
@@ -101,8 +101,8 @@ class Shrinker {
   [[nodiscard]] double StepOf(std::size_t i) const { return std::max(tolerance_, space_.Step(i)); }
 
   /// Tests for each key whether the run passes if the key moves one step toward its nominal value.
-  /// If the run still violates an expectation after the key has moved, MeasureHolds keeps the step
-  /// and returns false.
+  /// If the run still violates an expectation after a key has moved, MeasureHolds keeps the moved
+  /// value and returns false.
   bool MeasureHolds() {
     for (std::size_t i = 0; i < nominal_.size(); ++i) {
       const double place = result_.point[i];

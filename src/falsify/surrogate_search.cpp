@@ -55,8 +55,8 @@ class SurrogateSearch : public PointSearch {
   void Tell(const std::vector<std::optional<double>>& values) override {
     bool restart = false;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-      // dlib proposes a point again and again until dlib receives a value for the point. A point
-      // whose run has no objective therefore gets the highest known value.
+      // Use the highest known value for a point whose run has no objective, because dlib proposes a
+      // point repeatedly until it receives a value.
       const double value = values[i].value_or(highest_);
       Keep(batch_[i], value);
       // Construct a new dlib search if a value has changed, or if dlib did not request the point.
@@ -92,15 +92,15 @@ class SurrogateSearch : public PointSearch {
   }
 
   /// Returns the value that is passed to dlib for a known point. If the search continues after a
-  /// violation, the values near known violations are raised, so that the search finds violations in
-  /// other regions (similar to deflation in root finding).
+  /// violation, the objective values near known violations are raised. The search then finds
+  /// violations in other regions (similar to deflation in root finding).
   [[nodiscard]] double ObjectiveAt(const UnitPoint& point) const {
     const double value = known_.at(point);
     if (spec_.stop || violations_.empty()) {
       return value;
     }
-    // Distance from a violation within which values are raised noticeably, relative to the range of
-    // a key.
+    // Distance from a violation within which objective values are clearly raised, as a fraction of
+    // a key's range.
     constexpr double kRepulsionRadius = 0.15;
     double nearest = std::numeric_limits<double>::infinity();
     for (const UnitPoint& violation : violations_) {
@@ -109,8 +109,8 @@ class SurrogateSearch : public PointSearch {
     return std::max(value, 0.0) + height_ * std::exp(-0.5 * nearest * nearest);
   }
 
-  /// Returns by how much the value at a violation is raised: three times the median of the values
-  /// at passing points.
+  /// Returns by how much the objective at a violation is raised: three times the median of the
+  /// objective at passing points.
   [[nodiscard]] double Height() const {
     std::vector<double> values;
     for (const auto& [point, value] : known_) {
@@ -138,8 +138,8 @@ class SurrogateSearch : public PointSearch {
     search_.set_seed(static_cast<time_t>(spec_.seed + known_.size()));
   }
 
-  /// Asks dlib for a new point. After rounding to the steps of the keys, a proposal may be a known
-  /// point; dlib then receives the known value, and Propose asks again.
+  /// Asks dlib for a new point. A proposal, rounded to the steps of the keys, may be a known point.
+  /// For a known point, Propose passes the known value to dlib and asks for another point.
   std::optional<UnitPoint> Propose(const std::vector<UnitPoint>& batch) {
     constexpr int kMaxAttempts = 20;
     for (int i = 0; i < kMaxAttempts; ++i) {
@@ -157,8 +157,8 @@ class SurrogateSearch : public PointSearch {
     return std::nullopt;
   }
 
-  /// Returns the point of a sample that is farthest from all known points; none if all points of
-  /// the sample are known.
+  /// Returns the point of a sample that is farthest from all known points, or nullopt if all sample
+  /// points are known.
   std::optional<UnitPoint> FarthestPoint(const std::vector<UnitPoint>& batch) {
     const Eigen::MatrixXd sample = UnitSample(
         {.count = 1024, .method = SampleMethod::kSobol, .seed = spec_.seed + known_.size()},
@@ -188,11 +188,12 @@ class SurrogateSearch : public PointSearch {
 
   const SearchSpec& spec_;
   const SearchSpace& space_;
-  // Values of the known points; the coordinates of a point are rounded to the steps of the keys.
+  // Objective values of the known points. The coordinates of a point are rounded to the steps of
+  // the keys.
   std::map<UnitPoint, double> known_;
-  double highest_ = 0.0;  // Highest known value.
+  double highest_ = 0.0;  // Highest known objective value.
   std::vector<UnitPoint> violations_;
-  double height_ = 0.0;  // amount by which the value at a violation is raised
+  double height_ = 0.0;  // amount by which the objective at a violation is raised
   dlib::global_function_search search_{UnitCube(1)};
   // Requests that dlib made for the points of the current batch.
   std::map<UnitPoint, dlib::function_evaluation_request> requests_;

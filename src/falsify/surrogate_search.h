@@ -7,10 +7,9 @@
 
 namespace trackbed {
 
-/// Creates a search that uses dlib's class global_function_search. Global exploration uses an upper
-/// bound of the objective that follows from the known values and an estimated Lipschitz constant.
-/// Local refinement uses a quadratic model around the best point (Malherbe and Vayatis 2017; King
-/// 2017).
+/// Creates a search that uses dlib's class global_function_search. Global exploration bounds the
+/// objective by the known values and an estimated Lipschitz constant. Local refinement uses a
+/// quadratic model around the best point (Malherbe and Vayatis 2017; King 2017).
 std::unique_ptr<PointSearch> MakeSurrogateSearch(const SearchSpec& spec, const SearchSpace& space,
                                                  std::optional<double> at_nominal);
 

@@ -17,14 +17,14 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kVerifyBatch = 32;
 
-/// Returns the text in the column `status` of a row.
+/// Returns the run status of a row of the study.
 std::string StatusOf(const SweepRecords& records, const SweepRow& row) {
   const std::vector<std::string> columns = records.Columns();
   const auto at = std::find(columns.begin(), columns.end(), "status") - columns.begin();
   return row.cells.at(static_cast<std::size_t>(at));
 }
 
-/// Runs those of the rows `from` to `to` (exclusive) that are not recorded yet. RunBatch returns
+/// Runs the rows from `from` to `to` (exclusive) that have no recorded result yet. RunBatch returns
 /// false if the runs were interrupted.
 bool RunBatch(const CheckedStudy& checked, std::size_t from, std::size_t to, SweepRecords& records,
               const VerifyOptions& options) {

@@ -20,8 +20,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns whether the library belongs to glibc or to the runtime of GCC. A library of glibc must
-/// match the dynamic loader of the system, and a process must have only one C++ runtime.
+/// Returns whether the library belongs to glibc or to the runtime of GCC. An FMU must not contain
+/// runtime libraries: glibc must match the system's dynamic loader, and a process may have only one
+/// C++ runtime.
 bool IsOfRuntime(std::string_view name) {
   constexpr std::array<std::string_view, 11> kNames{
       "libc.so.",     "libm.so.",      "libdl.so.",   "libpthread.so.",
@@ -41,7 +42,8 @@ Names NamesIn(const link_map& library) {
   const char* texts = nullptr;
   for (const ElfW(Dyn)* entry = library.l_ld; entry->d_tag != DT_NULL; ++entry) {
     if (entry->d_tag == DT_STRTAB) {
-      // The dynamic loader has already added the base address of the library to this pointer.
+      // The dynamic loader has already added the library's base address to this pointer of the
+      // dynamic section.
       texts = reinterpret_cast<const char*>(entry->d_un.d_ptr);
     }
   }
@@ -65,8 +67,8 @@ std::map<std::string, const link_map*> LoadedLibraries(const link_map& one) {
   }
   std::map<std::string, const link_map*> loaded;
   for (const link_map* library = first; library != nullptr; library = library->l_next) {
-    // Skip the vDSO: it has no file, and its dynamic section has addresses without the base
-    // address.
+    // Skip the kernel's vDSO, which has no file and whose dynamic section contains addresses
+    // without the base address.
     if (*library->l_name != '\0' && !IsOfRuntime(fs::path(library->l_name).filename().string())) {
       loaded.emplace(NamesIn(*library).own, library);
     }

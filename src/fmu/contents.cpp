@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Adds the files of the car. The files of a shipped model are copied unchanged, because Trackbed
-/// needs no separate process to compile a file that it recognizes as its own (CompileScene). Any
-/// other model is composed to one file, as in a run folder.
+/// Adds the files of the car to the FMU's resources. The files of a car model shipped with Trackbed
+/// are copied unchanged, because CompileScene compiles such files without a separate process. Any
+/// other car model is composed to one MJCF file, as in a run folder.
 void AddVehicle(const Scenario& scenario, Resources& resources) {
   const fs::path model = FindModel(scenario.vehicle.model, scenario.folder);
   if (HasOwnVehicle(scenario.vehicle)) {
@@ -55,7 +55,8 @@ Resources MakeResources(const Scenario& scenario) {
   }
   AddVehicle(scenario, resources);
   Scenario with_own_files = scenario;
-  // A name with a slash is a path, which PortableYaml replaces by the name of the copied file.
+  // Use a model name with a slash, because PortableYaml replaces paths by the name of the copied
+  // file.
   with_own_files.vehicle.model = fs::path("./") / kVehicleXml;
   resources.emplace(kScenarioYaml, PortableYaml(with_own_files));
   return resources;
@@ -63,7 +64,7 @@ Resources MakeResources(const Scenario& scenario) {
 
 fs::path FindLibrary() {
   const fs::path own = OwnFile().parent_path();
-  // In the build tree, the library is beside the program, one folder above the tests, and two
+  // In the build tree, the FMU library is beside the program, one folder above the tests, and two
   // folders above the Python module.
   std::error_code ignored;
   for (const char* place : {"", TRACKBED_FMU_FROM_PROGRAM, "trackbed", "..", "../.."}) {

@@ -20,9 +20,9 @@
 #include "trackbed/sim/plant.h"
 
 // Makes the files of an FMU in memory: the resources (scenario, car and input files) and the
-// description of the variables. Adds the shared library trackbed_fmu.so with the libraries that it
-// needs, and the licenses of all these libraries. The shared library is tested with the resources
-// before the FMU is written.
+// description of the variables. The exporter adds the shared library trackbed_fmu.so, the libraries
+// that it needs, and the licenses of all added libraries. Before the FMU is written, the shared
+// library is tested with the resources.
 namespace trackbed {
 
 namespace fs = std::filesystem;
@@ -72,8 +72,8 @@ void TryResources(const Resources& resources, const std::string& token,
     library.Find<fmi3FreeInstanceTYPE>("fmi3FreeInstance")(instance);
   }
   if (!messages.empty() || instance == nullptr) {
-    // Remove the path of the temporary folder from the messages, so that the messages name the
-    // files as in the FMU.
+    // Remove the path of the temporary folder from the messages, so that they name the files by
+    // their paths in the FMU.
     const std::string own = folder.path().string() + "/";
     for (std::size_t at = messages.find(own); at != std::string::npos; at = messages.find(own)) {
       messages.erase(at, own.size());

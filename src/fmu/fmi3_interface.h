@@ -47,7 +47,7 @@ using fmi3ClockUpdateCallback = void (*)(fmi3InstanceEnvironment);
 using fmi3LockPreemptionCallback = void (*)();
 using fmi3UnlockPreemptionCallback = void (*)();
 
-/// Types of the FMI functions that the exporter calls.
+/// Types of the FMI 3.0 functions that the FMU exporter calls.
 using fmi3InstantiateCoSimulationTYPE = fmi3Instance(
     fmi3String instance_name, fmi3String token, fmi3String resource_path, fmi3Boolean visible,
     fmi3Boolean logging, fmi3Boolean event_mode, fmi3Boolean early_return,

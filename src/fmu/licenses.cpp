@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kFolder = "documentation/licenses/";
 
-/// Returns the names under which a list of dpkg may contain the file. Packages that are older than
+/// Returns the names under which a list of dpkg may contain the file. Debian packages older than
 /// the merge of /lib into /usr/lib list their files in /lib.
 std::set<std::string> ListedNames(const fs::path& file) {
   std::error_code failed;
@@ -34,8 +34,8 @@ std::set<std::string> ListedNames(const fs::path& file) {
   return names;
 }
 
-/// Returns the packages that own the files, keyed by the sonames of the files. Leaves out files
-/// that no package owns.
+/// Returns the Debian packages that own the library files, keyed by the sonames of the files.
+/// Owners() omits files that no package owns.
 std::map<std::string, std::string> Owners(const std::map<std::string, fs::path>& carried,
                                           const fs::path& root) {
   std::map<std::string, std::string> soname_of;
@@ -53,7 +53,7 @@ std::map<std::string, std::string> Owners(const std::map<std::string, fs::path>&
     std::ifstream list(entry.path());
     for (std::string line; std::getline(list, line);) {
       if (const auto found = soname_of.find(line); found != soname_of.end()) {
-        // "libzip4:amd64.list" is the list of the package libzip4.
+        // A file such as "libzip4:amd64.list" lists the files of the package libzip4.
         const std::string package = entry.path().stem().string();
         owners[found->second] = package.substr(0, package.find(':'));
       }
@@ -86,7 +86,7 @@ std::vector<ZipEntry> LicenseEntries(const fs::path& library,
       "This FMU contains Trackbed (LICENSE, NOTICE), code that is compiled into it\n"
       "(the other texts beside this file), and these libraries:\n\n";
   const std::map<std::string, std::string> owners = Owners(carried, root);
-  // The wheel and the archive of MuJoCo contain the license of MuJoCo.
+  // Find the license of MuJoCo, which MuJoCo's wheel and archive contain.
   const bool has_mujoco = texts.lower_bound("mujoco/") != texts.lower_bound("mujoco0");
   for (const auto& [soname, file] : carried) {
     std::string where = "no text found; add its license before you distribute this FMU";

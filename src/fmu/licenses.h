@@ -11,8 +11,8 @@ namespace trackbed::fmu {
 
 /// Returns the files of the folder `documentation/licenses` of an FMU. The files are the license
 /// texts of Trackbed, of the code compiled into `library`, and of the libraries in `carried`, a map
-/// from soname to file. The texts for the compiled code come from the folder fmu_licenses beside
-/// `library`. `license.txt` lists all carried libraries with their license texts.
+/// from soname to file. The license texts for the compiled code are in the folder fmu_licenses
+/// beside `library`. `license.txt` lists all carried libraries with their license texts.
 ///
 /// A wheel has the license text of each carried library in library_licenses/SONAME.txt beside
 /// `library`. Elsewhere, the license text of a carried library is the copyright file of the Debian

@@ -20,8 +20,8 @@
 
 // Writes modelDescription.xml of an FMU, for FMI 2 and FMI 3.
 // 1. ParseUnit splits units such as "m/s^2" into powers of SI base units, which FMI requires.
-// 2. Variables are written in the order of their value references. FMI 2 and FMI 3 name elements,
-//    causality and variability differently.
+// 2. Variables are written in the order of their value references. The XML elements and the names
+//    of causality and variability differ between FMI 2 and FMI 3.
 // 3. AddStructure lists the outputs and the variables that are unknown at initialization.
 // Source: FMI 2.0.4, section 2.2; FMI 3.0.1, section 2.4.
 namespace trackbed::fmu {
@@ -29,14 +29,14 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// A unit as a product of powers of base units: the exponents, and a factor before the product.
+/// A unit as a factor times a product of powers of SI base units.
 struct BaseUnits {
   std::map<std::string, int> exponents{};
   double factor = 1.0;
 };
 
-/// Multiplies `base` by `unit` to the power `exponent`; `unit` is a single unit, such as "N".
-/// Returns false for an unknown unit.
+/// Multiplies the unit `base` by `unit` to the power `exponent`; `unit` is a single unit, such as
+/// "N". Returns false for an unknown unit.
 bool Multiply(std::string_view unit, int exponent, BaseUnits& base) {
   using Exponents = std::map<std::string, int>;
   static const std::map<std::string_view, std::pair<Exponents, double>> kKnown{
@@ -58,7 +58,7 @@ bool Multiply(std::string_view unit, int exponent, BaseUnits& base) {
   return true;
 }
 
-/// Reads a unit such as "m/s^2", "N s" or "1/m"; nullopt for a unit of another form.
+/// Parses a unit such as "m/s^2", "N s" or "1/m"; returns nullopt if the unit cannot be parsed.
 std::optional<BaseUnits> ParseUnit(const std::string& unit) {
   BaseUnits base;
   int sign = 1;
@@ -153,8 +153,8 @@ const char* CausalityName(Causality causality) {
   return "";
 }
 
-/// Returns the variability. Commands take effect at the start of a control period, so the variables
-/// of commands are discrete.
+/// Returns the FMI variability of a variable. Commands take effect at the start of a control
+/// period, so the variables of commands are discrete.
 const char* VariabilityName(const Variable& variable) {
   switch (variable.causality) {
     case Causality::kParameter:
@@ -213,8 +213,8 @@ void AddVariable(XMLElement& list, const Variable& variable, std::uint32_t refer
   }
 }
 
-/// States the outputs. No output depends directly on an input: an output is a quantity at the
-/// present time, and a command changes the motion after the present time.
+/// Adds the element ModelStructure, which lists the outputs. No output depends directly on an
+/// input, because a command changes only the motion after the present time.
 void AddStructure(XMLElement& root, const std::vector<Variable>& variables, FmiVersion version) {
   const bool is_3 = version == FmiVersion::k3;
   XMLElement& structure = *root.InsertNewChildElement("ModelStructure");
@@ -223,7 +223,7 @@ void AddStructure(XMLElement& root, const std::vector<Variable>& variables, FmiV
   };
   const auto add = [&](XMLElement& in, const char* name, std::uint32_t reference) -> XMLElement& {
     XMLElement& element = *in.InsertNewChildElement(is_3 ? name : "Unknown");
-    // FMI 2 counts the variables from 1.
+    // Add 1 for FMI 2, which counts the variables from 1.
     element.SetAttribute(is_3 ? "valueReference" : "index", is_3 ? reference : reference + 1);
     return element;
   };

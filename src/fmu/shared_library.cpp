@@ -35,7 +35,7 @@ fs::path OwnFile() {
   const int found = dladdr1(reinterpret_cast<const void*>(&OwnFile), &info,
                             reinterpret_cast<void**>(&map), RTLD_DL_LINKMAP);
   TRACKBED_CHECK(found != 0, "the code of the exporter is in no file");
-  // The program itself has no name in the list of loaded files.
+  // Use /proc/self/exe for the program itself, which has no name in the list of loaded files.
   return fs::canonical(map == nullptr || *map->l_name == '\0' ? "/proc/self/exe" : map->l_name);
 }
 

@@ -4,11 +4,11 @@
 
 namespace trackbed::fmu {
 
-/// A shared library that is loaded as long as the object exists. The symbols of this library are
-/// not visible to other libraries.
+/// A shared library that is loaded as long as the object exists. The symbols of the loaded library
+/// are not visible to other libraries.
 class SharedLibrary {
  public:
-  /// Throws RunError, with the message of the dynamic loader, if the library cannot be loaded.
+  /// Loads the library; throws RunError with the message of the dynamic loader if that fails.
   explicit SharedLibrary(const std::filesystem::path& file);
   SharedLibrary(const SharedLibrary&) = delete;
   SharedLibrary& operator=(const SharedLibrary&) = delete;
@@ -30,7 +30,7 @@ class SharedLibrary {
   void* handle_;
 };
 
-/// Returns the file of the program or shared library that contains this function's code.
+/// Returns the file of the program or shared library that contains the code of OwnFile.
 std::filesystem::path OwnFile();
 
 }  // namespace trackbed::fmu

@@ -20,8 +20,8 @@ namespace trackbed::fmu {
 namespace {
 
 /// Returns whether the numbers below a key of a scenario are parameters. Expectations, the video
-/// and the logged states have no influence on an FMU. The control period is stated in
-/// modelDescription.xml, so that it cannot change.
+/// and the logged states have no influence on an FMU. The control period is no parameter, because
+/// modelDescription.xml states it as a constant.
 bool IsParameterKey(const std::string& key) {
   static const std::array kOthers{"schema", "expect", "render", "drive.control_period",
                                   "drive.state_period"};
@@ -34,8 +34,9 @@ class ParameterFinder {
  public:
   explicit ParameterFinder(std::vector<Variable>& found) : found_(found) {}
 
-  /// Adds the numbers in a section. `key` is the dotted key of the section, with list indices.
-  /// `listed` is the same key with N in place of each list index.
+  /// Adds the numbers in a section of the scenario as parameters. The argument `key` is the dotted
+  /// key of the section, with list indices. The argument `listed` is the section's key with N in
+  /// place of each list index.
   void AddSection(const YAML::Node& section, const std::string& key, const std::string& listed) {
     const YAML::Node method = section["method"];
     const std::string chosen = method && method.IsScalar() ? method.Scalar() : "";
@@ -74,8 +75,8 @@ class ParameterFinder {
     return nullptr;
   }
 
-  /// Adds a number, or the numbers in a list of numbers or of points. `unit` is the unit of the
-  /// numbers, or the units of the numbers in each element, as in "s, m/s".
+  /// Adds a number, or the numbers in a list of numbers or points, as parameters. The argument
+  /// `unit` is the unit of all numbers, or the units of the numbers in each point, as in "s, m/s".
   void AddValue(const YAML::Node& value, const std::string& key, const KeyInfo& info,
                 const std::string& unit) {
     if (value.IsSequence()) {

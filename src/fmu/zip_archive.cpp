@@ -46,7 +46,8 @@ std::string MakeZip(const std::vector<ZipEntry>& entries, const std::string& com
   if (target == nullptr) {
     Fail(zip_error_strerror(&error));
   }
-  // Keep the source: the archive frees its reference, but the source is read afterwards.
+  // Add a reference to the libzip source: closing the archive frees one reference, but the source
+  // is read afterwards.
   zip_source_keep(target.get());
   std::unique_ptr<zip_t, ArchiveDeleter> archive(
       zip_open_from_source(target.get(), ZIP_TRUNCATE, &error));
@@ -64,7 +65,7 @@ std::string MakeZip(const std::vector<ZipEntry>& entries, const std::string& com
       zip_source_free(content);
       Fail(zip_strerror(archive.get()));
     }
-    // Use a fixed time, 1980-01-01, which is the earliest time that ZIP can state.
+    // Use a fixed file time, 1980-01-01, the earliest time in the ZIP format.
     const auto place = static_cast<zip_uint64_t>(index);
     if (zip_file_set_dostime(archive.get(), place, 0, (1U << 5U) | 1U, 0) < 0 ||
         zip_set_file_compression(archive.get(), place, ZIP_CM_DEFLATE, 1) < 0 ||
@@ -80,7 +81,7 @@ std::string MakeZip(const std::vector<ZipEntry>& entries, const std::string& com
   if (zip_close(archive.get()) < 0) {
     Fail(zip_strerror(archive.get()));
   }
-  // zip_close has freed the archive.
+  // Release the pointer, because zip_close has freed the archive.
   static_cast<void>(archive.release());
   return ReadAll(*target);
 }

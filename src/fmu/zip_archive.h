@@ -10,8 +10,8 @@ struct ZipEntry {
   std::string content;
 };
 
-/// Returns a ZIP archive with the entries, compressed, and a comment at its end. Archives of equal
-/// entries have equal bytes. Throws RunError if there is not enough memory.
+/// Returns a compressed ZIP archive of the entries, with a comment at the end of the archive.
+/// Archives of equal entries have equal bytes. Throws RunError if there is not enough memory.
 std::string MakeZip(const std::vector<ZipEntry>& entries, const std::string& comment);
 
 }  // namespace trackbed::fmu

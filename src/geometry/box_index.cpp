@@ -116,7 +116,8 @@ bool BoxIndex::KeepsFrom(const Vec2& from, const Vec2& to, const Inflation& infl
 
 Inflation InflationAt(const std::vector<Vec2>& points, const std::vector<OrientedBox>& boxes,
                       double most) {
-  // Tolerance above the rounding errors of distances at coordinates of thousands of kilometers [m].
+  // Tolerance [m] that exceeds the rounding errors of distances for coordinates of thousands of
+  // kilometers.
   constexpr double kMoreThanRounding = 1e-9;
   Inflation inflation = most;
   for (std::size_t i = 0; i < boxes.size(); ++i) {

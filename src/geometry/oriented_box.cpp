@@ -58,8 +58,8 @@ double Separation(const OrientedBox& a, const OrientedBox& b) {
   }
   const double along = std::abs(c);
   const double across = std::abs(s);
-  // Compute the gap between the two boxes along each axis of both boxes; the boxes are disjoint if
-  // one gap is positive.
+  // Compute the largest gap between the two boxes along the axes of both boxes. The two boxes are
+  // disjoint if the largest gap is positive.
   const double gap =
       std::max({std::abs(b_in_a.x()) - half_a.x - along * half_b.x - across * half_b.y,
                 std::abs(b_in_a.y()) - half_a.y - across * half_b.x - along * half_b.y,
@@ -68,7 +68,7 @@ double Separation(const OrientedBox& a, const OrientedBox& b) {
   if (gap <= 0.0) {
     return gap;
   }
-  // For disjoint boxes, one of the two nearest points is a corner.
+  // Check only the corners, because for disjoint boxes, one of the two nearest points is a corner.
   double square = b_in_a.squaredNorm();
   for (const double x : {-1.0, 1.0}) {
     for (const double y : {-1.0, 1.0}) {
@@ -95,8 +95,8 @@ double Distance(const Vec2& from, const Vec2& to, const OrientedBox& box) {
   const Vec2 q = ToLocal(box.center, to);
   const Vec2 middle = 0.5 * (p + q);
   const Vec2 along = 0.5 * (q - p);
-  // The line and the box are disjoint only if an axis of the box or the normal of the line is a
-  // separating axis.
+  // A line segment and a box are disjoint only if an axis of the box or the normal of the segment
+  // is a separating axis.
   const Vec2 reach{std::abs(along.x()), std::abs(along.y())};
   if (std::abs(middle.x()) <= half.x + reach.x() && std::abs(middle.y()) <= half.y + reach.y() &&
       std::abs(Cross(along, middle)) <= half.x * reach.y() + half.y * reach.x()) {

@@ -13,10 +13,10 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/track/closed_spline.h"
 
-// The bank of a road as parameters of an identification: its values at evenly spaced knots of a
-// spline over the road. The road is the given track, or the path of the first record with edges
-// that all records stay within. An open road is mirrored at its end, so that it has a closed
-// spline. BankedGround makes the terrain for each set of bank values.
+// Makes the bank of a road a set of identified parameters: the bank at evenly spaced knots of a
+// spline along the road. The road is the given track, or the path of the first record with edges
+// that all records stay within. For an open road, the closed spline runs along the road and its
+// mirror image. BankedGround makes the terrain for each set of bank values.
 
 namespace trackbed {
 namespace {
@@ -26,7 +26,7 @@ constexpr const char* kPrefix = "bank[";
 constexpr std::size_t kMostParameters = 40;
 
 /// Returns the index of the sample that ends the first lap of a drive. The lap ends at the sample
-/// that is nearest to the sample `first`, when the car has returned from afar and heads in the same
+/// nearest to the sample `first` after the car has returned from far away, heading in the same
 /// direction. Returns nullopt if the car does not return to the place of `first`.
 std::optional<std::size_t> EndOfLap(const std::vector<RecordedSample>& samples, std::size_t first) {
   const Pose2 start = samples[first].pose;
@@ -37,9 +37,10 @@ std::optional<std::size_t> EndOfLap(const std::vector<RecordedSample>& samples, 
   for (std::size_t i = first; i < samples.size(); ++i) {
     farthest = std::max(farthest, away(i));
   }
-  // Distances from the start, as fractions of the largest distance: beyond kLeft, the car has left
-  // the start; within kBack, the car is back. The car has passed the start if its distance is
-  // kPassed larger than the smallest distance.
+  // The constants kLeft, kBack and kPassed are fractions of the largest distance from the start.
+  // Beyond kLeft, the car has left the start; within kBack, the car has returned. The car has
+  // passed the start if its distance from the start exceeds the smallest distance since its return
+  // by kPassed.
   constexpr double kLeft = 0.5;
   constexpr double kBack = 0.2;
   constexpr double kPassed = 0.05;
@@ -59,9 +60,9 @@ std::optional<std::size_t> EndOfLap(const std::vector<RecordedSample>& samples, 
   return nearest;
 }
 
-/// Returns evenly spaced points on the path of a drive: on its first lap if it returns to its
-/// start, else on the whole drive. The gap between the end and the start of the lap is distributed
-/// over the lap.
+/// Returns evenly spaced points on the path of a recorded drive: on its first lap if the car
+/// returns to its start, else on the whole drive. The gap between the end and the start of the lap
+/// is distributed over the lap.
 CenterPoints PathOf(const Scenario& scenario, const Identification& study) {
   const std::vector<RecordedSample>& samples = scenario.record->data->samples;
   const auto moves = [&](const RecordedSample& sample) {
@@ -180,11 +181,12 @@ CenterPoints TrackOfRecords(const Identification& study) {
   return line;
 }
 
-/// Returns the number of knots. Throws InputError if the study cannot estimate a parameter for each
-/// knot.
+/// Returns the number of knots of the bank's spline. Throws InputError if the study cannot estimate
+/// a parameter for each knot.
 std::size_t KnotsOf(const Identification& study, double length, bool closed) {
   const std::size_t room = kMostParameters - std::min(kMostParameters, study.parameters.size());
-  // An open line has knots at both ends; its mirror image repeats the knots between the ends.
+  // An open road needs one more knot than a closed road, because it has knots at both ends. The
+  // mirror image of the road repeats the knots between the ends.
   const std::size_t more = closed ? 0 : 1;
   const std::size_t least =
       closed ? ClosedSplineBasis::kMinFunctions : ClosedSplineBasis::kMinFunctions / 2 + more;
@@ -211,8 +213,8 @@ CenterPoints PointsOf(const Identification& study) {
   return study.bank->center.points.empty() ? TrackOfRecords(study) : study.bank->center;
 }
 
-/// Returns the basis of a spline with the given knots. The basis for an open line has the knots of
-/// the line and of its mirror image.
+/// Returns the basis of a spline with the given knots. For an open road, the spline basis contains
+/// the knots of the road and of its mirror image.
 ClosedSplineBasis BasisOf(const BankedGround& ground, std::size_t knots) {
   return ground.closed() ? ClosedSplineBasis(ground.length(), knots)
                          : ClosedSplineBasis(2.0 * ground.length(), 2 * (knots - 1));

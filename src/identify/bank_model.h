@@ -12,19 +12,21 @@
 
 namespace trackbed {
 
-/// Returns whether a parameter of a study is the bank at a knot, and not a number of the car.
+/// Returns whether a parameter of a study is the road's bank at a knot, and not a parameter of the
+/// car.
 bool IsBankParameter(const std::string& name);
 
-/// The bank of a study's track as a function of parameters: the coefficients of a spline over the
-/// station, one per knot. The spline of a closed track is closed. The spline of an open track is
-/// continued as an even function beyond both ends, so its slope is zero at the ends.
+/// The bank of a study's track as a function of parameters. The parameters are the coefficients of
+/// a spline over the station, one per knot. The spline of a closed track is closed. The spline of
+/// an open track is continued as an even function beyond both ends, so its slope is zero at the
+/// ends.
 class BankModel {
  public:
-  /// Makes the track of the study: the track of the key `bank.track`, or the path of the first
-  /// fitted record, with edges that all records stay within. The path of a record is its first lap
-  /// if the record returns to its start, else the whole open path. The study must have the section
-  /// `bank`. Throws InputError if a record leaves the path of an open road, or if the track has
-  /// more knots than the study has room for. The constructor also throws InputError in the same
+  /// Makes the track of the study from the key `bank.track`, or from the path of the first fitted
+  /// record, with edges that all records stay within. The path of a record is its first lap if the
+  /// record returns to its start, else the whole open path. The study must contain the section
+  /// `bank`. Throws InputError if a record leaves the path of an open road, or if the track's knots
+  /// exceed the maximum number of parameters. The constructor also throws InputError in the same
   /// cases as BankedGround.
   explicit BankModel(const Identification& study);
 

@@ -71,7 +71,7 @@ std::vector<std::size_t> Estimator::FixInertParameters() {
 }
 
 double Estimator::Improve(std::vector<double> at) {
-  // Step size below which the search stops, as a fraction of each parameter's range.
+  // Step of the parameters below which the search stops, as a fraction of each parameter's range.
   constexpr double kMinStep = 1e-4;
   // Reduction of the cost in one step below which the search stops, as a fraction of the cost.
   constexpr double kMinGain = 1e-5;
@@ -151,8 +151,8 @@ std::vector<double> Estimator::Moved(std::vector<double> values,
 Eigen::VectorXd Estimator::Step(const LinearModel& linear, const std::vector<double>& at,
                                 double radius) const {
   const Eigen::Index n = linear.gradient.size();
-  // A small multiple of the identity matrix is added to the Hessian, so that parameters without
-  // effect on the cost keep their values.
+  // Add a small multiple of the identity matrix to the Hessian, so that parameters without effect
+  // on the cost keep their values.
   constexpr double kMinRidge = 1e-9;
   const double ridge = std::max(kMinRidge * linear.hessian.trace(), kMinRidge);
   QuadraticProgram program;

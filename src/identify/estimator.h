@@ -15,10 +15,10 @@ class ProgressCounter {
  public:
   ProgressCounter(const IdentificationHooks& hooks, int max_evaluations);
 
-  /// Counts an evaluation. Throws Interrupted if the caller asks to stop.
+  /// Counts an evaluation of the cost. Throws Interrupted if the caller asks to stop.
   void Count();
-  /// Sets the count to `evaluations`, so that the evaluations that a search did not need count as
-  /// done.
+  /// Sets the count to `evaluations`, so that the progress includes evaluations that a search did
+  /// not need.
   void SkipTo(int evaluations);
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
@@ -32,8 +32,8 @@ class ProgressCounter {
 /// the car model, clamped to the bounds.
 std::vector<double> StartValues(const Identification& study, const CarModel& car);
 
-/// Estimates the free parameters of a car model; all other parameters are fixed. The arguments of
-/// the constructor must outlive the Estimator.
+/// Estimates the free parameters of a car model; all fixed parameters keep their values. The
+/// arguments of the constructor must outlive the Estimator.
 class Estimator {
  public:
   Estimator(const Identification& study, const ResidualModel& model, ProgressCounter& work);
@@ -48,10 +48,11 @@ class Estimator {
   std::vector<std::size_t> FixInertParameters();
 
   /// Makes Gauss-Newton steps in a trust region, starting at the values `at`, and keeps the best
-  /// values found. Improve() returns the cost after the last step. Each step is the solution of a
-  /// quadratic program within the parameters' bounds, which NLopt's SLSQP solves. SLSQP could also
-  /// minimize the cost directly, but would then need six times as many evaluations, because SLSQP
-  /// would have to approximate the Hessian that the residuals already provide.
+  /// values found. Improve() returns the cost after the last step. Each Gauss-Newton step is the
+  /// solution of a quadratic program within the parameters' bounds, which NLopt's SLSQP solves.
+  /// SLSQP could also minimize the cost directly, but would need six times as many evaluations.
+  /// SLSQP would have to approximate the Hessian, which the Gauss-Newton method computes from the
+  /// residuals.
   double Improve(std::vector<double> at);
 
   /// Returns random values of the free parameters within their bounds.

@@ -22,9 +22,9 @@
 // The cost is minimized by Gauss-Newton steps in a trust region, from several starts
 // (estimator.cpp). Parameters without effect on the cost are fixed before the search. The
 // covariance of the estimate (linear_model.cpp) shows whether the records determine each parameter
-// better than the parameter's bounds do. If the records do not determine all parameters, the
-// parameter with the largest variance is fixed and the search is repeated. Finally, all records are
-// replayed with the start values and with the fitted values.
+// more accurately than its bounds. If the records do not determine all parameters, the parameter
+// with the largest variance is fixed and the search is repeated. Finally, all records are replayed
+// with the start values and with the fitted values.
 namespace trackbed {
 namespace {
 
@@ -32,7 +32,7 @@ namespace {
 /// parameters.
 constexpr double kStrongCorrelation = 0.95;
 
-/// Rethrows the error. Problems of a parameter are reported at the line of the study file that
+/// Rethrows the error. Reports a problem with a parameter at the line of the study file that
 /// defines the parameter.
 [[noreturn]] void ThrowPlaced(const InputError& error, const Identification& study) {
   std::vector<Problem> problems = error.problems();
@@ -109,9 +109,9 @@ bool IsAt(double value, double bound, const IdentifiedParameter& parameter) {
 }
 
 /// Returns the free parameter with the largest standard deviation, if this standard deviation is
-/// larger than that of a uniform distribution between the parameter's bounds. Returns none if the
-/// records determine all parameters. If the free parameter `first` is not determined, returns
-/// `first`.
+/// larger than that of a uniform distribution between the parameter's bounds. LeastDetermined
+/// returns nullopt if the records determine all parameters. If the records do not determine the
+/// free parameter `first`, it returns `first`.
 std::optional<std::size_t> LeastDetermined(const Eigen::MatrixXd& covariance,
                                            std::optional<std::size_t> first) {
   std::optional<std::size_t> least;
@@ -133,7 +133,7 @@ std::optional<std::size_t> LeastDetermined(const Eigen::MatrixXd& covariance,
   return least;
 }
 
-/// Returns the place of a value in a list; none if the list does not have the value.
+/// Returns the index of a value in a list, or nullopt if the list does not contain the value.
 std::optional<std::size_t> PlaceOf(std::optional<std::size_t> value,
                                    const std::vector<std::size_t>& list) {
   const auto found = value ? std::find(list.begin(), list.end(), *value) : list.end();
@@ -209,9 +209,9 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
   }
 }
 
-/// Estimates the parameters. Fixes parameters that the records do not determine, one after the
-/// other, until the records determine all free parameters. The parameter `added`, if any, is fixed
-/// before all others.
+/// Estimates the parameters of the car model. Fixes parameters that the records do not determine,
+/// one after the other, until the records determine all free parameters. The parameter `added`, if
+/// any, is fixed before all other undetermined parameters.
 void Estimate(Estimator& estimator, const ResidualModel& model, ProgressCounter& work,
               std::optional<std::size_t> added, IdentificationResult& result) {
   const Identification& study = result.study;
@@ -344,7 +344,8 @@ IdentificationResult Identify(const Identification& asked, const IdentificationH
   try {
     Estimator estimator(result.study, model, work);
     if (!std::isfinite(estimator.best_cost())) {
-      // Throws an InputError that explains why the cost is not finite.
+      // If the cost at the start is not finite, call CarsAt, which throws an InputError with the
+      // reason.
       static_cast<void>(model.CarsAt(estimator.start()));
     }
     result.start_cost = estimator.best_cost();

@@ -71,8 +71,8 @@ ordered_json ToJson(const IdentifiedRecord& record) {
   return json;
 }
 
-/// Returns a table of yaw rate and lateral acceleration over time: as recorded, and as simulated by
-/// the plant before and after the fit.
+/// Returns a table of yaw rate and lateral acceleration over time: recorded values, and values
+/// simulated by the plant before and after the fit.
 Table Residuals(const IdentifiedRecord& record, const std::string& plant) {
   Table table({"t_s", "yaw_rate_recorded_radps", "yaw_rate_start_radps", "yaw_rate_fitted_radps",
                "lateral_acceleration_recorded_mps2", "lateral_acceleration_start_mps2",
@@ -166,8 +166,9 @@ fs::path RecordFolder(const fs::path& folder, const std::string& record) {
 
 void WriteIdentification(const IdentificationResult& result, const OutputFolder& folder) {
   ordered_json json = ToJson(result);
-  // Write the runs before identify.json. If the process is killed in between, the old identify.json
-  // does not match the new runs, so that readers detect the incomplete result.
+  // Write the runs before identify.json. If the process is killed before identify.json is written,
+  // the old identify.json does not match the new runs. By this mismatch, readers of the result
+  // detect that it is incomplete.
   for (std::size_t i = 0; i < result.records.size(); ++i) {
     const IdentifiedRecord& record = result.records[i];
     const fs::path run = RecordFolder(folder.path(), record.name);

@@ -10,8 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Returns the derivative of the residuals with respect to the parameter divided by the parameter's
-/// range.
+/// Returns the derivative of the residuals with respect to a parameter that is scaled by its range.
 std::vector<SignalResiduals> Derivative(const Identification& study, const ResidualModel& model,
                                         const std::vector<double>& estimate, std::size_t index,
                                         const std::function<void()>& count) {
@@ -88,8 +87,8 @@ LinearModel Linearize(const Identification& study, const ResidualModel& model,
   std::vector<std::vector<SignalResiduals>> jacobian;
   for (const std::size_t index : free) {
     jacobian.push_back(Derivative(study, model, estimate, index, counted));
-    // The derivative lacks residuals if the car model cannot be compiled with parameter values next
-    // to the estimate; replace such a derivative by zeros.
+    // Replace a derivative by zeros if it lacks residuals, because the car model could not be
+    // compiled with parameter values next to the estimate.
     if (jacobian.back().size() != residuals.size()) {
       jacobian.back() = residuals;
       for (SignalResiduals& signal : jacobian.back()) {
@@ -136,8 +135,8 @@ Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linea
   const auto windows = static_cast<double>(linear.of_windows.cols());
   const double freedom = std::max(1.0, windows - static_cast<double>(n));
   Eigen::MatrixXd scatter = linear.of_windows * linear.of_windows.transpose() * (windows / freedom);
-  // A prior acts as an additional measurement of the parameter; the standard deviation of this
-  // measurement is the deviation of the prior.
+  // A prior acts as an additional measurement of the parameter, with the prior's standard
+  // deviation.
   for (Eigen::Index i = 0; i < n; ++i) {
     const IdentifiedParameter& parameter = study.parameters[free[static_cast<std::size_t>(i)]];
     if (parameter.prior) {

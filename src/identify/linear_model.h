@@ -15,12 +15,13 @@ struct LinearModel {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;  ///< Hessian of the cost in the Gauss-Newton approximation
   Eigen::MatrixXd
-      /// Contributions of the prediction windows to the gradient, one column per window, without
-      /// priors.
+      /// Contributions of the prediction windows to the cost's gradient, one column per window,
+      /// without priors.
       of_windows;
 };
 
-/// Returns the cost of parameter values; NaN if the car model cannot be compiled with these values.
+/// Returns the cost of the fit for given parameter values; NaN if the car model cannot be compiled
+/// with these values.
 double CostOf(const Identification& study, const ResidualModel& model,
               const std::vector<double>& values);
 

@@ -18,11 +18,11 @@
 namespace trackbed {
 namespace {
 
-// Residual of each sample after the plant has diverged, as a multiple of the signal's deviation.
+// Residual of each sample after the plant has diverged, divided by the signal's deviation.
 constexpr double kDivergedResidual = 100.0;
 
-/// A signal that the identification fits: the deviation by which its residuals are divided, and a
-/// function that returns the difference between the predicted and the recorded value.
+/// A signal that the identification fits: its standard deviation, and a function that returns the
+/// difference between predicted and recorded value.
 struct FittedSignal {
   double deviation;
   double (*difference)(const VehicleState& predicted, const VehicleState& recorded);

@@ -23,14 +23,14 @@ struct SignalResiduals {
 };
 
 /// Computes the prediction residuals of the car model for given parameter values, over all windows
-/// of all fitted records. After a plant has diverged, each residual is 100 times the deviation of
-/// the signal.
+/// of all fitted records. After the simulated plant has diverged, each residual is 100 times the
+/// deviation of the signal.
 class ResidualModel {
  public:
-  /// The study must outlive the ResidualModel. Before each prediction window, each thread calls
-  /// `interrupted`, which returns true if the caller asks to stop. The argument `bank` models the
-  /// bank of the study's track by some of the study's parameters; null if the study does not
-  /// estimate the bank. The BankModel must outlive the ResidualModel, too.
+  /// The object `study` must outlive the ResidualModel. Before each prediction window, each thread
+  /// calls `interrupted`, which returns true if the caller asks to stop. The argument `bank` models
+  /// the bank of the study's track by some of the study's parameters; null if the study does not
+  /// estimate the bank. The BankModel `bank` must outlive the ResidualModel.
   ResidualModel(const Identification& study, const BankModel* bank, int threads,
                 std::function<bool()> interrupted = {});
 
@@ -38,8 +38,8 @@ class ResidualModel {
   [[nodiscard]] std::size_t windows() const { return windows_.size(); }
   /// Returns the residuals of the car model for given parameter values, which must be in the order
   /// of the study's parameters. The number and the order of the residuals are the same for all
-  /// parameter values. At() returns no residuals if the car model cannot be compiled with the
-  /// values. At() throws Interrupted if the caller asks to stop.
+  /// parameter values. At() returns an empty list if the car model cannot be compiled with the
+  /// parameter values. At() throws Interrupted if the caller asks to stop.
   [[nodiscard]] std::vector<SignalResiduals> At(std::span<const double> values) const;
   /// Returns the car model of each fitted scenario with the given parameter values. CarsAt throws
   /// InputError if the cars cannot be compiled.
@@ -54,10 +54,10 @@ class ResidualModel {
     double start;  // [s]
   };
 
-  /// Returns those of the parameter values that describe the bank.
+  /// Returns the part of the parameter values that describes the bank.
   [[nodiscard]] std::vector<double> BankOf(std::span<const double> values) const;
-  /// Returns the cars with the given parameter values on the given ground; on level ground if
-  /// `terrain` is null.
+  /// Returns the car models with the given parameter values on the ground `terrain`, or on level
+  /// ground if `terrain` is null.
   [[nodiscard]] std::vector<CarModel> CarsOn(const std::shared_ptr<const Terrain>& terrain,
                                              std::span<const double> values) const;
   [[nodiscard]] std::shared_ptr<const Terrain> TerrainAt(std::span<const double> values) const;
@@ -71,7 +71,7 @@ class ResidualModel {
 };
 
 /// Loss() returns the contribution rho(r) of a residual r to the cost. LossWeight() returns
-/// rho'(r)/r, by which the residual r is weighted in the gradient of the cost.
+/// rho'(r)/r, the weight of the residual r in the cost's gradient.
 double Loss(const Identification& study, double residual);
 double LossWeight(const Identification& study, double residual);
 

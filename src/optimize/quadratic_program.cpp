@@ -16,7 +16,8 @@ using Rows = QuadraticProgram::Rows;
 using Bounds = QuadraticProgram::Bounds;
 using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
 
-/// Least-distance problem: minimize |y|^2/2 + linear^T y subject to rows y <= bounds.
+/// Least-distance problem: minimize |y|^2/2 + linear^T y subject to rows y <= bounds, with the
+/// matrix `rows`.
 struct LeastDistance {
   Vector linear;
   Rows rows;
@@ -57,10 +58,10 @@ Vector SolveBySlsqp(LeastDistance& problem, const Vector& start, double toleranc
     double value = 0.0;
     search.optimize(y, value);
   } catch (const nlopt::roundoff_limited&) {
-    // Ignore the exception, because the solution is as accurate as rounding errors permit.
+    // Ignore the exception roundoff_limited: the solution is as accurate as rounding errors permit.
   } catch (const std::runtime_error&) {
-    // Ignore the exception, which means that the constraints contradict each other, because the
-    // caller checks whether the solution violates a constraint.
+    // Ignore the exception, which means that the constraints contradict each other. The caller of
+    // the solver checks whether the solution violates a constraint.
   }
   return ConstVectorMap(y.data(), n);
 }

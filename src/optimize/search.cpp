@@ -11,8 +11,8 @@
 #include "trackbed/core/error.h"
 
 // Minimizes functions with NLopt under bounds and inequality constraints. Methods that support
-// constraints (isres, cobyla, slsqp) receive the constraints. All other methods receive for an
-// infeasible point an objective value of at least 1e100 that grows with the violation. DIRECT
+// constraints (isres, cobyla, slsqp) receive the constraints. For an infeasible point, all other
+// methods receive an objective value of at least 1e100, which grows with the violation. DIRECT
 // receives infinity for an infeasible point. The class Evaluator stores the values at the last
 // point, counts evaluations and computes gradients by central differences. Evaluator also keeps the
 // best point: the point with the smallest violation and, among points with equal violation, the
@@ -28,8 +28,8 @@ constexpr double kInfeasibleCost = 1e100;
 /// Specifies how constraints are passed to a search method.
 enum class Handling {
   kNative,  ///< The search method itself supports constraints.
-  /// The search method only compares objective values. Infeasible points rank below all feasible
-  /// points.
+  /// The search method only compares objective values. Infeasible points receive worse values than
+  /// all feasible points.
   kRanked,
   /// The search method receives infinity for infeasible points and estimates a value from
   /// neighboring points.
@@ -114,13 +114,13 @@ class Evaluator {
     return std::move(result_);
   }
 
-  std::exception_ptr failure;  // exception that a function of the problem has thrown
+  std::exception_ptr failure;  // exception thrown by the objective or a constraint
 
  private:
   void Evaluate(const double* x) {
     if (evaluated_ && std::equal(point_.begin(), point_.end(), x)) {
-      // This point is already evaluated, because NLopt requests the objective and the constraints
-      // of a point one after the other.
+      // Skip a point that is already evaluated, because NLopt requests the objective and the
+      // constraints of a point one after the other.
       return;
     }
     if (result_.evaluations >= budget_) {
@@ -137,8 +137,8 @@ class Evaluator {
       } catch (...) {
         failure = std::current_exception();
         // The algorithm DIRECT in NLopt 2.7.1 reads uninitialized memory if it is stopped during
-        // its first points. If a function of the problem fails, DIRECT therefore continues to its
-        // end, but the functions of the problem are no longer called.
+        // its first points. If the objective or a constraint throws an exception, DIRECT continues
+        // to its end, but objective and constraints are no longer called.
         if (options_.method != SearchMethod::kDirect) {
           throw nlopt::forced_stop();
         }
@@ -202,16 +202,17 @@ class Evaluator {
   }
 
   /// Computes the gradients of the objective and of the constraints (row by row) by central
-  /// differences. At the bounds, the differences are one-sided. The gradients are cached, because
-  /// NLopt requests the gradients of the objective and of the constraints one after the other.
+  /// differences. At the bounds of the variables, the differences are one-sided. The gradients are
+  /// cached, because NLopt requests the gradients of the objective and of the constraints one after
+  /// the other.
   void Differentiate(const double* x) {
     if (differentiated_at_.size() == point_.size() &&
         std::equal(differentiated_at_.begin(), differentiated_at_.end(), x)) {
       return;
     }
     // Step of the central differences, as a fraction of the variable's range. The cube root of the
-    // relative rounding error is the best step, because it balances the rounding error and the
-    // truncation error of a central difference.
+    // relative rounding error is the best step for finite differences, because it balances the
+    // rounding error and the truncation error of a central difference.
     constexpr double kStep = 6e-6;
     const std::size_t n = point_.size();
     std::vector<double> at(x, x + n);
@@ -302,7 +303,7 @@ Box Zoomed(const SearchProblem& problem, const Box& box, const std::vector<doubl
   return zoomed;
 }
 
-/// Runs an NLopt algorithm once. The best point is stored in the Evaluator.
+/// Runs an NLopt algorithm once, and stores the best point in the Evaluator.
 void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& box,
          std::vector<double> x, int evaluations, const SearchOptions& options,
          Evaluator& evaluator) {
@@ -326,13 +327,13 @@ void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& bo
     double value = 0.0;
     search.optimize(x, value);
   } catch (const nlopt::forced_stop&) {
-    // NLopt was stopped, because the budget is used up or because a function of the problem threw
-    // an exception.
+    // The Evaluator stopped NLopt, because the budget of evaluations is exhausted, or the objective
+    // or a constraint threw an exception.
   } catch (const nlopt::roundoff_limited&) {
     // NLopt ended the search, because rounding errors prevent further progress.
   } catch (const std::runtime_error&) {
     // NLopt failed, for example because slsqp needed too many steps in its least-squares solver.
-    // The result is the best point that was evaluated before the failure.
+    // The result of the search is the best point evaluated before the failure.
   }
 }
 
@@ -399,17 +400,17 @@ SearchResult Search(const SearchProblem& problem, const SearchOptions& options,
     start[i] = problem.start.empty() ? 0.5 * (box.lower[i] + box.upper[i])
                                      : std::clamp(problem.start[i], box.lower[i], box.upper[i]);
   }
-  // Seed NLopt's random number generator, because its default seed is the clock. Each thread has
-  // its own generator, with a 32-bit seed.
+  // Seed NLopt's random number generator, because its default seed is the clock. In NLopt, each
+  // thread has a separate random number generator with a 32-bit seed.
   if (SearchFor(options.method).random) {
     nlopt::srand(static_cast<unsigned long>((seed ^ (seed >> 32U)) & 0xffffffffU));
   }
-  // The computing time of DIRECT grows with the square of the number of its cells, so run DIRECT
-  // three times, each time in a smaller box.
+  // Run DIRECT three times, each time in a smaller box, because its computing time grows with the
+  // square of the number of its cells.
   const int looks = options.method == SearchMethod::kDirect ? 3 : 1;
-  // Without a feasible point, DIRECT exceeds its share of the budget, so no evaluations may be left
-  // for the next run. If no evaluations are left, end the loop, because NLopt's DIRECT reads
-  // uninitialized memory if it is stopped at its first evaluation.
+  // End the loop if no evaluations are left, because NLopt's DIRECT reads uninitialized memory if
+  // it is stopped at its first evaluation. As long as it finds no feasible point, a run of DIRECT
+  // exceeds its share of the budget.
   const auto goes_on = [&] { return !evaluator.failure && evaluator.best().evaluations < budget; };
   for (int look = 0; look < looks && goes_on(); ++look) {
     if (look > 0 && evaluator.best().status != SearchStatus::kNotFinite) {

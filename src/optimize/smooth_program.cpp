@@ -11,7 +11,7 @@
 namespace trackbed {
 namespace {
 
-/// Evaluates a program for NLopt's callbacks, each point once, and keeps the best point.
+/// Evaluates a nonlinear program for NLopt's callbacks, each point once, and keeps the best point.
 class Evaluations {
  public:
   Evaluations(const SmoothProgram& program, double tolerance)
@@ -132,9 +132,9 @@ SmoothSolution Minimize(const SmoothProgram& program, int evaluations, double to
     double value = 0.0;
     search.optimize(x, value);
   } catch (const nlopt::roundoff_limited&) {
-    // Rounding errors prevent further progress; the best point is the result.
+    // Rounding errors prevent further progress of NLopt; return the best point so far.
   } catch (const std::runtime_error&) {
-    // The least-squares solver failed; the best point is the result.
+    // NLopt's least-squares solver failed; return the best point so far.
   }
   return seen.best();
 }

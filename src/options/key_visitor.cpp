@@ -96,7 +96,7 @@ class NumberFinder final : public KeyVisitor {
   std::optional<double> found_;
 };
 
-/// Throws an error for the first number that is NaN or out of range.
+/// Throws an error for the first option value that is NaN or out of range.
 class RangeChecker final : public NumberVisitor {
  public:
   explicit RangeChecker(std::string owner) : owner_(std::move(owner)) {}

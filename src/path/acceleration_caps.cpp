@@ -6,20 +6,20 @@
 #include "trackbed/core/error.h"
 
 // Computes speed profiles with constant acceleration between knots. StopAtEnd splits the path into
-// stretches at the ends of all caps. A backward pass limits the speed at each end of a stretch, so
-// that the car can brake in time for the rest of the path. A forward pass limits the speed to what
-// the car can reach by accelerating from the start. StopAtEnd then adds knots to each stretch where
-// the car starts to cruise and where it starts to brake. A car that starts too fast brakes until
-// its speed meets the profile. The car brakes as hard as the strict caps, the sections of less grip
-// and the end of the path demand.
+// stretches at the ends of all caps (local limits of speed or acceleration). A backward pass limits
+// the speed at each end of a stretch, so that the car can brake in time for the rest of the path. A
+// forward pass limits the speed to what the car can reach by accelerating from the start. StopAtEnd
+// then adds knots where the car starts to cruise in a stretch, and where it starts to brake. A car
+// that starts faster than the profile brakes until it reaches the profile. Such a car brakes as
+// hard as the strict caps, the sections of less grip and the path's end demand.
 
 namespace trackbed {
 namespace {
 
-/// Length below which stretches of a profile are dropped [m].
+/// Length below which stretches of a speed profile are omitted [m].
 constexpr double kNegligible = 1e-9;
 
-/// A stretch of the path with constant limits.
+/// A stretch of the path with constant limits of speed and acceleration.
 struct Stretch {
   double from;
   double to;
@@ -95,9 +95,10 @@ std::vector<Stretch> SplitAtCaps(double length, const SpeedLimits& limits,
   return stretches;
 }
 
-/// Adds the knots inside a stretch, given the squared speeds at both ends. The caller ensures that
-/// the stretch is long enough to change between these speeds. The car first accelerates, or brakes
-/// at `braking`, to the speed of the stretch, then cruises, and finally brakes to the exit speed.
+/// Adds the knots of the speed profile inside a stretch, given the squared speeds at both ends. The
+/// stretch must be long enough to change between the two speeds. The car first accelerates, or
+/// brakes at `braking`, to the speed of the stretch, then cruises, and finally brakes to the exit
+/// speed.
 void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared, double braking,
                    std::vector<SpeedProfile::Knot>& knots) {
   const double a = in_squared > stretch.speed * stretch.speed ? -braking : stretch.acceleration;
@@ -115,7 +116,7 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
     add(stretch.from + ramp, v_squared);
     add(stretch.to - brake, v_squared);
   } else if (a > 0.0) {
-    // The stretch is too short for the car to reach the speed limit, so the car accelerates until
+    // If the stretch is too short for the car to reach its speed limit, the car accelerates until
     // it must begin to brake.
     const double peak = (out_squared - in_squared + 2.0 * b * length) / (2.0 * (a + b));
     add(stretch.from + peak, in_squared + 2.0 * a * peak);
@@ -123,10 +124,10 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
 }
 
 /// Returns the constant deceleration at which a car slows down if it starts faster than the profile
-/// [m/s^2]. The result is the deceleration of the first stretch, or `deceleration` if there is no
-/// stretch. The result is larger if the car would otherwise be too fast at one of three places: the
-/// start of a strict cap, the start of a section of less grip, or the end of the path. `squared`
-/// are the largest squared speeds at the ends of the stretches.
+/// [m/s^2]. The returned deceleration is that of the first stretch, or `deceleration` without
+/// stretches. The deceleration is increased if the car would be too fast at the start of a strict
+/// cap, at the start of a section of less grip, or at the path's end. The argument `squared`
+/// contains the largest squared speeds at the ends of the stretches.
 double BrakingFromStart(double length, double start_squared, double deceleration,
                         const std::vector<SpeedCap>& caps, const std::vector<Stretch>& stretches,
                         const std::vector<double>& squared) {
@@ -210,8 +211,8 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
   }
   const double braking =
       BrakingFromStart(length, start_squared, limits.deceleration, caps, stretches, squared);
-  // A car that starts too fast for the path ahead brakes at `braking` until its speed meets the
-  // profile.
+  // A car that starts too fast for the path ahead brakes at the deceleration `braking` until its
+  // speed equals the profile's.
   bool too_fast = start_squared > squared[0];
   squared[0] = start_squared;
   for (std::size_t i = 0; i < stretches.size(); ++i) {

@@ -80,9 +80,9 @@ double BezierCurve::Sharpness(double u) const {
 }
 
 double BezierCurve::Length(double from, double to) const {
-  // Compute the arc length as the sum of integrals over sixteenths of the parameter range.
-  // Within each sixteenth, the parameter speed |P'| is so close to a polynomial that Gauss's rule
-  // is accurate.
+  // Compute the arc length of the Bézier curve as the sum of integrals over sixteenths of the
+  // parameter range. Within each sixteenth, the parameter speed |P'| is close to a polynomial, for
+  // which Gauss's rule is accurate.
   using Quadrature = boost::math::quadrature::gauss<double, 10>;
   const double pieces = std::max(1.0, std::ceil(16.0 * std::abs(to - from)));
   double length = 0.0;
@@ -100,7 +100,8 @@ std::vector<CurvePoint> BezierCurve::Points(double spacing, double start_yaw) co
   TRACKBED_REQUIRE(Length() / spacing <= kMaxPoints,
                    "BezierCurve::Points: {} m every {} m; must be at most {} points", Length(),
                    spacing, kMaxPoints);
-  // Upper bound of |P'|, equal to the largest norm of the control points of P'.
+  // Upper bound of the parameter speed |P'|: the largest norm of the control points of the
+  // derivative P'.
   double fastest = 0.0;
   for (const Vec2& velocity : polygons_[1]) {
     fastest = std::max(fastest, velocity.norm());

@@ -18,17 +18,17 @@ double DistanceToLine(const Vec2& p, const Vec2& from, const Vec2& to) {
 
 /// Returns the largest plausible distance of a smooth path from a chord between two points. On a
 /// circle through three neighboring points, the angle between the two chords is half of the sum of
-/// the two arcs' angles. Hence, if adjacent chords turn by phi, the arc over a chord has an angle
-/// of at most 2 phi. An arc of the angle 2 phi rises chord/2 tan(phi/2) above its chord. Splines
-/// also deviate by up to a fifth of the chord near more distant corners.
+/// the two arcs' angles. If adjacent chords of a polyline turn by phi, the arc over a chord has an
+/// angle of at most 2 phi. An arc of the angle 2 phi rises by chord/2 tan(phi/2) above its chord.
+/// Near more distant corners, splines also deviate from the chord by up to a fifth of its length.
 double PlausibleBulge(double chord, double turn) {
   constexpr double kSwing = 0.2;
   return chord * std::max(kSwing, 0.5 * std::tan(0.5 * std::min(turn, 0.5 * kPi)));
 }
 
 /// Measures the deviation of a curve from the straight line after a knot. `curve` returns the
-/// curve's point for a share of the way from 0 to 1. Golden-section search refines the largest of
-/// sixteen sampled distances.
+/// curve's point for a fraction of the step, from 0 to 1. Golden-section search refines the largest
+/// of sixteen sampled distances.
 template <typename Curve>
 Bulge BulgeAfter(const Curve& curve, std::size_t knot, const Vec2& from, const Vec2& to,
                  double turn) {
@@ -62,7 +62,8 @@ Bulge BulgeAfter(const Curve& curve, std::size_t knot, const Vec2& from, const V
   return bulge;
 }
 
-/// Returns the absolute change of direction at each point; 0 at the ends of an open path.
+/// Returns the absolute change of the polyline's direction at each point [rad]; 0 at the ends of an
+/// open path.
 std::vector<double> TurnsOf(const ChordPoints& fitted, double period) {
   std::vector<double> turns(fitted.points.size(), 0.0);
   ForEachTurn(fitted, period,
@@ -82,10 +83,10 @@ std::vector<double> StepsOf(const ChordPoints& fitted, double period) {
   return steps;
 }
 
-/// Returns whether the curvature of the points on a step is less than a quarter of the curvature
-/// beside the step, as on a straight without points. In a gap on an arc, the curvature on the step
-/// equals the curvature beside it. At the beginning of an arc, the curvature on the step is half of
-/// the curvature beside it.
+/// Returns whether the polyline's curvature on a step is less than a quarter of the curvature
+/// beside it, as on a straight without points. On a long step on an arc, the curvature equals the
+/// curvature beside the step. At the beginning of an arc, the curvature on a step is half of the
+/// curvature beside the step.
 bool IsStraighter(const std::vector<double>& turns, const std::vector<double>& lengths,
                   std::size_t step, double period) {
   const std::size_t count = lengths.size();
@@ -110,11 +111,12 @@ bool IsStraighter(const std::vector<double>& turns, const std::vector<double>& l
   return turn(step) + turn(step + 1) < 0.25 * curvature * (length(step) + beside);
 }
 
-/// Returns the ascending fractions of a step at which points are added. The distances between the
-/// added points grow from `first` [m] at the beginning and `last` [m] at the end towards the middle
-/// of the step. Between equidistant knots, the sideways swing of a spline of degree 5 shrinks from
-/// knot to knot by a factor of about 0.43. The distances between the added points grow by much less
-/// than the factor 1/0.43, so the swing in meters shrinks, too.
+/// Returns the ascending fractions of a step between two knots at which points are added. The
+/// distances between the added points grow from `first` [m] at the beginning and `last` [m] at the
+/// end towards the middle of the step. A spline of degree 5 oscillates about its points; between
+/// equidistant knots, the oscillation shrinks from knot to knot by a factor of about 0.43. The
+/// distances between added points grow by much less than the factor 1/0.43, so the oscillation
+/// shrinks despite this growth.
 std::vector<double> SharesOn(double length, double first, double last) {
   constexpr double kGrowth = 1.25;
   std::vector<double> begin;
@@ -168,9 +170,11 @@ Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, doubl
 
 std::vector<std::size_t> StraightSteps(const CurveBetweenKnots& curve, const ChordPoints& fitted,
                                        double period, double tolerance) {
-  // A step is long if it is kLong times as long as the median step, such as a straight of a track.
+  // A step between two knots, such as a straight of a track, is long if it is kLong times as long
+  // as the median step.
   constexpr double kLong = 4.0;
-  // An end of a step at which the points turn by more than kLargestTurn may be a wrong point.
+  // If the polyline turns by more than kLargestTurn at an end of a step, this end may be a wrong
+  // point.
   constexpr double kLargestTurn = 0.25 * kPi;
   const std::vector<double> turns = TurnsOf(fitted, period);
   const std::vector<double> lengths = StepsOf(fitted, period);

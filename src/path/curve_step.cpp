@@ -13,9 +13,10 @@ double TurnBetween(const CurveNode& from, const CurveNode& to) {
   return h * (from.curvature + h * (from.sharpness / 3.0 + to.sharpness / 6.0));
 }
 
-/// Integrals, over a segment of length h, of three factors times the vector from the distance d to
-/// the segment's end. The factors 1, d - d^2/(2 h) and d^2/(2 h) are the effects of the curvature
-/// and of both end sharpnesses on the curvature at the distance d.
+/// Integrals over a segment of length h. The integrands are three factors times the vector from the
+/// segment's point at the distance d to its end. The factors 1, d - d^2/(2 h) and d^2/(2 h) are the
+/// effects of the start curvature and of the sharpness at both ends on the curvature at the
+/// distance d.
 struct Levers {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
   Eigen::Vector3d left = Eigen::Vector3d::Zero();
@@ -33,7 +34,8 @@ Levers LeversOf(double h, double turn) {
     const double rest = h - d;
     const double angle = bend * rest;
     const Eigen::Vector3d effect(1.0, d - d * d / (2.0 * h), d * d / (2.0 * h));
-    // Use the Taylor series of sin(angle)/bend and (cos(angle) - 1)/bend.
+    // Use the Taylor series of sin(angle)/bend and (cos(angle) - 1)/bend, where `bend` is the mean
+    // curvature.
     levers.along += h * weight * rest * (1.0 - angle * angle / 6.0) * effect;
     levers.left -= h * weight * rest * angle * (0.5 - angle * angle / 24.0) * effect;
   }
@@ -104,7 +106,8 @@ void AddSquare(StateMatrix& cost, const StateRow& row, double weight) {
 
 StateMatrix Eliminate(CurveStep& step, const StateMatrix& next_cost, const CurveNode& from,
                       const CurveNode& to, double smoothing) {
-  // The extended state at the next node is motion * state + control * u.
+  // The extended state at the next node is motion * state + control * u, where u is the change of
+  // the next node's sharpness.
   StateMatrix motion = StateMatrix::Identity();
   motion.topRows<3>() = step.next;
   motion.row(kSharpness).setZero();
@@ -115,8 +118,8 @@ StateMatrix Eliminate(CurveStep& step, const StateMatrix& next_cost, const Curve
   StateMatrix cost = motion.transpose() * weighted;
   StateRow mixed = control.transpose() * weighted;
   double own = control.dot(next_cost * control);
-  // The integral of the square of a linear function with end values a and b + u is
-  // h/3 (a^2 + a (b + u) + (b + u)^2).
+  // The squared sharpness error is integrated over the segment of length h. For a linear function
+  // with the end values a and b + u, this integral is h/3 (a^2 + a (b + u) + (b + u)^2).
   StateRow a = StateRow::Zero();
   a(kSharpness) = 1.0;
   a(kOne) = from.sharpness;

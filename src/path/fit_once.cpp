@@ -18,10 +18,11 @@
 #include "trackbed/geometry/pose.h"
 
 // Fits a path to points. The points are divided into legs of one direction of motion (legs.cpp).
-// Each leg is fitted as a forward path in its direction of travel (leg_fit.cpp). A first fit of
-// each leg gives the headings at the cusps between the legs. A second fit of each leg has these
-// headings at its ends, which makes the heading of the whole path continuous. If the given headings
-// and curvatures agree with the points, the path follows them instead of a fit (given_shape.cpp).
+// Each leg between cusps is fitted as a forward path in its direction of travel (leg_fit.cpp). A
+// first fit of each leg gives the headings at the cusps between the legs. A second fit, with the
+// headings of the first fit at the ends of the legs, makes the heading of the whole path
+// continuous. If the given headings and curvatures agree with the points, the path follows the
+// given shape instead of a fit (given_shape.cpp).
 
 namespace trackbed {
 
@@ -53,7 +54,8 @@ void CheckFitArguments(const PathPoints& given, const PathFitOptions& options) {
 
 namespace {
 
-/// Returns the largest difference between the given headings and the headings of the path [rad].
+/// Returns the largest difference between the headings given with the points and the headings of
+/// the fitted path [rad].
 double HeadingDifference(const FittedPath& fitted) {
   // Heading difference [rad] up to which the given headings may refer to another axis of the car.
   constexpr double kOpposite = 2.0;
@@ -81,12 +83,12 @@ double HeadingDifference(const FittedPath& fitted) {
   return largest;
 }
 
-/// Returns the heading of the car where a leg has the heading `travel` in its direction of travel.
+/// Converts the heading `travel` of a leg's direction of travel to the heading of the car.
 double CarHeading(double travel, int direction) {
   return direction > 0 ? travel : WrapAngle(travel + kPi);
 }
 
-/// Returns the mean of angles that are close to each other [rad]. The weights are above 0.
+/// Returns the weighted mean of angles that are close to each other [rad]. All weights are above 0.
 double MeanAngle(const std::vector<double>& angles, const std::vector<double>& weights) {
   double sum = 0.0;
   double weight = 0.0;
@@ -98,10 +100,11 @@ double MeanAngle(const std::vector<double>& angles, const std::vector<double>& w
 }
 
 /// Estimates the error of the heading at the end of a curve that is fitted to points [rad]. The
-/// error is the mean deviation of the points near this end, divided by the length of the curve that
-/// these points determine.
+/// estimated heading error is the mean deviation of the points near the curve's end, divided by the
+/// length of curve that they determine.
 double HeadingError(const FittedPath& fit, bool at_begin) {
-  // Error of a heading from fewer than kManyPoints points, which tell little about the curvature.
+  // Error [rad] assumed for a heading from fewer than kManyPoints points, which do not determine
+  // the curvature well.
   constexpr std::size_t kManyPoints = 4;
   constexpr double kFewPointsError = 0.1;   // [rad]
   constexpr double kSmallestError = 1e-12;  // [rad]
@@ -122,8 +125,8 @@ double HeadingError(const FittedPath& fit, bool at_begin) {
   return sum / count / near + kSmallestError;
 }
 
-/// Returns the heading of the car at the cusp between two legs, which are fitted without prescribed
-/// headings.
+/// Returns the heading of the car at the cusp between two legs. The legs were fitted without
+/// prescribed headings.
 double CuspHeading(const PathPoints& given, const std::array<Leg, 2>& legs,
                    const std::array<const FittedPath*, 2>& fits) {
   // Heading difference above which the given headings are ignored [rad].
@@ -151,8 +154,9 @@ double CuspHeading(const PathPoints& given, const std::array<Leg, 2>& legs,
   return std::abs(AngleDifference(from_file, heading)) < kFar ? from_file : heading;
 }
 
-/// Returns the headings of the car at the cusps between the legs, for curves that are fitted
-/// without prescribed headings. Polylines keep the heading with which they reach a cusp.
+/// Returns the headings of the car at the cusps between the legs, for legs that were fitted without
+/// prescribed headings. At a cusp of a polyline, the car keeps the heading of the line before the
+/// cusp.
 std::vector<EndHeadings> HeadingsOfLegs(const PathPoints& given, const std::vector<Leg>& legs,
                                         const std::vector<FittedPath>& fits) {
   std::vector<EndHeadings> headings(legs.size());

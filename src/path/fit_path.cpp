@@ -15,21 +15,21 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path/tractrix.h"
 
-// A fit that fails because of noise is repeated with growing values of max_deviation. The error
-// message then names a value of max_deviation with which the fit succeeds. The file fit_once.cpp
-// contains the fit itself.
+// Repeats a path fit that fails because of noise with growing values of max_deviation. The error
+// message of the failed fit states a value of max_deviation with which the fit succeeds. The file
+// fit_once.cpp contains a single fit of a path.
 namespace trackbed {
 namespace {
 
-/// Returns a number above 0, rounded up to two digits.
+/// Rounds a number above 0 up to two significant digits.
 double RoundedUp(double number) {
   const double unit = std::pow(10.0, std::floor(std::log10(number)) - 1.0);
   return unit * std::ceil(number / unit - 1e-9);
 }
 
 /// Returns approximately the smallest value of max_deviation with which a spline can be fitted [m].
-/// Returns nullopt if this value exceeds a tenth of the length of the points, or after kMaxFits
-/// failures.
+/// NoiseDeviation returns nullopt if this deviation exceeds a tenth of the length of the points, or
+/// after kMaxFits failed fits.
 std::optional<double> NoiseDeviation(const PathPoints& given, const PathFitOptions& options) {
   constexpr double kStep = 1.1;
   constexpr int kMaxFits = 8;
@@ -96,8 +96,8 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
   if (chords.points.size() > 2) {
     const double turn = AngleDifference(direction(1), direction(0));
     const double curvature = 2.0 * std::sin(turn) / (chords.points[2] - chords.points[0]).norm();
-    // The initial yaw is relative to the tangent at the first point. The direction of the tangent
-    // differs from the direction of the first chord by half of the turn along the chord.
+    // Compute the initial yaw from the path's tangent at the first point. The tangent differs from
+    // the first chord by half of the turn along this chord.
     yaw -= 0.5 * curvature * chords.u[1] + std::asin(std::clamp(ahead * curvature, -1.0, 1.0));
   }
   Vec2 before = given.points.front();
@@ -128,8 +128,8 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
     }
     return fitted;
   } catch (const InputError& error) {
-    // A spline fit may also fail because noise of the positions turns back, even if no point is a
-    // reversal.
+    // A spline fit may fail because noise makes the positions move backward, even if no point is
+    // reported as a reversal.
     std::vector<Problem> problems = error.problems();
     if (problems.front().key == "max_deviation" && DistinctFor(given, options).merged > 0) {
       if (const std::optional<double> allowed = NoiseDeviation(given, options)) {

@@ -7,10 +7,10 @@ namespace {
 
 /// Terms shared by the transformations to and from the Frenet frame.
 struct Frame {
-  double narrow;   // Factor 1 - kappa_r d at the offset d from a path of curvature kappa_r.
-  double tangent;  // Tangent of the heading difference Dtheta.
-  double cosine;   // Cosine of the heading difference Dtheta.
-  double drift;    // Derivative of kappa_r d by the station: kappa_r' d + kappa_r d'.
+  double narrow;   // Factor 1 - kappa_r d; d: offset from a path of curvature kappa_r.
+  double tangent;  // Tangent of the heading difference Dtheta of car and path.
+  double cosine;   // Cosine of the heading difference Dtheta of car and path.
+  double drift;    // Derivative of kappa_r d with respect to the station s.
 
   Frame(const PathPoint& at, double d, double slope)
       : narrow(1.0 - at.curvature * d),
@@ -18,12 +18,13 @@ struct Frame {
         cosine(1.0 / std::sqrt(1.0 + tangent * tangent)),
         drift(at.sharpness * d + at.curvature * slope) {}
 
-  /// Returns the derivative of the heading difference between car and path with respect to s, which
-  /// is kappa (1 - kappa_r d)/cos Dtheta - kappa_r.
+  /// Returns the derivative of the heading difference Dtheta between car and path with respect to
+  /// the station s: kappa (1 - kappa_r d)/cos Dtheta - kappa_r, with the car's curvature kappa.
   [[nodiscard]] double Turning(const PathPoint& at, double curvature) const {
     return curvature * narrow / cosine - at.curvature;
   }
-  /// Returns the factor of the squared speed s_t^2 in the formula of the acceleration.
+  /// Returns the factor of the squared speed s_t^2 along the path in the formula of the car's
+  /// acceleration.
   [[nodiscard]] double Added(double turning) const {
     return (narrow * tangent * turning - drift) / cosine;
   }

@@ -9,17 +9,18 @@
 #include "trackbed/geometry/pose.h"
 
 // Converts points with a planner's headings and curvatures to a path. Between two points, the turn
-// of the car and the length of the step determine the mean curvature. If a monotonic quadratic
-// curvature profile has this mean, the segment gets this profile. If the curvature is constant on
-// both sides of the step, the curvature jumps within the step, at a place that follows from the
-// mean. After a cusp, the curvature is linear, because the curvature given at a cusp may belong to
-// the leg before the cusp. If no such profile has the mean curvature of a step, the given headings
-// and curvatures do not agree with the points.
+// of the car and the length of the step determine the mean curvature. The segment between two
+// points gets a monotonic quadratic curvature profile with this mean curvature, if possible. If the
+// curvature is constant on both sides of the step between two points, it jumps within the step; the
+// mean curvature determines where. After a cusp, the curvature of the first segment is linear,
+// because the curvature given at a cusp may belong to the leg before the cusp. If no curvature
+// profile has a step's mean curvature, the given headings and curvatures do not agree with the
+// points.
 
 namespace trackbed {
 namespace {
 
-/// Difference of curvatures below which it counts as a rounding error [1/m].
+/// Curvature difference that is regarded as a rounding error [1/m].
 constexpr double kSameCurvature = 1e-8;
 
 class GivenShape {
@@ -30,11 +31,12 @@ class GivenShape {
     }
   }
 
-  /// Returns the segments from a point of a leg to the next point, or none.
+  /// Returns the segments from a point of a leg to the next point; empty if no curvature profile
+  /// fits.
   [[nodiscard]] std::vector<Segment> Step(const Leg& leg, std::size_t i) const {
     constexpr double kMaxTurn = 1.0;    // Largest turn of a step [rad].
     constexpr int kIterations = 5;      // Each iteration reduces the error by a factor of turn^2.
-    constexpr double kMaxError = 1e-4;  // Share of the length.
+    constexpr double kMaxError = 1e-4;  // Position error / step length.
     const Pose2 from = PoseAt(i);
     const Pose2 to = PoseAt(i + 1);
     const double turn = leg.direction * AngleDifference(to.yaw, from.yaw);
@@ -67,16 +69,18 @@ class GivenShape {
 
   /// Returns whether the curvature jumps from one constant to another between two points.
   [[nodiscard]] bool Jumps(const Leg& leg, std::size_t i) const {
-    // Largest change of the curvature beside the jump, as a fraction of the jump.
+    // Largest change of the curvature on the steps beside a curvature jump, as a fraction of the
+    // jump.
     constexpr double kFlat = 0.01;
     const std::vector<double>& curvature = given_.curvature;
     const double flat = kFlat * std::abs(curvature[i + 1] - curvature[i]);
-    // The given curvature of the first point may belong to the leg before the cusp.
+    // Do not compare the curvature given at the first point, which may belong to the leg before the
+    // cusp.
     return (i <= leg.first + 1 || std::abs(curvature[i] - curvature[i - 1]) <= flat) &&
            (i + 1 == leg.last || std::abs(curvature[i + 2] - curvature[i + 1]) <= flat);
   }
 
-  /// Returns segments of the total length `length` [m] that turn by `turn` [rad]; none if no
+  /// Returns segments of the total length `length` [m] that turn by `turn` [rad]; empty if no
   /// curvature profile fits.
   [[nodiscard]] std::vector<Segment> Shape(const Leg& leg, std::size_t i, double length,
                                            double turn) const {
@@ -115,7 +119,8 @@ class GivenShape {
       }
       return segments;
     }
-    // Refuse a mean curvature that no monotonic quadratic curvature profile has.
+    // Return no segments if no monotonic quadratic curvature profile has the mean curvature of the
+    // step.
     if (std::abs(beside) > std::abs(b - a) / 6.0 + slack) {
       return {};
     }
@@ -127,7 +132,8 @@ class GivenShape {
   double largest_ = 0.0;  // [1/m]
 };
 
-/// Appends a segment, and merges it with the last segment if both are parts of one arc or line.
+/// Appends a segment to the list. If the new and the last segment are parts of one arc or line,
+/// Append merges the two segments.
 void Append(std::vector<Segment>& segments, const Segment& segment) {
   const auto is_arc = [](const Segment& own) {
     return std::abs(own.CurvatureAt(own.length) - own.curvature) <= kSameCurvature &&

@@ -8,10 +8,10 @@
 
 namespace trackbed {
 
-/// Returns the path with the given headings and curvatures, if they agree with the points as a
-/// planner's own output does. Computes the path, the stations and the number of repeated points.
-/// Returns nullopt if headings or curvatures are missing, are too inexact, or belong to another
-/// path.
+/// Returns a path with the given headings and curvatures, if they agree with the points as
+/// accurately as in the output of a planner. FollowGiven computes the path, its stations and the
+/// number of repeated points. FollowGiven returns nullopt if headings or curvatures are missing,
+/// too inexact, or belong to another path.
 std::optional<FittedPath> FollowGiven(const PathPoints& given, const std::vector<Leg>& legs,
                                       const PathFitOptions& options);
 

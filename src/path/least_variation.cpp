@@ -9,19 +9,21 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
-// Each iteration of Newton's method linearizes the curve at its nodes. A node moves by n across the
-// curve, and by a known distance along the curve, to the foot of its point. The linearized problem
+// Fits a minimum variation curve by Newton's method, which linearizes the curve at its nodes in
+// each iteration. In an iteration, a node moves by n across the curve. A node also moves by a known
+// distance along the curve, to the curve point nearest to its given point. The linearized problem
 // is a linear-quadratic control problem with the state (n, heading, curvature, sharpness) and the
 // sharpness of the next node as its control. The Riccati recursion eliminates the controls from the
 // last node to the first. The state is extended by constants: the multipliers of the end
-// conditions, the constant c, and the number 1 for the affine terms. The curve's nodes are first
-// moved independently, with gaps that close as the method converges (multiple shooting), and then
-// joined.
+// conditions, the mean sharpness c, and the number 1 for the affine terms. Newton's method moves
+// the nodes independently, and the gaps between segments close as it converges (multiple shooting).
+// After convergence, the segments are joined.
 //
 // The bound of the curvature is a quadratic penalty at the nodes that exceed it. The nodes that
 // exceed the bound are found anew in each iteration (a semismooth Newton method).
 //
-// Lengths are divided by the smoothing length, which makes all weights independent of the units.
+// All lengths are divided by the smoothing length, which makes the weights independent of the
+// units.
 
 namespace trackbed {
 namespace {
@@ -42,7 +44,7 @@ double MaxTurn(const CurveNode& from, const CurveNode& to) {
 // Largest heading change of a segment [rad].
 constexpr double kMaxTurn = 2.0 * kPi;
 
-// Smallest factor by which a segment may be shortened.
+// Smallest factor by which an iteration may shorten a segment.
 constexpr double kMinShortening = 0.2;
 
 class Newton {
@@ -58,11 +60,12 @@ class Newton {
     }
   }
 
-  /// Moves the nodes. Returns the largest movement of a node, or infinity if the curve degenerates.
+  /// Moves the curve's nodes by one Newton step. Returns the largest movement of a node, or
+  /// infinity if the curve degenerates.
   double Iterate();
   /// Joins the nodes by moving each to the end of the segment before it.
   void Join();
-  /// Returns how far a joined curve misses its end conditions.
+  /// Returns the largest violation of an end condition by the joined curve.
   [[nodiscard]] double EndError() const;
   [[nodiscard]] const std::vector<CurveNode>& nodes() const { return nodes_; }
 
@@ -77,15 +80,16 @@ class Newton {
   bool closed_;
   EndHeadings headings_;
   double max_curvature_;          // Bound of the curvature, in units of 1/(smoothing length).
-  double mean_ = 0.0;             // The constant c.
+  double mean_ = 0.0;             // The constant c of the cost (mean sharpness).
   std::vector<double> shortest_;  // Smallest length of the segment before each node.
   std::vector<double> slides_;    // Distance that each node moves along the curve.
   std::vector<CurveStep> steps_;
   std::vector<Change> changes_;
 };
 
-/// Computes by how far each node slides along the curve. A node with a given point moves to the
-/// foot of this point on the curve; between these nodes, the slides are interpolated linearly.
+/// Computes by how far each node slides along the curve. A node with a given point slides to the
+/// point's foot on the curve. The slides of nodes without a given point are interpolated linearly
+/// between nodes with a given point.
 void Newton::Slide() {
   const std::size_t count = nodes_.size();
   slides_.assign(count, 0.0);
@@ -109,8 +113,8 @@ void Newton::Slide() {
     }
     before = i;
   }
-  // Keep the smallest lengths of the segments, because two points may be closer together along the
-  // curve.
+  // Limit the slides so that each segment keeps its smallest length, because two given points may
+  // be closer together along the curve.
   const double last = slides_.back();
   for (std::size_t i = 1; i < count; ++i) {
     slides_[i] = std::max(slides_[i], slides_[i - 1] + shortest_[i] - nodes_[i].length);
@@ -137,7 +141,7 @@ void Newton::AddPoint(StateMatrix& cost, const CurveNode& node) const {
   }
 }
 
-/// Adds the penalty of a node that exceeds the bound of the curvature.
+/// Adds to the cost the penalty of a node whose curvature exceeds its bound.
 void Newton::AddBound(StateMatrix& cost, std::size_t node) const {
   constexpr double kPenalty = 1e5;
   const double own = nodes_[node].curvature;
@@ -152,8 +156,7 @@ void Newton::AddBound(StateMatrix& cost, std::size_t node) const {
   AddSquare(cost, row, 0.5 * kPenalty * (before + after));
 }
 
-/// Returns the state at the first node with which the cost is smallest and the end conditions are
-/// met.
+/// Returns the state at the first node that minimizes the cost and satisfies the end conditions.
 StateVector Newton::Start(const StateMatrix& cost) const {
   StateVector state = StateVector::Zero();
   state(kOne) = 1.0;
@@ -203,8 +206,8 @@ double Newton::Iterate() {
     }
   }
   AddBound(cost, count - 1);
-  // If the points do not determine the constant c of the sharpness, as with three points, c stays
-  // unchanged.
+  // Add a small cost of changes of the mean sharpness c, so that c stays unchanged if the points do
+  // not determine it, as with three points.
   double length = 0.0;
   for (std::size_t i = 1; i < count; ++i) {
     length += nodes_[i].length;
@@ -215,8 +218,8 @@ double Newton::Iterate() {
   AddSquare(cost, change, 1e-9 * std::min(length, std::pow(length, 7)));
   steps_.resize(count);
   for (std::size_t i = count - 1; i > 0; --i) {
-    // A smoothing length below a sixteenth of the segment's length would only cause rounding
-    // errors.
+    // Use a smoothing length of at least a sixteenth of the segment's length, because a shorter one
+    // would only cause rounding errors.
     const double smoothing = std::pow(std::max(1.0, nodes_[i].length / 16.0), 6);
     steps_[i] = Linearize(nodes_[i - 1], nodes_[i], slides_[i - 1], slides_[i]);
     cost = Eliminate(steps_[i], cost, nodes_[i - 1], nodes_[i], smoothing);
@@ -235,8 +238,8 @@ double Newton::Iterate() {
 }
 
 double Newton::Move(StateVector state) {
-  // Largest movement of a node in an iteration, relative to the smoothing length, and largest
-  // change of a heading [rad].
+  // Largest movement of a node in one iteration, divided by the smoothing length, and largest
+  // change of its heading [rad].
   constexpr double kMaxMove = 0.5;
   const std::size_t count = nodes_.size();
   const double mean = state(kMean);
@@ -302,7 +305,7 @@ void Newton::Join() {
   }
 }
 
-/// Multiplies all lengths by a factor.
+/// Multiplies all lengths of the curve by a factor.
 void Scale(std::vector<CurveNode>& nodes, double factor) {
   for (CurveNode& node : nodes) {
     node.pose.x *= factor;

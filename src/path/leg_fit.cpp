@@ -11,8 +11,8 @@
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/pose.h"
 
-// Fits a path to the points of one leg. FitLeg drops repeated points, and optionally resamples the
-// other points along straight lines. The file spline_fit.cpp contains the fit of splines. A
+// Fits a path to the points of one leg. FitLeg removes repeated points, and optionally resamples
+// the distinct points along straight lines. The file spline_fit.cpp contains the fit of splines. A
 // polyline fit joins straight lines by arcs with tangents of at most 1 mm. Points at which the path
 // turns back are reported as reversals.
 
@@ -27,7 +27,7 @@ void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
   std::vector<double> angles(count, 0.0);
   std::vector<double> tangents(count, 0.0);
   ForEachTurn(chords, period, [&](std::size_t i, double angle, double shorter) {
-    // The path has no corner at its start, even if the path is closed.
+    // Skip the start point, because a path has no corner at its start, even if it is closed.
     const bool is_start = i == 0;
     if (std::abs(angle) > kEqualityTolerance && !is_start) {
       angles[i] = angle;
@@ -82,7 +82,7 @@ void BeginWithHeading(ChordPoints& chords, double heading) {
   chords.u.insert(chords.u.begin() + 1, length);
 }
 
-/// Returns whether a straight line has the prescribed headings.
+/// Returns whether the straight line between two points has the prescribed headings.
 bool IsStraight(const ChordPoints& chords, const EndHeadings& headings) {
   const Vec2 line = chords.points.back() - chords.points.front();
   const double yaw = std::atan2(line.y(), line.x());
@@ -96,8 +96,8 @@ bool IsStraight(const ChordPoints& chords, const EndHeadings& headings) {
 
 DistinctPoints DistinctFor(const PathPoints& given, const PathFitOptions& options) {
   // Diagonal of the box within which points count as noise, as a fraction of the largest deviation.
-  // All points in a noise box are at most half of its diagonal away from its center. In a noise box
-  // at an end of the path, all points are at most the diagonal away from this end.
+  // All points in a noise box are at most half of the box's diagonal away from its center. In a
+  // noise box at an end of the path, the points are at most the diagonal away from the path's end.
   constexpr double kNoise = 0.9;
   return Distinct(given, options.closed,
                   options.fit == PathFit::kSpline ? kNoise * options.max_deviation : 0.0);
@@ -122,9 +122,9 @@ ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& option
     return Resampled(distinct, *options.resample);
   }
   // The linear equations of a spline lose a digit for each factor of about 1.6 between the
-  // distances of neighboring knots. Points that are much closer together than their neighbors would
-  // therefore make the spline swing. The fit still stays within max_deviation of the points that
-  // are not knots.
+  // distances of neighboring knots. Points much closer together than their neighbors would
+  // therefore make the spline oscillate, so they are no knots. The fitted spline still stays within
+  // max_deviation of points that are not knots.
   constexpr double kSpacing = 0.1;
   return options.fit == PathFit::kSpline ? Spaced(distinct, kSpacing * options.max_deviation)
                                          : distinct.chords;

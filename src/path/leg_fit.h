@@ -8,11 +8,11 @@
 
 namespace trackbed {
 
-/// Finds the distinct points of the given points. For a polyline, which passes all points, no
-/// points are merged as noise.
+/// Removes repeated points and noise from the given points. For a polyline fit, which passes all
+/// points, no points are merged as noise.
 DistinctPoints DistinctFor(const PathPoints& given, const PathFitOptions& options);
 
-/// Returns the points to which the path is fitted.
+/// Returns those of the distinct points to which the path is fitted (knots).
 ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& options);
 
 /// Returns the points at which the direction of travel changes by more than kMaxHeadingJump.

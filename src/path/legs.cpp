@@ -9,14 +9,15 @@
 #include "trackbed/geometry/pose.h"
 
 // Divides points into legs of one direction of motion. Each step between two different points has a
-// progress: the distance by which the car moves forwards, negative in reverse. The sign of
-// the progress follows from the signs of the direction of motion at both points or, where these are
-// missing or differ, from the headings. Dynamic programming (Viterbi) finds the directions that
+// progress: the distance by which the car moves forwards, negative in reverse. The sign of a step's
+// progress is the given direction of motion at both points. If the directions are missing or
+// differ, the headings determine the sign. Dynamic programming (Viterbi) finds the directions that
 // maximize the sum of
 //     direction * progress
 // over all steps, minus a penalty for each change of direction, plus a bonus for changes of
-// direction at points where the steps turn back. The penalty makes the legs robust to noise: while
-// a car stands, the noise of its positions moves it back by less than the penalty.
+// direction at points where the steps turn back. The penalty for a change of direction makes the
+// legs robust to noise: while a car stands, noise moves its positions back by less than the
+// penalty.
 
 namespace trackbed {
 namespace {
@@ -53,12 +54,12 @@ double ProgressOf(const PathPoints& given, std::size_t from, std::size_t to) {
                            : 0.5 * step.dot(Direction(given.yaw[from]) + Direction(given.yaw[to]));
 }
 
-/// Returns the direction of each step.
+/// Returns the direction of motion of each step between two places.
 std::vector<int> DirectionsOf(const PathPoints& given, const std::vector<Place>& places,
                               const std::vector<double>& progress, double noise) {
   // Bonus for a change of direction where the steps turn back by 180 degrees, divided by the length
-  // of the shorter of the two steps. The bonus is below 1, because given directions and headings
-  // are better evidence than the positions.
+  // of the shorter of the two steps. The bonus for steps that turn back is below 1, because given
+  // directions and headings are better evidence than the positions.
   constexpr double kTurnShare = 0.5;
   constexpr std::array<int, 2> kDirections{1, -1};
   const auto at = [&](std::size_t place) { return given.points[places[place].first]; };
@@ -68,7 +69,7 @@ std::vector<int> DirectionsOf(const PathPoints& given, const std::vector<Place>&
     const Vec2 in = at(i) - at(i - 1);
     const Vec2 out = at(i + 1) - at(i);
     const double turned_back =
-        -kTurnShare * in.dot(out) / std::max(in.norm(), out.norm());  // [m], positive if it does
+        -kTurnShare * in.dot(out) / std::max(in.norm(), out.norm());  // [m], > 0 if steps turn back
     std::array<double, 2> next{};
     for (std::size_t own = 0; own < 2; ++own) {
       const double stays = best[own] - turned_back;

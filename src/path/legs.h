@@ -16,8 +16,8 @@ struct Leg {
 };
 
 /// Finds the legs of the given points from their directions and headings. Without directions and
-/// headings, all points form one forward leg. A reverse piece that is shorter than `noise` [m]
-/// counts as noise of the positions. Costs O(n).
+/// headings, all points form one forward leg. A reverse piece shorter than `noise` [m] is regarded
+/// as noise of the positions. FindLegs costs O(n) for n points.
 std::vector<Leg> FindLegs(const PathPoints& given, double noise);
 
 /// Returns the points of a leg and their line numbers.

@@ -22,7 +22,7 @@ bool IsLineOrArc(const Segment& segment) {
   return segment.sharpness == 0.0 && segment.sharpness_rate == 0.0;
 }
 
-/// Returns the heading change over `distance`, the integral of the curvature. The result is not yet
+/// Returns the integral of a segment's curvature over `distance`: the heading change, not yet
 /// multiplied by the segment's direction of motion.
 double HeadingChange(const Segment& segment, double distance) {
   return distance * (segment.curvature + distance * (segment.sharpness / 2.0 +
@@ -63,11 +63,11 @@ Pose2 Along(const Pose2& start, const Segment& segment, double distance) {
 
 /// Implements NearestDistance for segments of varying curvature. A foot point of p is a point of
 /// the segment at which the line to p is perpendicular to the segment. NearestOnCurve brackets the
-/// foot points between points whose headings differ by a quarter radian.
+/// foot points between points of the segment whose headings differ by a quarter radian.
 double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p, double from,
                       double to) {
   // Returns how far p lies ahead of the segment's point at the distance d, measured in the
-  // direction of motion at this point. At the foot point nearest to p, the returned value changes
+  // direction of motion at this point. At the foot point nearest to p, the function `ahead` changes
   // from positive to negative.
   const auto ahead = [&](double d) {
     return segment.direction * ToLocal(Along(start, segment, d), p).x();
@@ -97,8 +97,8 @@ double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p,
 
 /// Returns the distance in [from, to] along a segment at which the segment is nearest to p. An arc
 /// may pass the nearest point several times; NearestDistance then returns the smallest of these
-/// distances. If the point of the segment nearest to p lies outside of [from, to], returns the
-/// closer of `from` and `to`.
+/// distances. If the nearest point of the segment lies outside of [from, to], NearestDistance
+/// returns the closer of `from` and `to`.
 double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p, double from,
                        double to) {
   if (!IsLineOrArc(segment)) {
@@ -118,8 +118,8 @@ double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p
   if (distance <= to) {
     return distance;
   }
-  // The foot point lies outside of the range: return the end of the range that is closer to the
-  // foot point along the circle.
+  // If the foot point lies outside of the range [from, to], return the end of the range that is
+  // closer to the foot point along the circle.
   return (from - (distance - lap)) <= (distance - to) ? from : to;
 }
 
@@ -140,8 +140,8 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
                    "segment of length {}, curvature {}, sharpness {} and {}, direction {}",
                    segment.length, segment.curvature, segment.sharpness, segment.sharpness_rate,
                    segment.direction);
-    // Limits the number of quadrature pieces; the segment has one piece per half radian of heading
-    // change.
+    // Limits the number of quadrature pieces of a segment, which has one piece per half radian of
+    // heading change.
     constexpr double kMaxHeadingChange = 1e4;
     TRACKBED_REQUIRE(
         IsLineOrArc(segment) || MaxHeadingChange(segment, segment.length) <= kMaxHeadingChange,
@@ -250,8 +250,8 @@ std::vector<Segment> Path::Cut(Stations within) const {
   std::vector<Segment> pieces;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Segment& whole = segments_[i];
-    // If the range begins or ends at a joint of two segments, exclude the segment beyond the joint,
-    // even if the station of the joint has a rounding error.
+    // If the range begins or ends where two segments meet, exclude the segment outside of the
+    // range, even if stations have rounding errors.
     const double end = stations_[i + 1];
     const double from =
         within.from >= end ? whole.length : std::max(within.from - stations_[i], 0.0);
@@ -297,8 +297,8 @@ std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points) {
     const CurvePoint& b = points[i];
     const double h = b.s - a.s;
     TRACKBED_CHECK(h > 0.0, "points at {} and {} m", a.s, b.s);
-    // Choose the quadratic curvature profile that has the given curvatures at both ends and whose
-    // mean, times the length, equals the change of heading.
+    // Choose the quadratic curvature profile with the given curvatures at both ends whose integral
+    // equals the given change of heading.
     const double mean = (b.yaw - a.yaw) / h;
     segments.push_back({h, a.curvature, 1, (6.0 * mean - 4.0 * a.curvature - 2.0 * b.curvature) / h,
                         6.0 * (a.curvature + b.curvature - 2.0 * mean) / (h * h)});

@@ -7,13 +7,13 @@
 
 #include "trackbed/core/error.h"
 
-// Prepares the points of a file for a fit: drops repeated points, merges points of noise, leaves
-// out points that are too close, and resamples points along straight lines.
+// Prepares the points of a file for a path fit. Removes repeated points, merges points of noise,
+// omits points that are too close together, and resamples points along straight lines.
 //
-// Noise is found by its steps: a recorder of a car that stands or creeps logs steps that turn back
-// although the car does not. Groups of consecutive points are kept on a stack. A group at which the
-// polyline turns by more than a right angle absorbs its neighbors as long as their common bounding
-// box is small enough. The merging passes repeat until no group changes.
+// Noise is detected by steps between points that turn back, as recorded from a car that stands or
+// creeps. Groups of consecutive points are kept on a stack. A group of points at which the polyline
+// turns by more than a right angle absorbs neighboring groups while the common bounding box is
+// small enough. The merging of groups is repeated until no group changes.
 
 namespace trackbed {
 namespace {
@@ -51,8 +51,8 @@ PointGroup Merged(const PointGroup& a, const PointGroup& b) {
   return both;
 }
 
-/// Returns whether two groups can be merged: their box is small, and they do not contain both ends
-/// of the path.
+/// Returns whether two groups of points can be merged: their common box must be small and must not
+/// contain both ends of the path.
 bool CanMerge(const PointGroup& a, const PointGroup& b, double noise) {
   const PointGroup both = Merged(a, b);
   return (both.high - both.low).norm() <= noise && !(a.end && b.end);
@@ -62,8 +62,8 @@ bool TurnsBack(const PointGroup& a, const PointGroup& b, const PointGroup& c) {
   return (b.At() - a.At()).dot(c.At() - b.At()) < 0.0;
 }
 
-/// If the polyline turns back at a group, merges this group with its neighbors. Returns whether any
-/// groups were merged.
+/// Merges each group of points at which the polyline turns back with its neighbors. Returns whether
+/// any groups were merged.
 bool MergePass(std::vector<PointGroup>& groups, double noise) {
   std::vector<PointGroup> kept;
   const auto merge_last = [&] {

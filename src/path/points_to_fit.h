@@ -11,7 +11,7 @@
 
 namespace trackbed {
 
-/// Throws InputError with the key, message and line number.
+/// Throws InputError with the given key, message and line number of the input file.
 [[noreturn]] void FailFit(const std::string& key, std::string message, int line = 0);
 
 /// Returns the number of the line that defines a point in the input file; 0 if the line number is
@@ -22,10 +22,10 @@ int LineOf(const PathPoints& given, std::size_t point);
 /// numbers are not known.
 std::string NameOf(const PathPoints& given, std::size_t point);
 
-/// Returns the points with one position for each run of successive points with the speed 0, at
-/// which the car stands: the center of their bounding box, or the first or last point of the path.
-/// A run with a point farther than `noise` [m] from its common position keeps its points, because
-/// the car may move during this run. Points without speeds are returned as they are.
+/// Moves each run of successive points with the speed 0, at which the car stands, to one position.
+/// The common position is the center of the run's bounding box, or the first or last point of the
+/// path. If a point is farther than `noise` [m] from the common position, the run's points stay
+/// unchanged, because the car may have moved. Points without speeds are returned unchanged.
 PathPoints AtStandstills(PathPoints given, double noise);
 
 /// The given points without repeated points and without noise that turns back, with the chord
@@ -39,10 +39,10 @@ struct DistinctPoints {
   std::size_t merged = 0;           // Number of points that were merged with their neighbors.
 };
 
-/// Finds the distinct points. Steps that turn back by more than a right angle within `noise` [m]
-/// are noise of the positions. All neighboring points of a step of noise, within a box with the
-/// diagonal `noise`, are replaced by the center of the box. The first and the last point of an open
-/// path keep their positions.
+/// Removes repeated points and merges noisy points. Steps between points that turn back by more
+/// than a right angle within `noise` [m] are regarded as noise of the positions. The points around
+/// a noisy step, within a box with the diagonal `noise`, are replaced by the center of the box. The
+/// first and the last point of an open path keep their positions.
 DistinctPoints Distinct(const PathPoints& given, bool closed, double noise);
 
 /// Returns the index of the last element that is at most u, for u >= 0 and an ascending list that
@@ -52,9 +52,9 @@ std::size_t LastBefore(const std::vector<double>& rising, double u);
 /// Throws InputError if the path is longer than kMaxPathLength.
 void CheckLength(const DistinctPoints& distinct, const PathPoints& given);
 
-/// Leaves out points whose chord length is less than `spacing` [m] from the previous point that is
-/// kept, or from the end. The first point, and the last point of an open path, are always kept.
-/// Returns all points if fewer than four would remain.
+/// Removes points that are closer than `spacing` [m], in chord length, to the previous kept point
+/// or to the end. The first point, and the last point of an open path, are always kept. Spaced
+/// returns all points if fewer than four would remain.
 ChordPoints Spaced(const DistinctPoints& distinct, double spacing);
 
 /// Returns points that are `spacing` [m] apart on the straight lines between the distinct points.
@@ -74,10 +74,10 @@ void ForEachTurn(const ChordPoints& chords, double period, const Call& call) {
   }
 }
 
-/// Distance below which two successive points count as a repeated point [m].
+/// Distance [m] below which a point is regarded as a repetition of the preceding point.
 inline constexpr double kEqualityTolerance = 1e-9;
 
-/// Maximum number of points that are fitted.
+/// Maximum number of points to which a path is fitted.
 inline constexpr std::size_t kMaxFittedPoints = 200'000;
 
 }  // namespace trackbed

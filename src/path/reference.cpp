@@ -9,7 +9,7 @@
 namespace trackbed {
 namespace {
 
-/// Distance below which two knots of a profile coincide [m].
+/// Distance [m] below which two knots of a speed profile are regarded as one knot.
 constexpr double kSameKnot = 0.5e-9;
 
 }  // namespace
@@ -83,7 +83,8 @@ double SpeedProfile::StationAt(double time) const {
   for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
     const Knot& a = knots_[i];
     const Knot& b = knots_[i + 1];
-    // If the speeds at both ends are 0, the duration is infinite, because the car stays at rest.
+    // If the speeds at both knots are 0, the duration between the knots is infinite, because the
+    // car stays at rest.
     const double duration = 2.0 * (b.s - a.s) / (a.speed + b.speed);
     if (time < duration) {
       const double acceleration = (b.speed - a.speed) / duration;
@@ -109,7 +110,8 @@ SpeedProfile Excerpt(const SpeedProfile& profile, Stations within) {
                    "Excerpt: stations {} and {}; must be numbers", within.from, within.to);
   std::vector<SpeedProfile::Knot> knots{{0.0, profile.SpeedAt(within.from)}};
   for (const SpeedProfile::Knot& knot : profile.knots()) {
-    // Skip knots that would coincide with an end of the excerpt due to rounding errors.
+    // Skip knots of the speed profile that would coincide with an end of the excerpt due to
+    // rounding errors.
     if (knot.s > within.from + kSameKnot && knot.s < within.to - kSameKnot) {
       knots.push_back({knot.s - within.from, knot.speed});
     }

@@ -37,8 +37,8 @@ Path SmoothCurvature(const Path& path, double window) {
   for (const Segment& segment : path.segments()) {
     TRACKBED_CHECK(segment.direction == 1, "a segment of direction {}", segment.direction);
   }
-  // The derivatives of the moving average with respect to s are differences between both ends of
-  // the window, divided by the window's length.
+  // The derivatives of the path's moving average with respect to s are differences between both
+  // ends of the averaging window, divided by its length.
   const auto first_at = [&](double s) -> Vec2 {
     return (path.At(s + 0.5 * window).pose.position() - path.At(s - 0.5 * window).pose.position()) /
            window;

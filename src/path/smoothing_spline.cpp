@@ -17,8 +17,8 @@ namespace {
 constexpr int kDegree = 5;
 using Spline = Eigen::Spline<double, 2, Eigen::Dynamic>;
 
-/// Returns the weight of each point: the length of the path that the point represents [m], at the
-/// ends of an open path times a large factor.
+/// Returns the weight of each point, which is the length of the path that the point represents [m].
+/// At the ends of an open path, a large factor multiplies the weight.
 std::vector<double> Weights(const ChordPoints& fitted, double period) {
   const std::size_t count = fitted.u.size();
   std::vector<double> weights(count, 0.0);
@@ -32,7 +32,8 @@ std::vector<double> Weights(const ChordPoints& fitted, double period) {
     weights.front() += half;
     weights.back() += half;
   } else {
-    // An open path begins at its first point and ends at its last point.
+    // Weight the ends of an open path heavily, so that the path begins at its first point and ends
+    // at its last point.
     constexpr double kEnds = 1e6;
     weights.front() *= kEnds;
     weights.back() *= kEnds;
@@ -78,7 +79,7 @@ SmoothingSpline::Basis SmoothingSpline::BasisAt(double u, int order) const {
 void SmoothingSpline::AddData(const ChordPoints& fitted, const EndHeadings& headings) {
   std::vector<Eigen::Triplet<double>> entries;
   right_ = Eigen::MatrixX2d::Zero(size_, 2);
-  // Adds a weighted equation for the derivative of the given order at u.
+  // Adds a weighted equation for the spline's derivative of the given order at the chord length u.
   const auto add = [&](double u, int order, double weight, const Vec2& value) {
     const Basis basis = BasisAt(u, order);
     for (Eigen::Index a = 0; a <= kDegree; ++a) {
@@ -93,8 +94,8 @@ void SmoothingSpline::AddData(const ChordPoints& fitted, const EndHeadings& head
   for (std::size_t i = 0; i < fitted.u.size(); ++i) {
     add(fitted.u[i], 0, weights_[i], fitted.points[i]);
   }
-  // The derivative by the chord length is about a unit vector along the heading. Multiplied by the
-  // square of a knot distance, the weight of an end point also suits the derivative, which has no
+  // The spline's derivative with respect to chord length is about a unit vector along the heading.
+  // Multiply the weight of an end point by the squared knot distance, because the derivative has no
   // unit.
   const auto square = [](double length) { return length * length; };
   if (headings.begin) {
@@ -151,7 +152,7 @@ bool SmoothingSpline::Fit(double smoothing_length) {
   if (!solution.allFinite()) {
     return false;
   }
-  // One step of iterative refinement removes most of the rounding error of the solution.
+  // Make one step of iterative refinement, which removes most of the solution's rounding error.
   solution += solver_.solve(Eigen::MatrixX2d(right_ - matrix * solution));
   if (!solution.allFinite()) {
     return false;

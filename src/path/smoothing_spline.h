@@ -17,8 +17,8 @@ struct ChordPoints {
   std::vector<Vec2> points;
 };
 
-/// Prescribed headings at the ends of an open curve, in the direction of travel [rad]; nullopt: the
-/// heading of this end follows from the points.
+/// Prescribed headings at the ends of an open curve, in the direction of travel [rad]; nullopt if
+/// the points determine the heading of an end.
 struct EndHeadings {
   std::optional<double> begin{};
   std::optional<double> end{};
@@ -28,8 +28,8 @@ struct EndHeadings {
 /// its last point connects to its first point, and the chord length u repeats after `period`.
 class SmoothingSpline {
  public:
-  /// An open path needs at least two points, and a closed path needs at least three points. An open
-  /// path has the prescribed headings at its ends, nearly exactly.
+  /// An open path needs at least two points, and a closed path needs at least three points. The
+  /// spline of an open path has the prescribed headings at its ends, almost exactly.
   SmoothingSpline(const ChordPoints& fitted, double period, const EndHeadings& headings = {});
 
   /// Fits the spline with the smoothing length l [m]. If the system of equations is singular to
@@ -46,18 +46,17 @@ class SmoothingSpline {
   [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
 
   /// Returns the weight of each point: the length of the path that the point represents [m]. The
-  /// ends of an open path have a much larger weight, so the spline passes them.
+  /// ends of an open path have a much larger weight, so the spline passes through these ends.
   [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;
 
   struct Basis {
-    // Index of the first coefficient whose basis function is not zero at u. For a closed path,
-    // Coefficient() reduces the index modulo the number of coefficients.
+    // Index of the first spline coefficient whose basis function is not zero at u. For a closed
+    // path, Coefficient() reduces the index modulo the number of coefficients.
     Eigen::Index first;
-    Eigen::ArrayXXd factors;  // Values of the nonzero basis functions and their derivatives, one
-                              // row per order of derivative.
+    Eigen::ArrayXXd factors;  // Values of the nonzero basis functions; row k: their derivative k.
   };
   [[nodiscard]] Basis BasisAt(double u, int order) const;
   [[nodiscard]] Eigen::Index Coefficient(Eigen::Index i) const { return i % size_; }
@@ -83,9 +82,9 @@ struct SampledSpline {
   bool is_too_long = false;           ///< Whether sampling would need more points than allowed.
 };
 
-/// Samples the spline at most `spacing` [m] apart. Adjacent samples differ by at most 0.2 rad in
-/// heading. Returns no points if the spline has a cusp, or if the samples would exceed
-/// `max_points`.
+/// Samples the spline at most `spacing` [m] apart. Adjacent samples of the spline differ by at most
+/// 0.2 rad in heading. Sample returns no points if the spline has a cusp, or if it would need more
+/// than `max_points` samples.
 SampledSpline Sample(const SmoothingSpline& spline, double spacing, std::size_t max_points);
 
 }  // namespace trackbed

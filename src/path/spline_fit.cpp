@@ -17,12 +17,12 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path/bezier.h"
 
-// Fits a smooth path to points in two steps. First, a quintic smoothing spline over chord length
-// (Reinsch 1967): bisection finds the largest smoothing length at which the spline passes all
-// points within the tolerance. Second, Newton's method finds the curve of least variation with the
-// same smoothing length, starting at the spline. If Newton's method does not converge or the curve
-// leaves the tolerance, a shorter smoothing length is tried. The segments of the path describe the
-// curve without further approximation.
+// Fits a smooth path to points in two steps. First, a quintic smoothing spline over chord length is
+// fitted (Reinsch 1967). Bisection finds the largest smoothing length at which the spline passes
+// all points within the tolerance. Second, Newton's method finds the curve of least curvature
+// variation with the spline's smoothing length, starting at the spline. If Newton's method does not
+// converge, or the curve exceeds the tolerance, a shorter smoothing length is tried. The segments
+// of the path describe the curve without further approximation.
 
 namespace trackbed {
 namespace {
@@ -36,8 +36,8 @@ double Deviation(const SmoothingSpline& spline, const ChordPoints& points) {
   return deviation;
 }
 
-/// Fraction of the largest deviation that the spline may use. The segments, which approximate the
-/// spline, may use the rest of the deviation.
+/// Fraction of the largest deviation that the spline may use. The remaining 5 % are for the error
+/// of the path segments that approximate the spline.
 constexpr double kSplineShare = 0.95;
 
 /// Rounds a positive length up to three significant digits.
@@ -47,7 +47,8 @@ double RoundUp(double length) {
 }
 
 /// Fits the spline with the largest smoothing length that keeps the spline within kSplineShare of
-/// `max_deviation` [m] of all given and fitted points. Returns the smoothing length found.
+/// `max_deviation` [m] of all given and fitted points. FitWithin returns the smoothing length that
+/// it found.
 double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordPoints& fitted,
                  double max_deviation) {
   const std::vector<double>& knots = spline.knots();
@@ -96,8 +97,8 @@ double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordP
 }
 
 /// Returns the station of a point with chord length u. If the point is a knot of the fitted path,
-/// its station is that of the knot. Any other point has the station of the nearest path point
-/// between the adjacent knots.
+/// its station is that of the knot. A point that is no knot has the station of the nearest path
+/// point between the adjacent knots.
 double StationOf(const std::vector<double>& knot_stations, const std::vector<double>& knots,
                  const Path& path, double u, const Vec2& point) {
   const std::size_t i = LastBefore(knots, u);
@@ -108,19 +109,20 @@ double StationOf(const std::vector<double>& knot_stations, const std::vector<dou
   return path.Project({point.x(), point.y(), 0.0}, {knot_stations[i], to}).s;
 }
 
-/// A path that is fitted to knots.
+/// A path fitted to knots, with their stations.
 struct KnotPath {
   Path path;
   std::vector<double> stations;  // Station of each knot [m].
 };
 
-/// Returns the nodes of a curve along the spline: each knot, and nodes between the knots, at most
-/// an eighth of a radian apart. A node at a knot lies exactly on the point of the knot.
+/// Returns curve nodes along the spline: each knot, and nodes between the knots such that the
+/// spline turns by at most 1/8 rad between nodes. A node at a knot is exactly at the given point of
+/// this knot.
 std::vector<CurveNode> NodesAlong(const SmoothingSpline& spline, const ChordPoints& fitted,
                                   bool closed) {
   using Quadrature = boost::math::quadrature::gauss<double, 7>;
   constexpr double kNodeTurn = 0.125;  // Largest turn between nodes [rad].
-  constexpr int kMeasured = 8;         // Number of parts for measuring an interval's turn.
+  constexpr int kMeasured = 8;         // Number of parts in which an interval's turn is measured.
   const std::vector<double>& knots = spline.knots();
   const std::vector<double> weights = spline.weights();
   std::vector<CurveNode> nodes;
@@ -198,14 +200,14 @@ ChordPoints Relative(ChordPoints points, const Vec2& origin) {
   return points;
 }
 
-/// Points to which a spline is fitted, relative to the first knot, so that a large offset of the
-/// coordinates costs no digits.
+/// Points to which a spline is fitted, relative to the first knot, so that large coordinates cause
+/// no rounding errors.
 struct LocalPoints {
   ChordPoints knots;
   ChordPoints distinct;
   ChordPoints given;
   double period = 0.0;
-  EndHeadings headings;  // Prescribed headings at the ends.
+  EndHeadings headings;  // Prescribed headings at the ends of the spline.
   double max_curvature = kUnbounded;
 };
 
@@ -248,7 +250,8 @@ Bulge BulgeOf(const KnotPath& found, const LocalPoints& local, double tolerance)
   return FindBulge(curve, local.knots, local.period, tolerance);
 }
 
-/// Moves, turns and scales a path slightly, so that it begins and ends at the end points.
+/// Moves, turns and scales a path slightly, so that it begins and ends at the first and last of
+/// `points`.
 KnotPath BetweenEnds(KnotPath found, const std::vector<Vec2>& points) {
   const Pose2 begin = found.path.At(0.0).pose;
   const Vec2 own = found.path.At(found.path.length()).pose.position() - begin.position();
@@ -274,8 +277,8 @@ KnotPath BetweenEnds(KnotPath found, const std::vector<Vec2>& points) {
   return found;
 }
 
-/// Returns the largest length of a segment [m]: 0.1 m or, if this is longer, a millionth of the
-/// path.
+/// Returns the largest allowed length of a path segment [m]: 0.1 m or a millionth of the path,
+/// whichever is longer.
 double SpacingOf(const SmoothingSpline& spline) {
   constexpr double kUsualLength = 0.1;
   constexpr double kUsualSegments = 1e6;
@@ -329,9 +332,9 @@ KnotPath PathAlong(const SmoothingSpline& spline, const LocalPoints& local, doub
 /// `spline`.
 std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& local,
                                  double& smoothing_length, double tolerance) {
-  // FitCurve tries kLengths smoothing lengths; each is kShorter times the previous one. A curve
-  // starts from a spline whose smoothing length is the curve's smoothing length times an element of
-  // kStarts.
+  // FitCurve tries up to kLengths smoothing lengths, each kShorter times the previous length.
+  // Newton's method starts from a spline whose smoothing length is an element of kStarts times the
+  // curve's.
   constexpr int kLengths = 16;
   constexpr int kMaxFailures =
       2;  // Number of smoothing lengths without convergence after which the search ends.

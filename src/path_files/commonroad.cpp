@@ -20,8 +20,8 @@
 namespace trackbed {
 namespace {
 
-/// Returns the route of the scenario as a path, with the headings of a car that begins with the
-/// heading of the initial state.
+/// Returns the route of the scenario as a path. The headings are those of a car that starts with
+/// the heading of the initial state.
 PathFile RouteOfScenario(const CommonRoadScenario& scenario) {
   PathFile found;
   found.points.points = scenario.route;
@@ -41,7 +41,7 @@ PathFile RouteOfScenario(const CommonRoadScenario& scenario) {
 
 using tinyxml2::XMLElement;
 
-/// Largest magnitude of the number of a time step. Time steps with larger numbers are ignored.
+/// Largest accepted magnitude of a time step's number. Time steps with larger numbers are ignored.
 constexpr double kMaxTimeStep = 1e9;
 
 /// Returns the first XML element that contains a trajectory, such as the element ksTrajectory.
@@ -57,8 +57,9 @@ const XMLElement* FindTrajectory(const XMLElement& root, std::size_t& count) {
   return first;
 }
 
-/// Takes the directions of motion from the velocities, which are signed in CommonRoad. If no
-/// velocity is negative, the car drives forwards on the whole path, regardless of its orientations.
+/// Sets the directions of motion from the velocities, which are negative in reverse in CommonRoad.
+/// If no velocity is negative, the car drives forwards on the whole path, regardless of its
+/// orientations.
 void TakeVelocities(PathPoints& points) {
   TakeSignedSpeeds(points);
   if (points.direction.empty() && !points.yaw.empty() && !points.speed.empty()) {
@@ -82,8 +83,8 @@ void TakeTimeSteps(PathFile& found, std::vector<double> steps, const std::string
     length += (points.points[i + 1] - points.points[i]).norm();
     steps_times_speed += 0.5 * (points.speed[i] + points.speed[i + 1]) * (steps[i + 1] - steps[i]);
   }
-  // The duration of a time step is rounded to milliseconds, because the integration of the
-  // velocities is not exact.
+  // Round the duration of a time step to milliseconds, because the integral of the velocities is
+  // not exact.
   const double duration = std::round(1e3 * length / steps_times_speed) * 1e-3;
   if (!(steps_times_speed > 0.0) || !(duration > 0.0)) {
     return;
@@ -131,7 +132,8 @@ PathFile ReadCommonRoad(const std::filesystem::path& path, const std::string& te
                            std::abs(step) <= kMaxTimeStep) {
       steps.push_back(step);
     }
-    // A state of the point-mass model has velocities along both axes instead of an orientation.
+    // In CommonRoad's point-mass model, a state has velocities along both axes instead of an
+    // orientation.
     const auto vx = NumberOfChild(*state, "xVelocity", velocity);
     const auto vy = NumberOfChild(*state, "yVelocity", velocity);
     const auto speed = NumberOfChild(*state, "velocity", velocity);

@@ -11,14 +11,15 @@
 #include "trackbed/core/angle.h"
 
 // Reads obstacles and goal regions of CommonRoad scenarios.
-// 1. A shape becomes the smallest enclosing rectangle that has a side along an edge of the shape.
+// 1. The shape of an obstacle is replaced by the smallest enclosing rectangle with a side along an
+//    edge of the shape.
 // 2. A moving obstacle has the poses of its trajectory. Without a trajectory, a moving obstacle
 //    keeps its velocity.
 // 3. A state without an orientation gets the direction of motion as its heading.
-// 4. An occupancy set becomes moving boxes, each as large as the smallest place of the set. The
-//    moving boxes spread out as the possible places grow. Each place of the set applies in the
-//    middle of its time interval.
-// 5. The struct Approximations counts the changes of steps 1 to 4, for the notes to the user.
+// 4. An occupancy set (places that an obstacle may occupy) is replaced by moving boxes, each as
+//    large as the smallest place of the set. The moving boxes spread out as the possible places
+//    grow. A place of the occupancy set is assumed at the middle of its time interval.
+// 5. The struct Approximations counts the replacements of steps 1 to 4, for the notes to the user.
 namespace trackbed {
 namespace {
 
@@ -96,7 +97,7 @@ Shape ReadShape(const XMLElement& shape, const CommonRoadReading& reading) {
   return {box, std::abs(area) < 0.99 * box.length * box.width};
 }
 
-/// Reads all shapes in an element as one box.
+/// Reads all shapes of an obstacle and returns one box around them.
 Shape ReadShapes(const XMLElement& parent, const CommonRoadReading& reading) {
   const XMLElement* first = parent.FirstChildElement();
   if (first == nullptr) {
@@ -135,11 +136,11 @@ State ReadState(const XMLElement& element, const CommonRoadClock& clock,
   return state;
 }
 
-/// Numbers of approximations in a scenario.
+/// Numbers of approximated shapes, states and sets in a scenario.
 struct Approximations {
   int boxes = 0;
   int sets = 0;
-  int pieces = 0;  // boxes that cover the sets
+  int pieces = 0;  // boxes that cover the occupancy sets
   int skipped_states = 0;
   int without_place = 0;
 };
@@ -178,7 +179,7 @@ std::vector<State> ReadStates(const XMLElement& obstacle, const CommonRoadClock&
       add(ReadState(*state, clock, reading));
     }
   } else if (initial != nullptr && states.size() == 1) {
-    // Without a trajectory, the obstacle keeps its velocity.
+    // An obstacle without a trajectory keeps its initial velocity.
     const auto speed = IntervalOfChild(*initial, "velocity", reading);
     if (speed && speed->middle() != 0.0) {
       State later = states.front();
@@ -195,8 +196,8 @@ std::vector<State> ReadStates(const XMLElement& obstacle, const CommonRoadClock&
 /// A box that an obstacle may occupy at a time [s].
 using Occupancy = std::pair<double, OrientedBox>;
 
-/// Returns the same box, described by the yaw of that side which is nearest to `yaw`. If the yaw
-/// turns by a right angle, length and width are swapped.
+/// Returns the same box with the yaw of the side that is nearest to `yaw`. If the box's yaw changes
+/// by a right angle, its length and width are swapped.
 OrientedBox TurnedTo(double yaw, const OrientedBox& box) {
   const double turn = AngleDifference(yaw, box.center.yaw);
   const double quarters = std::round(turn / (0.5 * kPi));
@@ -208,8 +209,8 @@ OrientedBox TurnedTo(double yaw, const OrientedBox& box) {
   return turned;
 }
 
-/// Reads the boxes around the places that an obstacle may occupy, with increasing times: the place
-/// of the initial state, if the obstacle has one, and the places of the set.
+/// Reads the boxes around the places that an obstacle may occupy, in order of time. The first place
+/// is the initial state's, if any; the places of the occupancy set follow.
 std::vector<Occupancy> ReadOccupancies(const XMLElement& obstacle, const XMLElement& set,
                                        const CommonRoadClock& clock,
                                        const CommonRoadReading& reading) {
@@ -236,15 +237,16 @@ std::vector<Occupancy> ReadOccupancies(const XMLElement& obstacle, const XMLElem
   return found;
 }
 
-/// Returns the offset of a piece from the middle of a row of `count` pieces that cover a length.
+/// Returns the offset of the box `index` from the middle of a row of `count` boxes that cover
+/// `length`.
 double PieceOffset(int index, int count, double length, double piece) {
   return count < 2 || length <= piece ? 0.0 : (length - piece) * (index / (count - 1.0) - 0.5);
 }
 
-/// Covers a sequence of places of changing size by moving boxes of constant size. Each box is as
-/// large as the smallest place. At each time of the set, the boxes together cover exactly the
-/// place. If an exact cover needs more than kMost boxes along one side, kMost larger boxes cover
-/// more than the place.
+/// Covers a sequence of occupied places of changing size by moving boxes of constant size. Each box
+/// is as large as the smallest place. At each time of the occupancy set, the boxes together cover
+/// exactly the occupied place. If an exact cover needs more than kMost boxes along one side, kMost
+/// larger boxes cover more than the occupied place.
 std::vector<CommonRoadObstacle> CoverOccupancies(const std::vector<Occupancy>& occupancies) {
   struct Side {
     double smallest = std::numeric_limits<double>::infinity();
@@ -258,7 +260,8 @@ std::vector<CommonRoadObstacle> CoverOccupancies(const std::vector<Occupancy>& o
     }
     void Divide() {
       constexpr int kMost = 8;
-      // Tolerate 1e-3 m, because the sizes are rounded to four decimals.
+      // Tolerate an uncovered length of 1e-3 m, because the sizes of the places are rounded to four
+      // decimals.
       count = std::min(kMost, static_cast<int>(std::ceil((largest - 1e-3) / smallest)));
       piece = count < kMost ? std::min(smallest + 1e-3, largest) : largest / count;
     }
@@ -289,7 +292,7 @@ std::vector<CommonRoadObstacle> CoverOccupancies(const std::vector<Occupancy>& o
   return pieces;
 }
 
-/// Reads an obstacle; an obstacle that is given by a set of places becomes several boxes.
+/// Reads an obstacle. An obstacle with an occupancy set is returned as several boxes.
 std::vector<CommonRoadObstacle> ReadObstacle(const XMLElement& element, bool moves,
                                              const CommonRoadClock& clock,
                                              const CommonRoadReading& reading,

@@ -10,21 +10,22 @@
 
 namespace trackbed {
 
-/// The time steps of a scenario.
+/// The time steps of a CommonRoad scenario.
 struct CommonRoadClock {
   double timestep = 0.1;  ///< Duration of a step [s].
-  double start = 0.0;     ///< Step that is the time 0 of the run.
+  double start = 0.0;     ///< Number of the time step at which the run starts.
 };
 
-/// Returns the place in the child element `position` of a state, with the yaw 0. The place of a
-/// region is the region's center.
+/// Returns the position in the child element `position` of a CommonRoad state, with the yaw 0. The
+/// place of a region is the region's center.
 Pose2 ReadPlace(const tinyxml2::XMLElement& state, const CommonRoadReading& reading);
 
 /// Reads the element rectangle, circle or polygon as a region. Replaces a polygon by its enclosing
 /// rectangle, because the polygon may not be convex.
 CommonRoadRegion ReadRegion(const tinyxml2::XMLElement& shape, const CommonRoadReading& reading);
 
-/// Reads the static and dynamic obstacles of a scenario. Adds notes on approximations.
+/// Reads the static and dynamic obstacles of a scenario. ReadCommonRoadObstacles adds notes on
+/// approximated obstacles.
 std::vector<CommonRoadObstacle> ReadCommonRoadObstacles(const tinyxml2::XMLElement& root,
                                                         const CommonRoadClock& clock,
                                                         const CommonRoadReading& reading,

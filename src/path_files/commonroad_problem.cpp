@@ -22,7 +22,7 @@ std::pair<double, double> PairOf(const CommonRoadInterval& interval, double fact
 /// Reads the region of a goal; returns its lanelets separately.
 void ReadGoalPosition(const XMLElement& position, const Lanelets& lanelets,
                       const CommonRoadReading& reading, PlanningProblem& problem) {
-  // Number of convex pieces in which a lanelet is a goal.
+  // Number of convex pieces into which a goal lanelet is divided.
   constexpr std::size_t kPieces = 6;
   for (const XMLElement* child = position.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
@@ -45,7 +45,8 @@ void ReadGoalPosition(const XMLElement& position, const Lanelets& lanelets,
   }
 }
 
-/// Reads when the goal is to be reached. A goal with a position needs no time.
+/// Reads the time interval in which the car must reach the goal. For a goal with a position, the
+/// file may omit the time.
 void ReadGoalTime(const XMLElement& goal, double timestep, const CommonRoadReading& reading,
                   PlanningProblem& problem, std::vector<std::string>& notes) {
   constexpr double kMaxStep = 1e12;

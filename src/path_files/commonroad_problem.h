@@ -20,18 +20,18 @@ struct PlanningProblem {
   std::vector<std::string> goal_lanelets;  ///< Lanelets that the file names as goal.
 };
 
-/// Reads the first planning problem of a scenario. Notes say what is left out or missing. Throws
-/// InputError if there is no problem, or no goal.
+/// Reads the first planning problem of a scenario. Adds notes about parts of the problem that are
+/// left out or missing. Throws InputError if there is no problem, or no goal.
 PlanningProblem ReadPlanningProblem(const tinyxml2::XMLElement& root, const Lanelets& lanelets,
                                     double timestep, const CommonRoadReading& reading,
                                     std::vector<std::string>& notes);
 
-/// Returns the middle of a region.
+/// Returns the middle of a goal region.
 Vec2 MiddleOf(const CommonRoadRegion& region);
 
 /// Returns the lanelets in which the goal's regions lie: those that contain the middle of a region.
-/// If no lanelet contains a middle, returns the lanelets that a disc about a middle reaches. This
-/// disc is the largest one that fits in the region.
+/// If no lanelet contains the middle of a region, returns the lanelets that overlap the region's
+/// largest inscribed disc about its middle.
 std::vector<std::string> GoalLanelets(const PlanningProblem& problem, const Lanelets& lanelets);
 
 }  // namespace trackbed

@@ -137,7 +137,8 @@ void Cut(std::vector<Vec2>& path, double length) {
   path.resize(std::max<std::size_t>(3, std::min(path.size(), static_cast<std::size_t>(end) + 1)));
 }
 
-/// Finds the lanelets of the route. A goal without a place is ahead of the start.
+/// Finds the lanelets of the route. For a goal without a place, the route is the lanelet at the
+/// start.
 std::vector<LaneletLane> LanesOf(const PlanningProblem& problem, const Lanelets& lanelets,
                                  const CommonRoadReading& reading, int line) {
   const std::vector<std::string> starts = LaneletsAt(lanelets, problem.start);
@@ -187,7 +188,7 @@ Vec2 OriginOf(const XMLElement& root, const std::filesystem::path& file) {
 /// Leaves out an obstacle that moves and begins in the initial state: scenarios that are converted
 /// from other formats have the recorded car of the problem among their obstacles.
 void LeaveOutOwnCar(CommonRoadScenario& scenario) {
-  constexpr double kSame = 1e-3;  // Largest difference [m, rad]; files have four decimals.
+  constexpr double kSame = 1e-3;  // Pose tolerance [m, rad]; files have four decimals.
   const std::size_t left_out = std::erase_if(scenario.obstacles, [&](const auto& obstacle) {
     if (obstacle.poses.empty()) {
       return false;

@@ -46,7 +46,7 @@ struct CommonRoadInterval {
 
 /// Returns the child element `name`, which contains the element `exact`, the elements
 /// `intervalStart` and `intervalEnd`, or a number; nullopt if there is no such child. Throws
-/// InputError if a number is missing or the interval is empty.
+/// InputError if the child has no number or an empty interval.
 std::optional<CommonRoadInterval> IntervalOfChild(const tinyxml2::XMLElement& parent,
                                                   const char* name,
                                                   const CommonRoadReading& reading);

@@ -11,7 +11,7 @@ namespace trackbed {
 bool AreNumbered(const std::vector<std::string>& names);
 
 /// Returns the index of the first cell that names the color of a cone beside a track of Formula
-/// Student, such as big_orange. Returns the number of cells if no cell names a cone's color.
+/// Student, such as big_orange. If no cell names a cone's color, the result is the number of cells.
 std::size_t ConeCell(const std::vector<std::string>& row);
 
 /// Explains that a table lists cones instead of points of a path.

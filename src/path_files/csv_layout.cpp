@@ -105,7 +105,8 @@ class LayoutFinder {
       AddProblem(column, message);
     }
     if (found.latitude && found.longitude) {
-      // The limits are those of GlobeProblem, which explains positions that do not exist.
+      // GlobeProblem checks the limits of latitude and longitude, so the columns have no other
+      // limit.
       constexpr double kAny = 1e12;
       layout_.columns[kX] = PathColumn{*found.longitude, found.longitude_unit, 0.0, kAny};
       layout_.columns[kY] = PathColumn{*found.latitude, found.latitude_unit, 0.0, kAny};

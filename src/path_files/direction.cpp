@@ -85,7 +85,7 @@ void TakeSignedSpeeds(PathPoints& points) {
 }
 
 std::string HalfTurnProblem(const PathPoints& points) {
-  // Mean cosine of the angle between headings and steps up to which they are opposite.
+  // Headings count as opposite up to this mean cosine of the angle between headings and steps.
   constexpr double kOpposite = -0.8;
   double length = 0.0;
   double progress = 0.0;

@@ -21,7 +21,7 @@ enum class DirectionColumn {
 std::optional<int> DirectionIn(const std::string& cell, DirectionColumn column);
 
 /// Converts speeds that are negative in reverse to directions of motion and speeds of at least 0.
-/// Keeps given directions other than 0.
+/// Keeps directions of motion that are already given and not 0.
 void TakeSignedSpeeds(PathPoints& points);
 
 /// Returns the problem, with its remedy, if the headings of points without directions of motion are

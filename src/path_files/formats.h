@@ -44,7 +44,8 @@ PathFile ReadGeoJson(const std::filesystem::path& file, const nlohmann::json& js
 PathFile ReadPathBag(const std::filesystem::path& file, const PathMap& map);
 /// Reads GPX or KML.
 GlobeFile ReadGlobeXml(const std::filesystem::path& file, const std::string& text);
-/// Refuses a file without a line; names its single points, if any, and how to make a line of them.
+/// Refuses a file of positions that contains no line. The message names the file's single points,
+/// if any, and explains how to make a line of them.
 [[noreturn]] void RefuseNoLine(const std::filesystem::path& file, const GlobeFile& found);
 GlobeFile ReadGeoJsonLines(const std::filesystem::path& file, const nlohmann::json& root);
 

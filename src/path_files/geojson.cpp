@@ -94,7 +94,7 @@ void FindLines(const json& value, const std::string& key, const json* times,
 }
 
 /// Returns the name of the coordinate reference system, which GeoJSON 2008 specifies in the member
-/// `crs`. Returns none if the member `crs` is absent.
+/// `crs`. Returns nullopt if the file has no member `crs` with a name.
 std::optional<std::string> NamedSystem(const json& root) {
   if (root.contains("crs") && root["crs"].is_object() && root["crs"].contains("properties") &&
       root["crs"]["properties"].is_object() && root["crs"]["properties"].contains("name") &&

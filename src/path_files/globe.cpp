@@ -10,8 +10,8 @@
 #include "trackbed/core/error.h"
 
 // Projects latitude and longitude to meters with PROJ. The projection is a transverse Mercator
-// projection about the origin of the path. The scale error of this projection on a road of some
-// kilometers is far below the accuracy of a receiver; a UTM zone would make every length 0.04 % too
+// projection about the origin of the path. On a road of some kilometers, the projection's scale
+// error is far below the accuracy of a GNSS receiver. A UTM zone would make every length 0.04 % too
 // short.
 namespace trackbed {
 namespace {
@@ -19,8 +19,8 @@ namespace {
 using Context = std::unique_ptr<PJ_CONTEXT, PJ_CONTEXT* (*)(PJ_CONTEXT*)>;
 using Transformation = std::unique_ptr<PJ, PJ* (*)(PJ*)>;
 
-/// Largest distance of a point east or west of the origin [m]. At this distance, the scale error of
-/// the projection is about 1/1000.
+/// Largest distance of a point east or west of the origin [m]. At 300 km from the origin, the scale
+/// error of the projection is about 1/1000.
 constexpr double kMaxEasting = 3e5;
 constexpr double kMaxNorthing = 5e6;  // largest distance north or south of the origin [m]
 

@@ -48,7 +48,8 @@ bool IsLengthUnit(std::string_view word) {
   return IsAny(word, {"m", "meter", "meters", "metre", "metres", "cm", "mm", "km"});
 }
 
-/// Returns whether a word says where a position comes from, and nothing about its meaning.
+/// Returns whether a word of a column's name says only where a position comes from, such as "gps"
+/// or "raw".
 bool IsSourceWord(std::string_view word) {
   return IsAny(word, {"gps",   "gnss",     "ins",      "rtk",        "pos",        "position",
                       "loc",   "location", "nav",      "fix",        "navsatfix",  "wgs",
@@ -60,8 +61,8 @@ bool IsSourceWord(std::string_view word) {
 }
 
 /// Splits a name into words in lower case at characters that are neither letters nor digits, and
-/// before a capital letter that follows a small letter. Also splits the name before the last of
-/// several capitals that is followed by a small letter.
+/// before a capital letter that follows a small letter. In a run of capitals before a small letter,
+/// the name is split before the last capital ("GPSLat" becomes gps, lat).
 Words WordsOf(std::string_view name) {
   Words words(1);
   const auto at = [&](std::size_t i) {

@@ -12,9 +12,9 @@
 #include "trackbed/core/file.h"
 
 // Makes a path of one line of a GPX, KML or GeoJSON file. Segments of one track are joined if the
-// gap between them is not longer than the longest step within them. Such a short gap looks like
-// every other step of the track. All other segments and lines are separate paths, and the user
-// selects one of these paths.
+// gap between them is not longer than the longest step within them. A gap of at most the longest
+// step looks like any other step of the track. All other segments and lines are separate paths, and
+// the user selects one of these paths.
 namespace trackbed {
 namespace {
 

@@ -25,7 +25,7 @@ struct HeadingMeaning {
   double unit;
   double sign;
   double offset;
-  const char* remedy;  ///< Change that the user should make; empty for meanings that are read.
+  const char* remedy;  ///< Change that the user should make; empty for accepted meanings.
 };
 
 constexpr double kDegree = kPi / 180.0;
@@ -80,9 +80,10 @@ double MeanDifference(const std::vector<Heading>& headings, const HeadingMeaning
   return sum / weight;
 }
 
-/// Returns whether `other`, the mean difference of another meaning, is much smaller than `least`,
-/// the mean difference of the accepted meanings. If another meaning fits so much better, the
-/// headings fit the accepted meaning only by accident, because the path hardly turns.
+/// Compares the mean errors of two interpretations of the headings. Returns whether `other`, the
+/// error of a rejected interpretation, is much smaller than `least`, the error of the accepted one.
+/// If a rejected interpretation fits much better, the headings fit the accepted one only by
+/// accident, because the path hardly turns.
 bool IsMuchBetter(double other, double least) {
   constexpr double kExact = 0.05;  // Mean difference up to which an accepted meaning is certain.
   return least > kExact && other < 0.25 * least;

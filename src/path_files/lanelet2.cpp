@@ -78,7 +78,7 @@ std::vector<Vec2> Graded(const std::vector<Vec2>& points) {
     const double length = step(i);
     const double before = i > 0 ? step(i - 1) : length;
     const double after = i + 2 < points.size() ? step(i + 1) : length;
-    // Distances of the points from the start of the step [m].
+    // Distances of the added points from the start of the step [m].
     std::vector<double> places{0.0};
     for (double next = 2.0 * before; places.back() + next < 0.5 * length; next *= 2.0) {
       places.push_back(places.back() + next);
@@ -101,7 +101,7 @@ std::vector<Vec2> Graded(const std::vector<Vec2>& points) {
 /// lanes, points 1 m apart.
 std::vector<Vec2> PointsOf(const Lanelet2Map& map, const Lanelet2Route& route) {
   constexpr double kChangeSpeed = 14.0;  // Speed [m/s] at which a lane change of 3.5 m takes 51 m.
-  constexpr double kApart = 1e-3;        // Smallest distance of two points [m].
+  constexpr double kApart = 1e-3;        // Smallest distance of two path points [m].
   constexpr double kShortest = 0.3;      // Shortest last step of a route that changes lanes [m].
   const LaneletLane& last = route.lanes.back();
   std::vector<Vec2> points;

@@ -66,8 +66,8 @@ class Lanelet2Map {
   }
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
-  /// Returns the keys of a lanelet's directions. Throws InputError if `id` is no lanelet for cars;
-  /// the message says why.
+  /// Returns a lanelet's permitted directions of travel, each as a key of lanelets(). Throws
+  /// InputError if `id` is no lanelet for cars; the message says why.
   [[nodiscard]] std::vector<std::string> DirectionsOf(const std::string& id) const;
 
   /// Lists some ids of lanelets, for messages.

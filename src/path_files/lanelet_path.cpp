@@ -10,8 +10,9 @@
 // left normal n(s) plus a lateral offset: p = c(s) + d(s - s_0) n(s). At s_0, the offset and its
 // slope are those of the start pose or, after a lane change, of the path in the lane before. Over
 // the length L, the offset falls to 0 along the quintic polynomial whose second derivative is 0 at
-// both ends. For an offset d_0, the largest second derivative is 10/sqrt(3) d_0/L^2, so the lateral
-// acceleration is at most a if L >= v sqrt(5.77 d_0/a).
+// both ends. For an offset d_0 that vanishes over the length L, the largest second derivative is
+// 10/sqrt(3) d_0/L^2. At the speed v, the lateral acceleration is at most a if L >= v sqrt(5.77
+// d_0/a).
 namespace trackbed {
 namespace {
 

@@ -102,7 +102,7 @@ bool Lanelet::Contains(const Vec2& point) const {
   }
   std::vector<Vec2> ring = left;
   ring.insert(ring.end(), right.rbegin(), right.rend());
-  // Counts the edges to the left of the point that cross its height.
+  // Counts the polygon edges to the right of the point that cross the line y = point.y().
   bool inside = false;
   for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
     const Vec2& a = ring[i];
@@ -218,7 +218,7 @@ PolylinePlace PlaceOn(const std::vector<Vec2>& line, const Vec2& point) {
 }
 
 std::vector<std::string> LaneletsAt(const Lanelets& lanelets, const Pose2& pose) {
-  constexpr double kMaxDistance = 5.0;  // Largest distance of the nearest lanelet [m].
+  constexpr double kMaxDistance = 5.0;  // Largest distance from a pose to the nearest lanelet [m].
   // Lanelets whose direction differs by more than kMaxTurn from the pose's heading are for oncoming
   // or crossing traffic.
   constexpr double kMaxTurn = 0.5 * kPi;  // [rad]

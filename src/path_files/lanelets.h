@@ -22,9 +22,9 @@ struct Lanelet {
   std::vector<Vec2> center;  ///< Center line, with as many points as `left` [m].
   std::vector<std::string> successors;
   std::vector<std::string> neighbors;  ///< Adjacent lanelets with the same driving direction.
-  int line = 0;                        ///< Line of the lanelet in the file.
-  Vec2 low{0.0, 0.0};                  ///< Smallest coordinates of both bounds [m].
-  Vec2 high{0.0, 0.0};                 ///< Largest coordinates of both bounds [m].
+  int line = 0;                        ///< Line number of the lanelet in the file.
+  Vec2 low{0.0, 0.0};                  ///< Smallest x and y of the lanelet's bounds [m].
+  Vec2 high{0.0, 0.0};                 ///< Largest x and y of the lanelet's bounds [m].
 
   [[nodiscard]] double Length() const;
   /// Whether the lanelet contains the point.
@@ -52,8 +52,8 @@ using LaneletLane = std::vector<const Lanelet*>;
 
 /// The place at which a car meets a polyline.
 struct PolylinePlace {
-  double station = 0.0;   ///< Station of the nearest point [m].
-  double distance = 0.0;  ///< Distance from the nearest point [m].
+  double station = 0.0;   ///< Station of the polyline's nearest point [m].
+  double distance = 0.0;  ///< Distance of the car from the nearest point of the polyline [m].
   double offset = 0.0;    ///< Signed `distance`, positive to the left of the polyline [m].
   double yaw = 0.0;       ///< Direction of the polyline at the nearest point [rad].
 };

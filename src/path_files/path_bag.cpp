@@ -87,8 +87,8 @@ class BagPoseColumns {
   std::optional<std::array<std::size_t, 2>> position_;
   std::optional<std::array<std::size_t, 4>> orientation_;
   std::optional<std::array<std::size_t, 2>> stamp_;  // Seconds and nanoseconds.
-  std::optional<double> first_second_;               // Seconds of the first stamp [s].
-  std::vector<double> stamps_;                       // Stamps since first_second_ [s].
+  std::optional<double> first_second_;               // Whole seconds of the first time stamp [s].
+  std::vector<double> stamps_;                       // Time stamps relative to first_second_ [s].
   bool has_heading_ = false;
 };
 

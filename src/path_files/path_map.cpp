@@ -216,7 +216,7 @@ const std::vector<PathColumnName>& PathColumnNames(std::string_view quantity) {
         {"yaw", "rad"},
         {"heading_rad", "rad"},
         {"heading", "rad"},
-        // In a file with psi, theta is the pitch angle.
+        // In a file with a column psi, the column theta is the pitch angle.
         {"psi_rad", "rad"},
         {"psi", "rad"},
         {"theta_rad", "rad"},

@@ -51,7 +51,7 @@ std::vector<std::string> Words(std::string_view name) {
   return words;
 }
 
-/// A name without the words for a pose at its beginning and its end.
+/// A column name, split into its words for a pose (at both ends) and the remaining words.
 struct ReducedName {
   std::string pose;  // The words for a pose.
   std::string rest;  // The other words.
@@ -75,8 +75,8 @@ std::vector<std::string> OtherNames(std::string_view quantity) {
                            : std::vector<std::string>{};
 }
 
-/// Returns the columns of a quantity; the key of a column is the words for a pose around the usual
-/// name. A header may repeat a name; the reader refuses this.
+/// Returns the columns of a quantity. The map's key is the pose words that surround the quantity's
+/// usual name in the column's name. A header may repeat a name; the reader refuses this.
 std::map<std::string, UsualColumn> ColumnsByPose(const std::vector<std::string>& names,
                                                  std::string_view quantity) {
   std::map<std::string, UsualColumn> columns;

@@ -22,8 +22,8 @@
 // Makes a terrain from a track with bank and grade. Each node of the terrain has a place (s, d) on
 // each nearby part of the track: the station s and the lateral offset d. The samples of the center
 // line within reach are split into runs of consecutive samples, and Newton's method refines the
-// nearest sample of each run. The places do not depend on the bank, so they are computed once for
-// many banks.
+// nearest sample of each run. As these places do not depend on the bank angle, they are computed
+// once for many bank angles.
 
 namespace trackbed {
 namespace {
@@ -37,10 +37,11 @@ constexpr double kSlopeToBorder = 72.0;
 // Height by which the level border lies below the lowest point of the road [m].
 constexpr double kBorderDepth = 1.0;
 constexpr double kMaxSide = 4000.0;  // Largest side length of the terrain [m].
-// Column of a file that says whether its line is closed.
+// Column that states whether the center line in a file is closed.
 constexpr const char* kClosedColumn = "closed";
 
-/// Falls from 1 at u = 0 to 0 at u = 1, with zero first and second derivative at both ends.
+/// Smooth step function that falls from 1 at u = 0 to 0 at u = 1, with zero first and second
+/// derivative at both ends.
 double Fade(double u) {
   const double v = 1.0 - std::clamp(u, 0.0, 1.0);
   return v * v * v * (10.0 - v * (15.0 - 6.0 * v));
@@ -203,8 +204,8 @@ std::vector<std::size_t> BankedGround::NearestOfRuns(const Vec2& point,
 }
 
 std::vector<double> BankedGround::Coarse(const std::vector<double>& heights, double base) const {
-  // Computes the mean height of the points, weighted by proximity. The border has the height
-  // `base`.
+  // Computes the mean height of the points, weighted by proximity. The border of the terrain has
+  // the height `base`.
   constexpr std::size_t kMaxPoints = 500;
   const std::vector<TrackPoint>& points = line_->points();
   const std::size_t stride = 1 + points.size() / kMaxPoints;
@@ -270,7 +271,7 @@ bool IsClosedLine(const std::vector<TrackPoint>& points) {
     return false;
   }
   constexpr double kLargestGap =
-      2.0;  // largest gap, divided by the largest distance between neighbors
+      2.0;  // largest gap, as a multiple of the largest distance between neighboring points
   constexpr double kSameDirection = kPi / 6.0;
   const auto chord = [&](std::size_t i) -> Vec2 {
     return points[(i + 1) % points.size()].position - points[i].position;

@@ -87,9 +87,9 @@ class Clocks {
     }
   }
 
-  /// Compares a signal with the same quantity of the pose. Returns the signal without its delay. If
-  /// the log does not have the signal, or if the signal does not fit, returns the quantity of the
-  /// pose.
+  /// Compares a signal with the same quantity computed from the pose. Returns the signal without
+  /// its delay. If the log does not have the signal, or if the signal does not fit, returns the
+  /// quantity computed from the pose.
   Values CompareMotion(LogSignal signal, const Values& reference) {
     if (!rows_.has[signal]) {
       return reference;
@@ -167,7 +167,8 @@ double DelayInMap(const LogMap& map, LogSignal signal) {
 }
 
 /// Returns the delay [s] that no car can cause: any delay of a motion signal behind the pose, or a
-/// delay of the steering behind the yaw rate. Returns nullopt for a delay that a car can cause.
+/// delay of the steering behind the yaw rate. Returns nullopt if the delay is one that a car can
+/// cause.
 std::optional<double> Contradiction(const SignalClock& clock) {
   const double delay = clock.found.delay;
   if (!IsSteering(clock.signal)) {

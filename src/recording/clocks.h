@@ -31,8 +31,8 @@ struct SignalClock {
 /// rate. For the accelerometer, measured speeds and yaw rates are first shifted by their delays.
 ///
 /// For `steering` and `steering_command`, the yaw rate is compared with the speed times the tangent
-/// of the steering angle. The delay of a steering signal is that of the yaw rate behind the
-/// steering, and negative if the steering is logged late.
+/// of the steering angle. The delay of a steering signal is the time by which the yaw rate follows
+/// the steering. A negative delay means that the steering is logged late.
 ///
 /// The samples of `drive` contain the motion that was computed from the pose; `start` is the time
 /// of the first sample since the first row of the log [s].
@@ -43,8 +43,9 @@ std::vector<SignalClock> MeasureClocks(const LogRows& rows, const LogMap& map,
 /// true, also shifts the times of these signals in `rows` onto the clock of the pose.
 ///
 /// Steering angles and commands are shifted only if the yaw rate precedes them, which is impossible
-/// for a car. The shift is the time by which the yaw rate precedes the steering. A yaw rate that
-/// follows the steering is the response of the car, or a delay, or both; a note states its delay.
+/// for a car. Steering signals are shifted by the time by which the yaw rate precedes the steering.
+/// If the yaw rate follows the steering, the cause is the response of the car, or a delay, or both;
+/// a note states the time between them.
 std::vector<std::string> CompareClocks(LogRows& rows, const LogMap& map, const RecordedDrive& drive,
                                        double start);
 

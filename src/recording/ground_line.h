@@ -15,10 +15,10 @@ namespace trackbed {
 /// A smoothing spline through samples of an open curve.
 ///
 /// The open spline is computed as a closed spline (closed_spline.h). The straight line from the
-/// first to the last sample is subtracted from the samples. The difference is continued as an odd
-/// function beyond both ends, which makes the difference periodic. The curve therefore passes
-/// through its first and last sample, and its second derivative is zero there. Beyond its ends, the
-/// curve continues straight.
+/// first to the last sample is subtracted from the samples. The remainder is continued as an odd
+/// function beyond both ends, which makes it periodic. Due to the odd continuation, the curve
+/// passes through its first and last sample with zero second derivative. Beyond its ends, the curve
+/// continues straight.
 class OpenSpline {
  public:
   /// `t` contains the parameters of the samples in increasing order, beginning with 0. Each row of

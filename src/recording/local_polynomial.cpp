@@ -37,7 +37,8 @@ LocalFit LocalPolynomial::At(double at, const LogStretch& stretch) const {
   const std::ptrdiff_t needed = std::min<std::ptrdiff_t>(degree_ + 1, end - begin);
   double width = half_width_;
   // Rows so close to the edge of the window that they have nearly no weight do not determine the
-  // polynomial. The weight of these rows is below 1e-6 of the weight of a row in the middle.
+  // polynomial. Rows outside the fraction kEdge of the window have a weight below 1e-6 of the
+  // weight in the middle.
   constexpr double kEdge = 0.9966;
   const auto inner_first = std::upper_bound(first, last, at - kEdge * half_width_);
   const auto inner_last = std::lower_bound(inner_first, last, at + kEdge * half_width_);

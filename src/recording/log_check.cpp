@@ -19,8 +19,8 @@
 // size of an error is measured by the upper quartile, because the upper quartile is robust against
 // outliers. Noise of the positions makes the derivatives over short times useless: at 100 rows per
 // second, position errors of millimeters become yaw rate errors of radians per second. A
-// contradiction between rates must therefore exist for polynomials of all widths, from the width
-// that the map specifies to 0.8 s.
+// contradiction between rates is reported only if polynomials of all window widths show it. The
+// widths range from the width in the map to 0.8 s.
 namespace trackbed {
 namespace {
 
@@ -83,9 +83,10 @@ std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale
   return all;
 }
 
-/// Returns how badly the logged yaw fits the direction of motion. The misfit is the upper quartile
-/// of the difference of both rates of change, divided by the upper quartile of the direction's rate
-/// of change. Returns none if the vehicle hardly turns.
+/// Returns how badly the logged yaw fits the direction of motion. The misfit compares the yaw rate
+/// with the rate of change of the direction of motion. The upper quartile of their difference is
+/// divided by the upper quartile of the direction's rate. Returns nullopt if the vehicle hardly
+/// turns.
 std::optional<double> Misfit(const std::vector<Moment>& moments) {
   std::vector<double> apart;
   std::vector<double> course;
@@ -110,13 +111,13 @@ std::vector<double> HalfWidths(const LogMap& map) {
   return widths;
 }
 
-/// Returns the smallest misfit over all widths; none if the vehicle hardly turns. Skips the
+/// Returns the smallest misfit over all widths; nullopt if the vehicle hardly turns. Skips the
 /// remaining widths of the polynomials after a misfit below `enough`. If only noise turns the
 /// course, the misfit of narrow polynomials is near 1, because the course turns much more than the
 /// yaw.
 std::optional<double> LeastMisfit(const LogRows& rows, const LogMap& map, double scale,
                                   double enough) {
-  constexpr double kLikeNoise = 0.3;  // Misfits that differ from 1 by less may be noise.
+  constexpr double kLikeNoise = 0.3;  // Misfits that are closer to 1 may be noise.
   std::optional<double> least;
   for (const double width : HalfWidths(map)) {
     const std::optional<double> misfit = Misfit(Moments(rows, map, scale, width));

@@ -16,7 +16,7 @@ namespace trackbed {
 ///
 /// The check compares upper quartiles and least-squares fits over the moving part of the drive.
 /// Because the check uses upper quartiles and fits, outliers in single rows have little effect.
-/// Drives in which the vehicle hardly turns or moves are not judged.
+/// The check does not judge drives in which the vehicle hardly turns or moves.
 std::vector<std::pair<std::string, std::string>> FindContradictions(const LogRows& rows,
                                                                     const LogMap& map);
 

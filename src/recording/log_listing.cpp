@@ -95,14 +95,14 @@ LogListing ListGlobe(const fs::path& log) {
   return listing;
 }
 
-/// A column of the log, with the unit that its name states, as maps write it.
+/// A column of the log, with the unit that the column's name states, in the spelling of log maps.
 struct FoundColumn {
   std::string name;
   std::string unit;
 };
 
-/// Returns the unit among `units` that `spelling` means, as maps write the unit; "" if `spelling`
-/// means none of `units`.
+/// Returns the unit among `units` that `spelling` means, in the spelling of log maps; "" if
+/// `spelling` means none of `units`.
 std::string UnitIn(const std::string& spelling, const Names& units) {
   static const std::vector<std::pair<const char*, const char*>> kSpellings{
       {"mps", "m/s"},     {"ms", "ms"},       {"ms", "m/s"},      {"kmh", "km/h"},
@@ -153,8 +153,8 @@ std::optional<FoundColumn> AnyOf(const std::vector<std::string>& names, const Na
   return std::nullopt;
 }
 
-/// Sets `column` to the found column, if any. The unit is the one that the column's name states;
-/// without one, the default unit is kept.
+/// Sets `column` to the found column, if any. If the column's name states a unit, this unit
+/// replaces the default unit.
 template <typename Column>
 void Take(const std::optional<FoundColumn>& found, std::optional<Column>& column) {
   if (found) {

@@ -8,7 +8,7 @@
 namespace trackbed::fmu {
 
 std::filesystem::path PathOfUri(const std::string& uri) {
-  // RFC 8089 has three forms: file:/path, file:///path and file://localhost/path.
+  // RFC 8089 permits three forms of file URIs: file:/path, file:///path and file://localhost/path.
   std::string rest;
   for (const char* start : {"file://localhost/", "file:///", "file:/"}) {
     if (uri.starts_with(start)) {

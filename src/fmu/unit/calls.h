@@ -14,8 +14,8 @@
 /// Functions that the C functions of FMI 2 and FMI 3 share.
 namespace trackbed::fmu {
 
-/// Calls `call`; if it throws, passes the message to `fail` and returns false. No exception leaves
-/// this function, because the caller is C code.
+/// Calls the function `call`. If `call` throws, Guarded passes the message to `fail` and returns
+/// false. No exception may leave Guarded, because its caller is C code.
 template <typename Call, typename Fail>
 bool Guarded(const Call& call, const Fail& fail) noexcept {
   try {
@@ -37,7 +37,7 @@ bool Guarded(const Call& call, const Fail& fail) noexcept {
   return false;
 }
 
-/// Throws InputError if the pointer is null.
+/// Throws InputError if a pointer argument of a C function is null.
 template <typename Value>
 void RequireGiven(const Value* pointer, const char* name) {
   if (pointer == nullptr) {
@@ -87,7 +87,8 @@ void GetAll(Unit& unit, Type type, const std::uint32_t* references, std::size_t 
 /// another scheme.
 std::filesystem::path PathOfUri(const std::string& uri);
 
-/// Copies a serialized state. Throws InputError if `size`, the room at `target`, is too small.
+/// Copies a serialized state. Throws InputError if the buffer `target` of `size` bytes is too
+/// small.
 void CopyTo(const std::string& bytes, void* target, std::size_t size);
 
 }  // namespace trackbed::fmu

@@ -117,8 +117,8 @@ fmi2Status fmi2DoStep(fmi2Component component, fmi2Real time, fmi2Real step, fmi
   bool ended = false;
   const fmi2Status status =
       Shared::With(component, [&](Instance& own) { ended = own.unit->Step(time, step).ended; });
-  // FMI 2: a slave that ends the simulation discards the rest of the step, and
-  // fmi2GetBooleanStatus says that it has terminated.
+  // Return fmi2Discard if the run has ended: a slave that ends the simulation discards the rest of
+  // the step. The function fmi2GetBooleanStatus then reports the termination.
   return status == fmi2OK && ended ? fmi2Discard : status;
 }
 

@@ -4,12 +4,12 @@
 #include "src/fmu/unit/functions.h"
 
 // The C functions of FMI 3.0 for co-simulation.
-// 1. Each function checks its arguments, and calls a function of Functions<Instance>, which FMI 2
-//    shares.
+// 1. Each C function checks its arguments, and calls a function of the class Functions<Instance>,
+//    which the FMI 2 interface also uses.
 // 2. Functions<Instance> converts exceptions to messages of the host's log and to the status
 //    "error".
-// 3. Functions of other kinds of simulation, and of types that no variable has, fail with a
-//    message, because FMI 3 requires that they exist.
+// 3. FMI 3 also requires functions for other kinds of simulation and for unused variable types,
+//    which fail with a message.
 namespace {
 
 using trackbed::InputError;

@@ -20,14 +20,14 @@ struct InstanceBase {
   bool logging = false;
 };
 
-/// The bodies of the C functions that FMI 2 and FMI 3 share. If one of the shared functions fails,
-/// it passes a message to the host and returns kError. A null instance is an error without a
-/// message.
+/// The bodies of the C functions that FMI 2 and FMI 3 share. A shared function that fails passes a
+/// message to the host and returns kError. For a null instance, the shared functions return kError
+/// without a message.
 template <typename Own>
 struct Functions {
   using Status = typename Own::Status;
 
-  /// Calls `call` with the instance, and converts an exception to the status kError.
+  /// Calls the function `call` with the instance, and converts an exception to the status kError.
   template <typename Call>
   static Status With(void* instance, const Call& call) noexcept {
     auto* const own = static_cast<Own*>(instance);
@@ -70,7 +70,7 @@ struct Functions {
     return With(instance, [](Own& own) { own.unit->Terminate(); });
   }
 
-  /// Saves the state in `state`, which may hold an earlier state.
+  /// Saves the state of the FMU in `state`, which may contain an earlier saved state.
   static Status Save(void* instance, void** state) noexcept {
     return With(instance, [&](Own& own) {
       RequireGiven(state, Own::kStateName);

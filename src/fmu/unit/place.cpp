@@ -4,7 +4,8 @@ namespace trackbed {
 
 const char* PlaceOfData();
 
-/// Throws InputError: an FMU carries its scenario and its car, and needs no folder of models.
+/// Throws InputError, because an FMU contains its scenario and its car, and has no folder of
+/// models.
 const char* PlaceOfData() {
   throw InputError(
       Problem{.message = "an FMU has no models but its own; export the FMU again with the other "

@@ -10,12 +10,13 @@
 #include "trackbed/core/hash.h"
 
 // A serialized state contains the parameters and the commands of all control periods, and is
-// restored by simulating these commands again. A plant, a planner and a controller cannot be
-// serialized, but a simulation is reproducible bit for bit. A hash of the last row of the log shows
-// whether the repeated simulation had the same result.
+// restored by repeating the simulation with these commands. Plants, planners and controllers cannot
+// be serialized, but a repeated simulation has the same result bit for bit. A hash of the last row
+// of the log shows whether the repeated simulation had the same result.
 //
-// A serialized state consists of kMark, the token, numbers and counts of 8 bytes in the machine's
-// byte order, the hash of the row, and a hash of all preceding bytes.
+// A serialized state consists of the following parts: the text kMark, the FMU's token, numbers and
+// counts of 8 bytes in the machine's byte order, the hash of the last log row, and a hash of all
+// preceding bytes.
 namespace trackbed::fmu {
 namespace {
 
@@ -40,7 +41,7 @@ void Append(const Commands& commands, std::string& bytes) {
          bytes);
 }
 
-/// Reads the bytes of a state from its beginning.
+/// Reads the bytes of a serialized state from front to back.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : left_(bytes) {}
@@ -61,8 +62,8 @@ class Reader {
     return number;
   }
 
-  /// Reads the number of elements of `size` bytes each. Throws InputError if the remaining bytes
-  /// are too few for these elements.
+  /// Reads the number of the following elements, each of which has `size` bytes. Throws InputError
+  /// if the serialized state is too short for that number of elements.
   std::size_t Count(std::size_t size) {
     const auto count = Read<std::uint64_t>();
     if (count > left_.size() / size) {

@@ -13,14 +13,14 @@
 #include "trackbed/core/text_table.h"
 
 // The behavior of an FMU, independent of the version of FMI.
-// 1. The resources of the FMU contain the scenario and all files that it names.
+// 1. The resources of the FMU contain the scenario and all files that the scenario names.
 // 2. Parameters of the FMU override numbers of the scenario. When the host exits the initialization
 //    mode, the FMU plans the mission and makes the loop. The exit from the initialization mode
 //    fails if planning fails.
 // 3. Step advances the loop by a whole number of control periods. Step counts the control periods,
-//    so that rounding errors of the host's times do not add up.
-// 4. Get returns values of the present row of the log, or of the commands.
-// 5. A state of the FMU is a copy of the loop, so a host can return to an earlier state.
+//    so that rounding errors of the host's times do not accumulate.
+// 4. Get returns values from the present log row, or from the present commands.
+// 5. A saved state of the FMU is a copy of the control loop, to which the host can return.
 namespace trackbed::fmu {
 
 namespace fs = std::filesystem;
@@ -64,8 +64,8 @@ Commands StartCommands(const std::map<std::uint32_t, double>& parameters) {
           .plan_sets_speed = parameters.contains(kPlanSetsSpeed)};
 }
 
-/// Reads the scenario with the values of parameters. Error messages about a parameter name the key
-/// of the parameter, but no file, line or command line option.
+/// Reads the scenario, with the FMU's parameter values as overrides. Error messages about a
+/// parameter name the key of the parameter, but no file, line or command line option.
 Scenario ReadWithParameters(const fs::path& file, const std::vector<Override>& overrides) {
   try {
     return ReadScenario(file, overrides);
@@ -111,7 +111,8 @@ void StepOnce(SteppedLoop& loop, const Commands& commands) {
 }
 
 Table PresentRow(const SteppedLoop& loop) {
-  // The log ends with the last control period; the present row is not part of the log yet.
+  // Use the loop's present row, because the log ends with the last control period and does not
+  // contain the present row yet.
   RunLog log = loop.log();
   log.rows = {loop.row()};
   return ToTable(log);
@@ -202,10 +203,10 @@ StepEnd Unit::Step(double time, double step) {
                     "an earlier state",
                     Time(), ToString(*status)));
   }
-  // Communication points and step sizes of callers carry rounding errors, which grow with the
-  // number of steps. The loop counts periods, so that rounding errors do not reach the simulation.
-  // The checks of the time and the step size accept rounding errors that are too small to change
-  // the number of periods.
+  // The host's communication points and step sizes contain rounding errors, which grow with the
+  // number of steps. The control loop counts periods, so rounding errors of the host's times do not
+  // affect the simulation. The checks of the time and the step size accept rounding errors that are
+  // too small to change the number of control periods.
   const double periods = std::round(step / period_);
   if (!(periods >= 1.0 && std::abs(step / period_ - periods) < 1e-6 * periods && periods < 1e9)) {
     Refuse(fmt::format("the step size is {} s; must be a multiple of the control period, {} s",
@@ -232,7 +233,8 @@ const Variable& Unit::Find(Type type, std::uint32_t reference) const {
                        reference, variables_.size() - 1));
   }
   const Variable& variable = variables_[reference];
-  // C functions read and write an enumeration as an integer.
+  // Accept integers for enumerations, because the C functions read and write an enumeration as an
+  // integer.
   const bool fits =
       variable.type == type || (variable.type == Type::kStatus && type == Type::kInteger);
   if (!fits) {
@@ -271,8 +273,8 @@ void Unit::Set(Type type, std::uint32_t reference, double value) {
   const Commands start = StartCommands(state_.parameters);
   state_.commands.controller_steers = start.controller_steers;
   state_.commands.plan_sets_speed = start.plan_sets_speed;
-  // Discard the loop. The next call that needs the loop plans the mission again and makes a new
-  // loop.
+  // Discard the control loop. The next call that needs the loop plans the mission again and makes a
+  // new loop.
   state_.loop.reset();
   outputs_.clear();
 }
@@ -306,8 +308,8 @@ double Unit::Get(Type type, std::uint32_t reference) {
       outputs_[row.columns()[column]] = row.at(0, column);
     }
   }
-  // A parameter, such as the noise of the measured pose, may have removed the variable's column
-  // from the log.
+  // Return NaN if the log lacks the variable's column, which a parameter such as the pose noise may
+  // have removed.
   const auto found = outputs_.find(variable.name);
   return found == outputs_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
 }

@@ -26,7 +26,7 @@ struct Commands {
 
 enum class Phase : std::uint8_t { kInstantiated, kInitialization, kStepping, kTerminated };
 
-/// Everything in an FMU instance that changes.
+/// The state of an FMU instance, that is, all its data that change during a simulation.
 struct State {
   Phase phase = Phase::kInstantiated;
   double start_time = 0.0;                     ///< Start time of the simulation [s].
@@ -49,8 +49,9 @@ struct StepEnd {
 /// instances are independent.
 class Unit {
  public:
-  /// Reads the resources. Throws InputError if the resources do not belong to the FMU with this
-  /// token, and RunError if they cannot be read. The callback `warn` receives notes about the plan.
+  /// Reads the FMU's resources. Throws InputError if the resources do not belong to the FMU with
+  /// the token `token`, and RunError if they cannot be read. The callback `warn` receives notes
+  /// about the plan.
   Unit(std::filesystem::path resources, std::string token,
        std::function<void(const std::string&)> warn);
 
@@ -58,17 +59,17 @@ class Unit {
 
   /// Begins the initialization at time `start` [s].
   void EnterInitialization(double start);
-  /// Plans the mission, and makes the control loop.
+  /// Plans the mission, makes the control loop, and ends the initialization.
   void ExitInitialization();
   void Terminate();
   /// Returns the FMU to its state after instantiation.
   void Reset();
 
-  /// Advances the loop by whole control periods, with the present inputs. `time` and `step` [s] are
-  /// the communication point and the step size of the caller.
+  /// Advances the control loop by whole control periods, with the present inputs. `time` and `step`
+  /// [s] are the communication point and the step size of the host.
   StepEnd Step(double time, double step);
 
-  /// Returns whether the run has ended, and the present time.
+  /// Returns the present time, and whether the run has ended.
   [[nodiscard]] StepEnd Present() const;
 
   void Set(Type type, std::uint32_t reference, double value);
@@ -76,10 +77,11 @@ class Unit {
 
   [[nodiscard]] State Save() const { return state_.Copy(); }
   void Restore(const State& state);
-  /// Returns a state as bytes: the parameters, and the commands of all control periods.
+  /// Converts a state of the FMU to bytes, which contain the parameters and the commands of all
+  /// control periods.
   [[nodiscard]] std::string Serialize(const State& state) const;
   /// Restores a serialized state by simulating the commands in `bytes` again. Throws InputError
-  /// unless the result is the state that was serialized.
+  /// unless the repeated simulation ends in the serialized state.
   [[nodiscard]] State Deserialize(std::string_view bytes) const;
 
  private:

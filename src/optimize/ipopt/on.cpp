@@ -22,9 +22,9 @@ struct Context {
   int iterations = 0;
 };
 
-/// Deduces IPOPT's number types from the type of a callback, because no names of these types exist
-/// in all versions of IPOPT. IPOPT 3.14 deprecates the names Index, Number and Bool. IPOPT 3.11
-/// lacks the names ipindex and ipnumber.
+/// Deduces IPOPT's number types from the type of a callback, because the names of these types
+/// differ between versions of IPOPT. IPOPT 3.14 deprecates the names Index, Number and Bool. IPOPT
+/// 3.11 lacks the names ipindex and ipnumber.
 template <typename Callback>
 struct TypesOf;
 template <typename BoolType, typename IndexType, typename NumberType>

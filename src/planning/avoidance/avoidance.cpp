@@ -22,9 +22,9 @@
 // the planner finds the first conflict with an obstacle and asks the configured method for a curve
 // past the obstacle. The method `listing` uses the curve of Skackauskas (dissertation, listing F.2)
 // as printed. The method `bezier` changes a curve until the curve is feasible. The planner inserts
-// path, steering schedule, speed caps and diagnostics of the curve into the plan. The search for
-// the next conflict continues behind the curve. If the method finds no curve, the plan stops before
-// the obstacle.
+// path, steering schedule, speed caps and diagnostics of the curve into the plan. After a curve was
+// inserted, the search for the next conflict continues beyond it. If the method finds no curve, the
+// plan stops before the obstacle.
 
 namespace trackbed {
 namespace {
@@ -45,7 +45,8 @@ constexpr double kCurveSpacing = 0.1;
 constexpr double kStep = 1e-6;
 
 /// Returns whether the curvature jumps from the plan to the end point `curve` of a sampled curve. A
-/// jump of the curvature must exceed the change from the end point to the next sample `next`.
+/// curvature change counts as a jump if it exceeds the change from the end point to the next sample
+/// `next`.
 bool Jumps(const PathPoint& plan, const CurvePoint& curve, const CurvePoint& next) {
   constexpr double kRounding = 1e-9;  // [1/m]
   return std::abs(plan.curvature - curve.curvature) >
@@ -131,7 +132,7 @@ class AroundObstacles {
     const double leave = replacement.stations.from;
     const auto points = replacement.curve.Points(kCurveSpacing, replacement.start.yaw);
     const double back = leave + points.back().s;
-    // Amount by which the curve shifts the stations behind it [m].
+    // Length that the curve adds to all stations beyond it [m].
     const double shift = back - replacement.stations.to;
     const Stations before{0.0, leave};
     const Stations after{replacement.stations.to, std::numeric_limits<double>::infinity()};
@@ -237,7 +238,7 @@ class AroundObstacles {
   }
 
   /// Ends the plan where the obstacle comes closer than the safe distance SD. If the car cannot
-  /// stop before that place, ends the plan at the car's stopping distance.
+  /// stop before it comes too close to the obstacle, ends the plan at the car's stopping distance.
   void StopBefore(const Conflict& conflict, double from, const std::string& why) {
     SpeedsToCaps();
     const double start_speed = plan_.reference.speed.SpeedAt(0.0);

@@ -12,7 +12,7 @@ namespace trackbed::avoidance {
 
 /// Coordinate frame in which the tree search and the curve are computed. The origin is the curve's
 /// start, and right turns are mirrored to left turns. Problems that differ only by a translation,
-/// rotation or reflection therefore have the same coordinates in the MirrorFrame.
+/// rotation or reflection have the same coordinates in the MirrorFrame.
 struct MirrorFrame {
   Pose2 pose;
   double side = 1.0;  ///< Factor of the y axis: with -1, the y axis points to the right.
@@ -82,10 +82,10 @@ struct CurveCheck {
 /// Evaluates the curve at points every 0.05 m.
 CurveCheck Check(const CurveProblem& problem, const BezierCurve& curve);
 
-/// Fits a degree-7 curve by least squares to a polyline from the start to the end. The curve
-/// satisfies the problem's end conditions, and the fit determines the control points P_3 and P_4.
-/// The end lengths |P_0 P_1|, |P_1 P_2|, |P_5 P_6| and |P_6 P_7| are a seventh of the polyline's
-/// length.
+/// Fits a degree-7 curve by least squares to a polyline from the start to the end. The end
+/// conditions of the problem determine six control points of the curve; the fit determines P_3 and
+/// P_4. The end lengths |P_0 P_1|, |P_1 P_2|, |P_5 P_6| and |P_6 P_7| are a seventh of the
+/// polyline's length.
 BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline);
 
 /// Returns the y coordinate at which the line between two points on either side of the y axis

@@ -29,8 +29,8 @@ struct Turn {
   [[nodiscard]] double sweep() const { return std::abs(curvature) * (arc.to - arc.from); }
 };
 
-/// Returns the turn whose arc contains a station. Returns none for a station on a straight or on a
-/// clothoid.
+/// Returns the turn whose arc contains a station. Returns nullopt for a station on a straight or on
+/// a clothoid.
 std::optional<Turn> TurnAt(const Path& path, double s) {
   const std::vector<Segment>& segments = path.segments();
   const auto is_straight = [](const Segment& segment) {

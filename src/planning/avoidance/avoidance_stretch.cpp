@@ -21,13 +21,13 @@
 namespace trackbed::avoidance {
 namespace {
 
-/// Spacing of the stations at which a curve may return to the path [m]. Behind a bend, the spacing
+/// Spacing of the stations at which a curve may return to the path [m]. After a bend, the spacing
 /// of the return stations is doubled.
 constexpr double kReturnStep = 2.0;
 /// Ratio of each speed that the search tries to the previous speed.
 constexpr double kSpeedRatio = 0.6;
-/// Tolerance for approximating a curve by path pieces [m]. Without this tolerance, a curve that
-/// keeps exactly the safe distance SD from an obstacle could count as a conflict.
+/// Tolerance for approximating a curve by path pieces [m]. Without this approximation tolerance, a
+/// curve that keeps exactly the safe distance SD could count as a conflict.
 constexpr double kRoundingTolerance = 5e-4;
 
 double HalfDiagonal(const OrientedBox& box) {
@@ -182,8 +182,8 @@ class StretchFinder {
     return std::cbrt(60.0 * aside / sharpness);
   }
 
-  /// Returns the distance S by which the curve extends beyond the bend at both ends. On a straight,
-  /// S is the length of the lateral shift.
+  /// Returns how far the curve extends beyond the bend at both ends. On a straight, this distance
+  /// is the length of the lateral shift.
   [[nodiscard]] double LeadDistance(const Bend& bend, const OrientedBox& obstacle) const {
     const double delay = request_.speed.speed * options_.delay;
     return bend.curvature != 0.0 ? 1.0 / std::abs(bend.curvature) + delay
@@ -199,7 +199,7 @@ class StretchFinder {
   }
 
   /// Returns the station in [from, to] nearest to s at which the steering is settled. If the
-  /// steering is settled nowhere in [from, to], returns s clamped to [from, to].
+  /// steering is settled nowhere in [from, to], returns the station s clamped to [from, to].
   [[nodiscard]] double SettledNear(double s, double from, double to) const {
     for (double away = 0.0; s - away >= from || s + away <= to; away += kPathCheckSpacing) {
       for (const double candidate : {s - away, s + away}) {
@@ -303,9 +303,8 @@ class StretchFinder {
   }
 
   /// Returns the demands in the order in which the search tries them. The first demand is
-  /// comfortable; it combines the mission's speed with a fraction of the steering rate. The
-  /// following demands use the full steering rate at falling speeds, down to the slowest allowed
-  /// speed.
+  /// comfortable; it combines the mission's speed with a fraction of the steering rate. All later
+  /// demands use the full steering rate, at speeds that fall to the slowest allowed speed.
   [[nodiscard]] std::vector<Demand> Demands() const {
     const double most = options_.max_steering_rate_fraction;
     std::vector<Demand> demands;
@@ -344,7 +343,7 @@ class StretchFinder {
   }
 
   /// Returns the sides of the obstacle that the search tries, each with the path that RRT* found on
-  /// this side. The side with the shorter path comes first.
+  /// this side. The side with the shorter RRT* path comes first.
   [[nodiscard]] std::vector<SidePath> FindSidePaths(const Conflict& conflict, const Bend& bend,
                                                     const CurveProblem& problem) const {
     const Pose2 beside = SideFrame(conflict);

@@ -13,12 +13,13 @@
 #include "trackbed/world/world.h"
 
 // Changes a degree-7 Bezier curve past obstacles until the curve is feasible. Position, heading and
-// curvature are given at both ends of the curve. These end conditions fix the control points P_0
-// and P_7, the directions from P_0 to P_1 and from P_7 to P_6, and the lateral offsets of P_2 and
-// P_5. RepairCurve minimizes the integral of (dkappa/ds)^2 over the eight remaining variables. The
-// limits of clearance, steering angle, steering rate and lateral acceleration and the passing side
-// are inequality constraints, evaluated at 193 samples. The curve past an obstacle follows
-// Skackauskas (dissertation, listing F.2). The repair of the curve is not part of the dissertation.
+// curvature are given at both ends of the curve. The conditions at the ends fix the control points
+// P_0 and P_7, the directions from P_0 to P_1 and from P_7 to P_6, and the lateral offsets of P_2
+// and P_5. RepairCurve minimizes the integral of (dkappa/ds)^2 over the eight remaining variables.
+// The limits of clearance, steering angle, steering rate and lateral acceleration and the passing
+// side are inequality constraints, evaluated at 193 samples. The curve past an obstacle follows
+// Skackauskas (dissertation, listing F.2). The repair of the curve is not part of Skackauskas's
+// dissertation.
 
 namespace trackbed::avoidance {
 namespace {
@@ -149,8 +150,9 @@ class Evaluation {
   }
 
   /// Returns the distance between the nearest obstacle and the footprint at a point of the curve.
-  /// The result is at most the required clearance plus kMaxExcessDistance. For obstacles farther
-  /// away, the distance between circumscribed circles is used instead of the exact distance.
+  /// The returned distance is at most the required clearance plus kMaxExcessDistance. For obstacles
+  /// farther away, the distance between circumscribed circles is used instead of the exact
+  /// distance.
   [[nodiscard]] double NearestObstacle(const Vec2& rear_axle, const Vec2& forward) const {
     const VehicleParams& vehicle = problem_.vehicle;
     const Vec2 middle = rear_axle + (0.5 * vehicle.length - vehicle.rear_overhang) * forward;
@@ -197,7 +199,7 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
     points[i] = problem.Frame().In(guess.control_points()[i]);
   }
   const std::array<double, kVariables> start = evaluation.ends().ToVariables(points);
-  // Bounds of the search: each end length is 0.02 to 1 times the distance between the curve's ends.
+  // The first two and the last two control points are 0.02 to 1 times the chord of the curve apart.
   // For the positions of P_3 and P_4, the search uses wide bounds.
   SearchProblem moved{
       .lower = {0.02, 0.02, -1.0, -1.5, -1.0, -1.5, 0.02, 0.02},

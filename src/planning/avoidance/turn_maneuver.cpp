@@ -128,9 +128,9 @@ std::size_t NearestNode(const std::vector<TreeNode>& nodes, const Vec2& point) {
   return nearest;
 }
 
-/// Returns the corner of the obstacle to which listing F.2 measures distances. This corner is the
-/// rear inner corner if the car passes on the inside of the turn, and the front outer corner if the
-/// car passes on the outside.
+/// Returns the corner of the obstacle to which listing F.2 measures distances. If the car passes on
+/// the inside of the turn, the result is the rear inner corner of the obstacle. If the car passes
+/// on the outside, the result is the front outer corner.
 Vec2 TestCorner(const TurnManeuver& maneuver, const OrientedBox& obstacle) {
   const double inward = maneuver.passing_side() == PassingSide::kInner ? 1.0 : -1.0;
   return ToWorld(obstacle.center,
@@ -176,8 +176,9 @@ TurnLayout LayOutTurn(const TurnManeuver& maneuver, const VehicleParams& vehicle
   double obstacle_angle = sixths * (maneuver.turn_angle - maneuver.reduction);
   layout.safe_angle = obstacle_angle;
   if (maneuver.literal.grid) {
-    // Listing F.2 reverses the points of the arc but not their angles. The angle of the safe point
-    // is therefore wrong by the remainder of the division of the arc's angle by the grid step.
+    // Listing F.2 reverses the points of the arc but not their angles. Due to this inconsistency,
+    // the angle of the safe point is wrong by the remainder of the arc's angle divided by the grid
+    // step.
     obstacle_angle = angles[layout.obstacle_at - 1];
     layout.safe_angle = kGrid * static_cast<double>(layout.obstacle_at - 1);
   }
@@ -289,7 +290,8 @@ ManeuverRun SimulateManeuver(const TurnManeuver& maneuver, const TurnLayout& lay
     sample.time = sample.s / maneuver.speed;
     sample.curvature = curve.Curvature(u);
     sample.steering = SteeringForCurvature(vehicle, sample.curvature);
-    // The steering rate is d atan(L K)/dt = v L K'/(1 + (L K)^2).
+    // With the wheelbase L and the curvature K, the steering rate is d atan(L K)/dt = v L K'/(1 +
+    // (L K)^2).
     const double slope = vehicle.wheelbase * sample.curvature;
     const double rate =
         std::abs(maneuver.speed * vehicle.wheelbase * curve.Sharpness(u) / (1.0 + slope * slope));

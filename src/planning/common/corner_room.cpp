@@ -40,8 +40,8 @@ Plan WithLessCornerRoom(const PlanRequest& request, double corner_room,
     }
     best.diagnostics.samples = samples;
   }
-  // With obstacles, plan from rest only if the detour is longer than the stopping distance. Detours
-  // around obstacles are common, and a second plan takes computing time.
+  // Among obstacles, make a second plan, for a car at rest, only if the detour exceeds the stopping
+  // distance. Detours around obstacles are common, and a second plan takes computing time.
   const double stopping =
       0.5 * request.start_speed * request.start_speed / request.speed.deceleration;
   if (best.partial.empty() && corner_room > 0.0 &&

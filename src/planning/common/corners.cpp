@@ -74,7 +74,7 @@ Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners
 
 /// Returns the highest speed, at most `highest`, at which the car can drive the first corner. The
 /// corner's tangent and the braking distance must both fit on the first leg, which is `leg` [m]
-/// long. Returns none if no speed satisfies both conditions.
+/// long. Returns nullopt if at no speed both the tangent and the braking distance fit.
 template <typename Tangent>
 std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highest, double leg,
                                         const Tangent& tangent) {

@@ -12,7 +12,7 @@ struct Step {
   double joint;     // Station of the joint [m].
   double before;    // Curvature of the path just before the joint [1/m].
   double after;     // Curvature of the path just after the joint [1/m].
-  double steering;  // Magnitude of the change of the steering angle at the joint [rad].
+  double steering;  // Magnitude of the change of the steering angle between both pieces [rad].
   // Length available for the steering ramp, equal to that of the shorter adjacent piece [m].
   double room;
   bool cusp;  // Whether the direction of motion changes at the joint.

@@ -37,7 +37,7 @@ class WorstExcess {
       : excess_{.what = std::move(what), .unit = std::move(unit), .remedy = remedy} {}
 
   /// Records by how much the value `required` exceeds the limit, if this is the largest excess so
-  /// far. A limit of 0 is unknown and cannot be exceeded.
+  /// far. A limit of 0 means that the limit is unknown and cannot be exceeded.
   void Take(double required, double limit, double station) {
     if (limit > 0.0 && required > limit * (1.0 + feasible_speeds::kRounding) &&
         required / limit > ratio_) {
@@ -269,7 +269,7 @@ Plan DriveAtLimit(Plan plan, const PlanRequest& request, Refusal refusal) {
   return plan;
 }
 
-/// A plan that was slowed down, and the excesses that remain.
+/// A plan that was slowed down, and the remaining excesses over limits.
 struct SlowerPlan {
   Plan plan;
   SpeedLimits limits;           ///< Smallest limits of the accelerations along the plan.

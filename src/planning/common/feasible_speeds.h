@@ -40,8 +40,8 @@ double LateralOver(const RoadHold& road, const Path& path, const Stations& piece
 
 /// Returns the combined longitudinal and lateral acceleration that a plan requires on a piece of
 /// its path, together with the limit. `v_from` and `v_to` are the speeds at both ends of the piece
-/// [m/s]. Returns zeros on a flat road where the path is straight or the speed is constant, because
-/// the checks of the single directions suffice there.
+/// [m/s]. Returns zeros on a flat road where the path is straight or the speed is constant: the
+/// separate longitudinal and lateral checks suffice.
 RoadHold::Combined CombinedOver(const RoadHold& road, const Path& path, const PathPiece& piece,
                                 double v_from, double v_to);
 
@@ -55,7 +55,7 @@ std::string FrictionForSlope(const Excess& slope, const Path& path, const PlanRe
 bool EndsAtStop(const std::vector<Stations>& legs, double s);
 
 /// Returns the parameters of the car for which the steering of a plan is computed. For a plan at
-/// the limit, the tyres of this car slip; for any other plan, they do not slip.
+/// the g-g-v limit, the tyres of the returned car slip; for any other plan, its tyres do not slip.
 VehicleParams SteeredCar(const Plan& plan, const PlanRequest& request);
 
 /// Returns the steering rate that a plan may use [rad/s]. A plan at the limit may use only a share
@@ -73,9 +73,9 @@ PieceSpeed SpeedOn(const Path& path, const PathPiece& piece, const RoadHold& roa
 std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request);
 
 /// Returns speed caps for the pieces of the path on which the car must steer faster than
-/// UsableSteeringRate at the plan's speeds and accelerations. Each cap is the speed at which the
-/// steering rate suffices for the plan's acceleration. Lower speeds change the accelerations, so
-/// the caller repeats the computation.
+/// UsableSteeringRate at the plan's speeds and accelerations. Each cap is the highest speed at
+/// which the car can steer fast enough while it accelerates as planned. The caller repeats the
+/// computation, because the speed caps change the accelerations.
 std::vector<SpeedCap> CapsForSteering(const Plan& plan, const PlanRequest& request);
 
 /// Returns the speed of the lowest cap, or `speed` if no cap is lower [m/s].
@@ -100,13 +100,14 @@ struct GripShares {
   double braking = std::numeric_limits<double>::infinity();
 };
 
-/// Shares that leave grip for bends: about 1/sqrt(2).
+/// Shares of the grip, about 1/sqrt(2), for braking and accelerating, so that grip is left for
+/// bends.
 inline constexpr GripShares kBendShares{0.7, 0.7};
 
 /// Returns the largest acceleration and deceleration on each piece of the path (ForEachPiece with
 /// kCheckSpacing), the smaller values of both ends of the piece; infinite if they are unknown. The
-/// checks and the speeds of a plan use the same pieces. A plan within these limits therefore passes
-/// the checks for every position of the edge of a slippery patch.
+/// checks of a plan use the same path pieces as its speeds. Wherever the edge of a slippery patch
+/// lies, a plan within the limits of the pieces passes the checks.
 std::vector<AccelerationCap> GripAlong(const Path& path, const PlanRequest& request);
 
 /// Returns the sections of the path on which the given shares of the road's grip (GripAlong) are
@@ -115,8 +116,8 @@ std::vector<AccelerationCap> SectionsOfLessGrip(const Path& path, const PlanRequ
                                                 const GripShares& shares);
 
 /// Returns speed caps for each bend in which the plan exceeds the friction ellipse. A bend here is
-/// a stretch of the path between two straights. With these caps, the car stays within the friction
-/// ellipse in the bend, even while it speeds up or slows down. In the capped bends, the
+/// a stretch of the path between two straights. With these speed caps, the car stays within the
+/// friction ellipse in the bend, even while it speeds up or slows down. In the capped bends, the
 /// acceleration along the path is at most the limit of the request, and at most the share
 /// kBendShares of the road's grip.
 std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request);

@@ -35,8 +35,9 @@ double DistanceFromLeg(const Vec2& point, const Vec2& from, const Vec2& to) {
   return (point - from - share * along).norm();
 }
 
-/// Tangent lengths and gaps of corners at the lowest speed, tabulated by heading change. Small
-/// heading changes have the closest entries, because a tangent length grows with their square root.
+/// Tangent lengths and gaps of corners at the lowest speed, tabulated by heading change. The table
+/// is densest at small heading changes: a tangent length grows with the square root of the heading
+/// change.
 class SlowCorners {
  public:
   SlowCorners(const VehicleParams& vehicle, const CornerLimits& limits) {
@@ -61,11 +62,12 @@ class SlowCorners {
   std::array<CornerRoom, kCount + 1> entries_{};
 };
 
-/// Cost of a polyline up to a leg, compared from the first member to the last.
+/// Cost of a polyline up to a leg; costs are compared lexicographically, from the first member to
+/// the last.
 struct Cost {
   std::size_t tight = 0;     // Number of corners that do not fit on their legs.
-  std::size_t left_out = 0;  // Number of points left out.
-  double distance = 0.0;     // Sum of the distances of the points left out [m].
+  std::size_t left_out = 0;  // Number of polyline points left out.
+  double distance = 0.0;     // Sum of the left-out points' distances to the path [m].
 
   bool operator<(const Cost& other) const {
     return std::tie(tight, left_out, distance) <
@@ -112,8 +114,8 @@ class CornerChoice {
     return index < legs_[to].size() ? legs_[to][index] : none;
   }
 
-  /// Returns the cost of leaving out the points between two points; none if the path must keep one
-  /// of these points.
+  /// Returns the cost of leaving out the points between two points; nullopt if the path must keep a
+  /// point between them.
   [[nodiscard]] std::optional<Cost> LeftOut(std::size_t from, std::size_t to) const {
     Cost cost;
     if (points_[from] == points_[to] ||
@@ -208,7 +210,7 @@ class CornerChoice {
   const WaypointChoice& limits_;
   std::vector<bool> is_waypoint_;
   std::vector<std::vector<Leg>>
-      legs_;  // Indexed by a leg's end point, then by the number of points between its ends.
+      legs_;  // All legs, by the leg's end point, then by the number of points between its ends.
 };
 
 }  // namespace

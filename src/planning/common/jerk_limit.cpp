@@ -15,9 +15,9 @@ struct Bound {
   std::vector<double> right;
 };
 
-/// Integrates the equation G'' = K. At each station, the slope rises by 2 jerk/v times half the
-/// length of the two adjacent intervals. The speed v is the largest of the speeds at the station
-/// and at its two neighbors, so that the second differences satisfy the limit exactly.
+/// Integrates the equation G'' = K = 2 jerk/v. At each station, the slope rises by 2 jerk/v times
+/// half the length of the two adjacent intervals. The speed v is the largest of the speeds at the
+/// station and at its two neighbors, so that the second differences satisfy the limit exactly.
 Bound Integrate(const std::vector<double>& stations, double jerk,
                 const std::vector<double>& squares) {
   const std::size_t count = stations.size();

@@ -13,8 +13,8 @@ namespace {
 constexpr double kStraightSteering = 1e-9;
 
 /// Returns the path of a car whose wheels turn at their full rate from the start steering delta_0
-/// to straight ahead, over the distance S. The steering angle is delta(s) = delta_0 (1 - s/S). The
-/// heading is psi(s) = S/(L delta_0) ln(cos delta(s)/cos delta_0).
+/// to straight ahead, over the distance S. The steering angle is delta(s) = delta_0 (1 - s/S). With
+/// the wheelbase L, the heading is psi(s) = S/(L delta_0) ln(cos delta(s)/cos delta_0).
 std::vector<Segment> Straightening(const PlanRequest& request) {
   const VehicleParams& vehicle = request.vehicle;
   const double steering = request.start_steering;
@@ -41,7 +41,7 @@ double BrakingLength(const PlanRequest& request, const Pose2& from, double speed
   const double squares = std::max(0.0, request.start_speed * request.start_speed - speed * speed);
   const double shortest = squares / (2.0 * deceleration);
   const RoadHold road(request);
-  constexpr double kLongest = 50.0;  // Multiple of the shortest length.
+  constexpr double kLongest = 50.0;  // Largest multiple of the shortest braking distance.
   const Path straight(from, {{.length = kLongest * shortest + feasible_speeds::kCheckSpacing}});
   const auto braking = [&](double s) {
     const double grip = road.Braking(straight, s);

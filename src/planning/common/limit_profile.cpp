@@ -42,8 +42,8 @@ class Capability {
   }
 
   /// Returns the margin of the tyres to their limit [m/s^2], which is negative beyond the limit.
-  /// Within the limit, the brakes can always prevent the car from speeding up; a lack of drive
-  /// force may still slow the car down.
+  /// If the margin is positive, the brakes can prevent the car from speeding up, but a lack of
+  /// drive force may slow it down.
   [[nodiscard]] double Margin(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
     const double across = options_.share * diagram_.MaxLateral(demand.point) - demand.point.lateral;
@@ -78,7 +78,7 @@ class Capability {
 
   [[nodiscard]] static Demand DemandAt(const LimitStation& at, double squared) {
     Demand demand;
-    const double steep = 1.0 + at.grade * at.grade;  // square of the stretch factor A
+    const double steep = 1.0 + at.grade * at.grade;  // square of A = road length/horizontal length
     const double tilt = std::sqrt(steep + at.bank * at.bank);
     demand.stretch = std::sqrt(steep);
     const double gravity = kGravity + squared * at.crest;

@@ -100,7 +100,7 @@ class Surface {
 };
 
 /// Applies speed caps to stations. A rolling car that brakes at the request's deceleration may be
-/// faster than a cap. If the cap is not strict, it is raised to the speed of the braking car.
+/// faster than a cap. A speed cap that is not strict is raised to the speed of the braking car.
 void ApplyCaps(const std::vector<SpeedCap>& caps, const PlanRequest& request,
                std::vector<LimitStation>& stations) {
   const auto allowed = [&](const SpeedCap& cap, double s) {

@@ -10,11 +10,11 @@
 /// Explains why a plan cannot begin in the start state of the car, for MakeFeasible.
 namespace trackbed::start_excess {
 
-/// Returns an excess of the position, and an excess of the heading, if the path does not begin at
-/// the pose of the car. For a rolling car, also returns an excess of the start steering if it
-/// differs from the steering angle with which the path begins. If the car cannot steer the start of
-/// the path at all, returns no excess of the start steering, because the excess of the steering
-/// angle is the cause. The hints of the excesses give the start values that fit the path.
+/// Returns the differences between the car's start pose and the start of the path, as excesses of
+/// position and heading. For a rolling car, the result includes the difference between the car's
+/// steering angle and the path's first steering angle. If the path's first steering angle exceeds
+/// the car's limit, the start steering is not reported, because the angle limit is the cause. Each
+/// excess has a hint with the start value that fits the path.
 std::vector<Excess> At(const Plan& plan, const PlanRequest& request);
 
 /// Returns the excess of a start speed above `highest`, the highest feasible start speed [m/s].

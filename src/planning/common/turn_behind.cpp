@@ -10,14 +10,14 @@
 #include "trackbed/planning/common/waypoint_miss.h"
 
 // Rounds polylines that turn too sharply at a waypoint. Where waypoints are close to each other,
-// the path leaves out the waypoints that it passes within the bound anyway. A curve on the inner
-// side of a sharp turn passes far from the waypoint, and no curve joins legs that point in opposite
-// directions. At a sharp turn, the path therefore leads straight through the waypoint, and makes
-// one or two quarter turns behind the waypoint. After the quarter turns, the path returns to the
-// next point of the polyline. The added legs have just the length that the curves of the added
-// corners need. The corners are driven at the highest speed at which a quarter turn still reaches
-// the largest curvature. If a turn at this highest speed is too wide, its corners are driven at the
-// lowest speed.
+// the path leaves out each waypoint that it passes within the permitted distance anyway. A curve on
+// the inner side of a sharp turn passes far from the waypoint, and no curve joins legs that point
+// in opposite directions. At a sharp turn, the path leads straight through the waypoint, and makes
+// one or two quarter turns beyond it. After the quarter turns, the path returns to the next point
+// of the polyline. The added legs have just the length that the curves of the added corners need.
+// The corners of an added turn are driven at the highest speed at which a quarter turn still
+// reaches the largest curvature. If an added turn at this speed is too wide, its corners are driven
+// at the lowest speed.
 
 namespace trackbed {
 namespace {
@@ -25,15 +25,15 @@ namespace {
 constexpr double kQuarter = 0.5 * kPi;
 
 /// Returns the highest speed at which the curve of a quarter turn reaches the largest curvature
-/// [m/s]. This highest speed v follows from kappa^2 = h sigma, with the heading change h = pi/2 and
-/// the sharpness sigma = omega_delta/(L v).
+/// [m/s]. At the highest speed v, the largest curvature kappa satisfies kappa^2 = h sigma. Here h =
+/// pi/2 is the heading change, and sigma = omega_delta/(L v) the sharpness.
 double CompactSpeed(const VehicleParams& vehicle, const CornerLimits& limits) {
   const double speed = kQuarter * vehicle.steering_rate /
                        (vehicle.wheelbase * limits.max_curvature * limits.max_curvature);
   return std::clamp(speed, limits.min_speed, limits.speed);
 }
 
-/// A turn behind a waypoint: straight on, one or two quarter turns to one side (1: left, -1:
+/// A turn beyond a waypoint: straight on, one or two quarter turns to one side (1: left, -1:
 /// right), and a corner toward the next point of the polyline.
 struct TurnShape {
   double speed = 0.0;  ///< Speed for which the legs are long enough [m/s].
@@ -41,8 +41,8 @@ struct TurnShape {
   double side = 1.0;
 };
 
-/// Returns the corners of a turn behind the point `at`, which the car passes in the direction
-/// `ahead`. Returns none if the last corner turns back on itself, or needs ever longer legs.
+/// Returns the corners of a turn beyond the point `at`, which the car passes in the direction
+/// `ahead`. Returns nullopt if the last corner turns back on itself, or needs ever longer legs.
 std::optional<std::vector<Vec2>> CornersBehind(const VehicleParams& vehicle, double max_curvature,
                                                const TurnShape& shape, const Vec2& at,
                                                const Vec2& ahead, const Vec2& next) {
@@ -83,7 +83,7 @@ std::optional<std::vector<Vec2>> CornersBehind(const VehicleParams& vehicle, dou
   return std::nullopt;
 }
 
-/// Returns the turns behind a waypoint in the order in which to try them. The argument `side` says
+/// Returns the turns beyond a waypoint in the order in which to try them. The argument `side` says
 /// on which side of the car the next point lies.
 std::vector<TurnShape> TurnShapes(const VehicleParams& vehicle, const CornerLimits& limits,
                                   double side) {
@@ -97,8 +97,8 @@ std::vector<TurnShape> TurnShapes(const VehicleParams& vehicle, const CornerLimi
   return shapes;
 }
 
-/// Returns the polyline with a turn behind the point `corner`; none if no such turn is drivable and
-/// clear of obstacles.
+/// Returns the polyline with an added turn beyond the point `corner`; nullopt if no such turn is
+/// drivable and clear of obstacles.
 std::optional<std::vector<Vec2>> TurnBehind(const VehicleParams& vehicle,
                                             const std::vector<Vec2>& polyline, std::size_t corner,
                                             const CornerLimits& limits,
@@ -115,7 +115,7 @@ std::optional<std::vector<Vec2>> TurnBehind(const VehicleParams& vehicle,
     if (!behind) {
       continue;
     }
-    // The curve at the next point of the polyline needs the other half of the last leg.
+    // The turn may use only half of its last leg: the curve at the leg's end needs the other half.
     const bool is_last = corner + 2 == polyline.size();
     std::vector<Vec2> turn{polyline[corner - 1], at};
     turn.insert(turn.end(), behind->begin(), behind->end());
@@ -130,7 +130,7 @@ std::optional<std::vector<Vec2>> TurnBehind(const VehicleParams& vehicle,
   return std::nullopt;
 }
 
-/// Adds turns behind waypoints to a polyline until no corner at a waypoint is too sharp. `rounded`
+/// Adds turns beyond waypoints to a polyline until no corner at a waypoint is too sharp. `rounded`
 /// are the corners of the polyline itself.
 RoundedCorners TurnBehindSharpCorners(const VehicleParams& vehicle, std::vector<Vec2> points,
                                       RoundedCorners rounded, const CornerLimits& limits,
@@ -188,7 +188,7 @@ RoundedCorners RoundCornersOrTurnBehind(const VehicleParams& vehicle,
       candidates.push_back(std::move(fewer));
     }
   }
-  // Try turns behind waypoints last, because they make the longest paths.
+  // Try turns beyond the waypoints last, because such turns make the longest paths.
   for (const bool turns_behind : {false, true}) {
     for (const std::vector<Vec2>& points : candidates) {
       RoundedCorners rounded = RoundCorners(vehicle, points, limits, clear);

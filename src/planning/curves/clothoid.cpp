@@ -10,10 +10,10 @@ namespace {
 /// Largest angle at which the power series are used [rad]; at 4 rad, their largest term is 10.
 constexpr double kSeriesLimit = 4.0;
 
-constexpr int kTerms = 14;  // the first omitted term is below 1e-16 at kSeriesLimit
+constexpr int kTerms = 14;  // the first omitted term of the series is below 1e-16 at kSeriesLimit
 
-/// Coefficients of the power series in angle^2 of the two integrals, the second one divided by
-/// angle: (-1)^n/((2n)! (4n + 1)) and (-1)^n/((2n + 1)! (4n + 3)).
+/// Coefficients of the power series in angle^2 of the two Fresnel integrals, the second one divided
+/// by angle: (-1)^n/((2n)! (4n + 1)) and (-1)^n/((2n + 1)! (4n + 3)).
 constexpr std::array<std::array<double, kTerms>, 2> Coefficients() {
   std::array<std::array<double, kTerms>, 2> c{};
   double factorial = 1.0;
@@ -37,7 +37,7 @@ constexpr std::array<double, kTerms> ChordCoefficients() {
   double term = 1.0;
   for (int n = 0; n < kTerms; ++n) {
     c[static_cast<std::size_t>(n)] = term;
-    // The factors 2n + 1 and 2n + 2 of the factorial and of the product cancel.
+    // In the quotient of two series terms, the factors 2n + 1 and 2n + 2 cancel.
     term *= -4.0 / ((4.0 * n + 3.0) * (4.0 * n + 5.0));
   }
   return c;
@@ -56,7 +56,7 @@ Vec2 Series(double angle) {
   return {cos, sin * angle};
 }
 
-/// Sums two chains of half the length, which the processor computes at the same time.
+/// Splits the sum into two chains of half the length, which the processor computes in parallel.
 template <std::size_t terms>
 double ChordSeries(double square) {
   const double fourth = square * square;
@@ -90,7 +90,7 @@ Vec2 FresnelPerLength(double angle) {
 }
 
 double ChordPerLength(double angle) {
-  constexpr double kShortSeriesLimit = 1.0;  // Largest angle [rad]; first omitted term below 1e-18.
+  constexpr double kShortSeriesLimit = 1.0;  // [rad]; the first omitted series term is below 1e-18.
   if (std::abs(angle) <= kShortSeriesLimit) {
     return ChordSeries<10>(angle * angle);
   }

@@ -9,10 +9,9 @@ namespace trackbed {
 /// length. Exact to 1e-13 for angles up to 100 rad.
 Vec2 FresnelPerLength(double angle);
 
-/// Returns the integral of cos(angle (1 - u^2)) over u from 0 to 1. The integral is the distance
-/// between the ends of two symmetric clothoids that turn by `angle` [rad] each, per length. The
-/// second clothoid unwinds the curvature of the first. The value decreases from 1 at 0 to 0 at 2.3
-/// rad.
+/// Returns the integral of cos(angle (1 - u^2)) over u from 0 to 1. The integral is the ratio of
+/// chord to length for two symmetric clothoids that turn by `angle` [rad] each. The second clothoid
+/// unwinds the curvature of the first. The ratio decreases from 1 at an angle of 0 to 0 at 2.3 rad.
 double ChordPerLength(double angle);
 
 }  // namespace trackbed

@@ -28,8 +28,9 @@ void ShortenSmallTurn(const TurnCircle& circle, double deflection, ClothoidTurn&
   const double length = chord / per_length;
   const double sharpness = 4.0 * deflection / (length * length);
   const double peak = std::sqrt(deflection * sharpness);
-  // The clothoids end on the circle of the sharper turn, so that their sharpness is at most the
-  // largest one. The comparisons exclude rounding errors and clothoids that wind several times.
+  // The two clothoids end on the same circle as the turn that they replace, so their sharpness is
+  // at most the largest one. The two comparisons reject clothoids that are sharper by rounding
+  // errors or that wind several times.
   if (sharpness <= circle.sharpness * (1.0 + kTurnRounding) && peak <= 1.0 + kTurnRounding) {
     // Without deflection, the turn is a straight.
     turn = {.length = length,

@@ -31,7 +31,7 @@ Vec2 ClothoidTo(double curvature, double sharpness);
 TurnCircle MakeTurnCircle(double sharpness);
 
 /// A way to leave a state: a clothoid to the curvature 0, or no clothoid, and then a turn to one
-/// side. The way to arrive at a state is the way to leave it in the opposite direction.
+/// side. To arrive at a state, the car drives the same curve in the opposite direction.
 struct TurnEnd {
   int side = 1;       // +1: to the left
   int direction = 1;  // of motion on the turn, away from the state

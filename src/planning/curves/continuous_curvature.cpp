@@ -88,7 +88,8 @@ ShortestCurve Backwards(ShortestCurve curve) {
   return curve;
 }
 
-/// Returns the shortest word of two sharpest turns in the directions that the motion allows.
+/// Returns the shortest curve that consists of a turn, a straight and a turn, all of the largest
+/// sharpness. The motion determines the permitted directions of driving.
 ShortestCurve SharpCurve(const TurnCircle& circle, CurveMotion motion, const CurveTask& problem,
                          double limit) {
   ShortestCurve curve = SharpWord(circle, problem.start.curvature, problem.goal, limit);
@@ -107,8 +108,8 @@ void ToMeters(ShortestCurve& curve, double radius) {
   curve.length *= radius;
 }
 
-/// Returns the motions whose words a car may drive. A car whose curvature may step at cusps may
-/// also drive the words without such steps.
+/// Returns the kinds of motion (CurveMotion) that a car may use in a curve. A car whose curvature
+/// may step at cusps may also drive curves without such steps.
 boost::container::static_vector<CurveMotion, 2> MotionsOf(CurveMotion motion) {
   boost::container::static_vector<CurveMotion, 2> motions{motion};
   if (motion == CurveMotion::kHybrid) {
@@ -140,7 +141,8 @@ ShortestCurve Shortest(const TurnCircle& circle, CurveMotion motion, const Curve
   return curve;
 }
 
-/// Returns the shortest curve for each spelling of a word, shortest first.
+/// Returns the shortest curve for each sequence of turn sides and directions of motion, the
+/// shortest curve first.
 std::vector<ShortestCurve> AllWords(const TurnCircle& circle, CurveMotion motion,
                                     const CurveTask& problem) {
   if (problem.IsSolved()) {

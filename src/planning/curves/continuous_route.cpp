@@ -2,11 +2,11 @@
 //
 // For a leg at the speed u, the largest sharpness is sigma = f omega/(L u). The plan may use the
 // fraction f of the steering rate omega; L is the wheelbase. Since the steering angle is atan(L
-// kappa), its rate is at most L u sigma = f omega. The tyres' grip at the speed u limits the
+// kappa), its rate is at most L u sigma = f omega. The tyres' grip at the leg's speed limits the
 // curvature, too. On straights, the car may drive faster than the leg's speed u.
 //
-// The objective `length` uses the mission's speed, and lower speeds only where all words at a
-// higher speed are blocked. The objective `time` compares several speeds for each leg, and pairs of
+// The objective `length` uses the mission's speed, and lower speeds only where obstacles block all
+// curves at a higher speed. The objective `time` compares several speeds for each leg, and pairs of
 // speeds for its first and last turn, by an estimate of the driving time. By the speed profile of
 // the whole path, the planner compares the best combination of speeds with the mission's speed on
 // all legs.
@@ -41,9 +41,9 @@ constexpr double kCuspPenalty = 5.0;
 /// Share of the tyres' grip on turns; the rest is left for braking and for corrections.
 constexpr double kGripShare = 0.5;
 
-/// The candidate speeds of a leg form a geometric sequence. The ratio of this sequence is
-/// kSpeedRatio down to the fraction kFineChoices of the mission's speed, where the best speeds of
-/// most turns are. At lower candidate speeds, the ratio is kCoarseSpeedRatio.
+/// The candidate speeds of a leg form a geometric sequence. Above the fraction kFineChoices of the
+/// mission's speed, each candidate is kSpeedRatio times the previous one. Most turns have their
+/// best speed in this range. At lower candidate speeds, the ratio is kCoarseSpeedRatio.
 constexpr double kSpeedRatio = 0.8;
 constexpr double kFineChoices = 0.2;
 constexpr double kCoarseSpeedRatio = 0.6;
@@ -233,7 +233,8 @@ class RoutePlanner {
                                                      : start.lead.length;
   }
 
-  /// Returns the cheapest free leg at `speed`; its cost is infinite if all words are blocked.
+  /// Returns the cheapest leg at `speed` that is free of obstacles; its cost is infinite if all
+  /// candidate curves are blocked.
   [[nodiscard]] Leg LegAt(double speed, std::size_t leg, double from, double to) {
     std::vector<Leg> found;
     for (const LegStart& start : StartsAt(speed, leg, from)) {
@@ -261,7 +262,7 @@ class RoutePlanner {
   }
 
   /// Returns the cheapest free leg of two forward turns that are driven at different speeds. For
-  /// example, a turn behind a start at rest may be sharper than the rest of the leg.
+  /// example, the first turn after a start at rest may be sharper than the rest of the leg.
   [[nodiscard]] Leg LegOfTwoSpeeds(std::size_t leg, double from, double to) {
     std::vector<Leg> found;
     const std::vector<double> speeds = Speeds();
@@ -309,7 +310,7 @@ class RoutePlanner {
     return {};
   }
 
-  /// Returns the cheapest legs at the given choices of speeds; none if a leg is blocked.
+  /// Returns the cheapest legs at the given choices of speeds, or no legs if a leg is blocked.
   [[nodiscard]] Legs BestLegs(const std::vector<double>& speeds) {
     std::vector<Legs> best;
     for (const double curvature : CurvaturesAt(0)) {

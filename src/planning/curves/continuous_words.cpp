@@ -34,8 +34,8 @@ CurvePiece TurnPiece(const ClothoidTurn& turn, int side, int direction, double f
                     .direction = direction}};
 }
 
-/// Returns the turn that leaves the state of `end` and ends at a junction. For the last turn of a
-/// chain, the caller reverses the result.
+/// Returns the turn that begins at the state of `end` and ends at the junction with the next turn
+/// or straight. For the last turn of a turn sequence, the caller reverses the result.
 CurvePiece EndPiece(const TurnCircle& circle, const TurnEnd& end, const TurnJunction& junction,
                     bool to_zero, bool both_ways) {
   const ClothoidTurn turn = TurnFrom(circle, end, junction.yaw, to_zero, both_ways);
@@ -63,8 +63,8 @@ double ChainLength(const TurnCircle& circle, const TurnChain& chain, bool both_w
   for (std::size_t i = 0; i < last; ++i) {
     straights += chain.junctions[i].straight;
   }
-  // Check lower bounds first, because they reject most chains without solving the clothoids of
-  // small turns.
+  // Check lower bounds first, because they reject most chains of turns without solving the
+  // clothoids of small turns.
   double least = straights + chain.first->Least() + chain.last->Least();
   for (std::size_t i = 1; i < last && least < limit; ++i) {
     const MiddleTurn turn(chain, i);

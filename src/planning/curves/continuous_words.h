@@ -4,10 +4,11 @@
 
 #include "src/planning/curves/clothoid_turns.h"
 
-/// The words of two to four turns of continuous curvature, in units of the smallest radius.
+/// The words (sequences of two to four turns) of continuous curvature, in units of the smallest
+/// radius.
 namespace trackbed {
 
-/// Least length of a straight between two cusps, above the length of pieces that are left out.
+/// Least length of a straight between two cusps; shorter path pieces would be left out.
 inline constexpr double kMinStraight = 1e-11;
 
 /// Abilities of the car at a cusp.
@@ -17,11 +18,11 @@ enum class CurveMotion {
   kHybrid,      ///< The curvature steps at cusps.
 };
 
-/// The place between two turns, with a straight if that has a length.
+/// The junction between two turns: a straight, possibly of length 0.
 struct TurnJunction {
   double yaw = 0.0;         // Heading of the car [rad].
-  bool zero_before = true;  // Whether the turn before ends with curvature 0, not the full one.
-  bool zero_after = true;   // Whether the turn behind begins with curvature 0.
+  bool zero_before = true;  // Whether the turn before the straight ends at curvature 0.
+  bool zero_after = true;   // Whether the turn after the straight starts at curvature 0.
   double straight = 0.0;    // Length of the straight.
   int direction = 1;        // Direction of motion on the straight.
 };
@@ -39,20 +40,20 @@ struct TurnChain {
   double length = kNoCurve;
 };
 
-/// Returns the length of a chain: solves its turns and adds their lengths, until the sum exceeds
-/// `limit`.
+/// Returns the length of a chain of turns: solves each turn and adds the lengths, until the sum
+/// exceeds `limit`.
 double ChainLength(const TurnCircle& circle, const TurnChain& chain, bool both_ways, double limit);
 
-/// Returns the pieces of a chain.
+/// Returns the path pieces of a chain of turns.
 ShortestCurve ChainCurve(const TurnCircle& circle, const TurnChain& chain, bool both_ways);
 
-/// Finds the chains between two ends of turns.
+/// Finds the chains of turns between a given first turn and a given last turn.
 class ChainFinder {
  public:
   ChainFinder(const TurnCircle& circle, CurveMotion motion);
 
-  /// Calls `take` with each chain that is shorter than `limit()`, between each of the ends `firsts`
-  /// and each of the ends `lasts`. Chains with a straight come first, because chains without a
+  /// Calls `take` with each chain of turns from a turn of `firsts` to a turn of `lasts` that is
+  /// shorter than `limit()`. Chains of turns with a straight come first, because chains without a
   /// straight are seldom shorter.
   template <typename Ends, typename Limit, typename Take>
   void Find(const Ends& firsts, const Ends& lasts, const Limit& limit, const Take& take) const {
@@ -115,8 +116,8 @@ class ChainFinder {
 
   TurnCircle circle_;
   CurveMotion motion_;
-  double radius_;     // Radius of the circle on which turns end.
-  double mu_;         // Angle between the heading and the circle's tangent.
+  double radius_;     // Distance from a turn's center to the points of curvature 0.
+  double mu_;         // Angle between heading and circle tangent at curvature 0.
   double cusp_link_;  // Distance of the centers of two turns at a cusp.
 };
 
@@ -137,7 +138,7 @@ inline TurnJunction ChainFinder::Touch(double angle, bool cusp, int side, int di
           .zero_after = zero};
 }
 
-/// Finds the turn with a full arc between two states on one circle.
+/// Finds the single turn that connects two states by an arc of their common circle.
 template <typename Consider>
 void ChainFinder::OfOneTurn(const Centers& centers, const Consider& consider) const {
   const TurnEnd& a = centers.first;
@@ -151,9 +152,9 @@ void ChainFinder::OfOneTurn(const Centers& centers, const Consider& consider) co
   consider(chain);
 }
 
-/// Finds the words with a straight. A word may have a cusp and a quarter turn at one end of the
-/// straight or at both ends. A word may drive the straight in the direction opposite to a
-/// neighboring turn.
+/// Finds the words (turn sequences) that contain a straight. A turn sequence may have a cusp and a
+/// quarter turn at one end of the straight or at both ends. A turn sequence may drive the straight
+/// in the direction opposite to a neighboring turn.
 template <typename Limit, typename Consider>
 void ChainFinder::WithStraight(const Centers& centers, const Limit& limit,
                                const Consider& consider) const {
@@ -176,8 +177,8 @@ void ChainFinder::WithStraight(const Centers& centers, const Limit& limit,
       return;
     }
     double along = along_sign * std::sqrt(std::max(square, 0.0));
-    // Turns that touch need no straight. Compare squares, because a square root would amplify the
-    // rounding errors.
+    // Two turns that touch need no straight between them. Compare squares, because a square root
+    // would amplify the rounding errors.
     if (direction * (along - turns) < 0.0 && along * turns > 0.0 &&
         std::abs(square - turns * turns) <= kTurnRounding * std::sqrt(centers.square)) {
       along = turns;

@@ -78,7 +78,8 @@ void ChainFinder::OfThreeTurns(const Centers& centers, bool first_cusp, bool las
   if (distance > (one + two) * (1.0 + kTurnRounding) || distance < std::abs(one - two)) {
     return;
   }
-  // Apply the law of cosines. The centers of the outer turns coincide only if both links are equal.
+  // Apply the law of cosines. The centers of the outer turns coincide only if the links `one` and
+  // `two` to the middle turn are equally long.
   const double unequal =
       one == two ? 0.0 : (one - two) * (one + two) / (2.0 * std::max(distance, kTurnRounding));
   const auto angle = [](double cos) { return std::acos(std::clamp(cos, -1.0, 1.0)); };
@@ -138,8 +139,8 @@ void ChainFinder::OfFourTurns(const Centers& centers, bool outer_cusps, bool inn
     }
     return;
   }
-  // The four centers of the turns form a trapezoid: the inner link is parallel to the line between
-  // the outer centers.
+  // The four centers of the turns form a trapezoid: the line between the inner centers is parallel
+  // to the line between the outer centers.
   for (const double along : {1.0, -1.0}) {
     const double cos = 0.5 * (distance - along * inner) / outer;
     if (std::abs(cos) <= 1.0 + kTurnRounding) {

@@ -16,8 +16,8 @@
 #include "trackbed/planning/curves/reeds_shepp.h"
 
 // The planners `dubins` and `reeds_shepp`: shortest curves from stop to stop.
-// 1. All words to the next stop are made drivable: arcs get room for the ramps of the steering
-//    (drivable_curve.h).
+// 1. All Dubins or Reeds-Shepp words to the next stop are made drivable: arcs get room for the
+//    ramps of the steering (drivable_curve.h).
 // 2. The candidates are sorted by length plus a penalty for each stop; the first that keeps clear
 //    of obstacles is taken.
 // 3. A rolling car may begin its first curve at once, after straightening its wheels, or after
@@ -94,7 +94,7 @@ std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionC
 
 /// Returns the cheapest first curve of a rolling car. The curve begins at the car if the wheels
 /// have the curve's steering angle. If the wheels have another steering angle, the curve begins
-/// where the wheels are straight, or behind a straight line on which the car slows down.
+/// where the wheels are straight, or after a straight line on which the car slows down.
 template <typename Words>
 std::optional<FoundCurve> FirstRolling(const PlanRequest& request, const CollisionChecker& clear,
                                        const Pose2& to, const Words& words, CurveDrive drive) {
@@ -245,7 +245,7 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
   // For some poses, all Reeds-Shepp words begin in reverse, which a rolling car cannot drive.
-  // Therefore the Dubins words, which begin forwards, are candidates too.
+  // The candidates for a rolling car include the Dubins words, which begin forwards.
   const auto words = [](const Pose2& from, const Pose2& to, double radius) {
     std::vector<ShortestCurve> all = ReedsSheppWords(from, to, radius);
     const std::vector<ShortestCurve> forwards = DubinsWords(from, to, radius);

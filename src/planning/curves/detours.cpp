@@ -1,9 +1,10 @@
 // Replans routes whose paths have loops.
 //
-// 1. The headings of the shortest route: dynamic programming over sixteen directions, and the
-//    default one, at each waypoint. Start and goal keep their headings.
-// 2. Fewer waypoints: LeaveOutCloseWaypoints with the room that curves of continuous curvature need
-//    at four speeds. The quickest of the shorter paths, or of those with fewer stops, is chosen.
+// 1. Dynamic programming finds the headings of the shortest route, among sixteen directions and the
+//    default direction at each waypoint. Start and goal keep their headings.
+// 2. LeaveOutCloseWaypoints removes waypoints, with the room that curves of continuous curvature
+//    need at four speeds. Of the plans with a shorter path or fewer stops, the planner chooses the
+//    quickest.
 // The shortest path of bounded curvature through a sequence of points is the problem of Goaoc, Kim
 // and Lazard 2013, who solve it by convex optimization for distant points.
 #include "src/planning/curves/detours.h"
@@ -30,7 +31,7 @@ namespace {
 /// Number of directions at a waypoint.
 constexpr int kDirections = 16;
 
-/// A heading at a stop with the shortest route to it.
+/// A heading at a stop, with the shortest route to the stop that ends in this heading.
 struct HeadingChoice {
   double yaw = 0.0;        // Heading [rad].
   double length = 0.0;     // Length of the route up to the stop [m].
@@ -125,7 +126,7 @@ class DetourPlanner {
     return IsDetour(plan, request_) || Stops(plan) > 0 || !IsDrivable(plan);
   }
 
-  /// Returns whether the car can drive a plan from its start speed. Behind its start, the plan may
+  /// Returns whether the car can drive a plan from its start speed. After the start, the plan may
   /// slow the car down.
   [[nodiscard]] bool IsDrivable(const Plan& plan) const {
     PlanRequest request = request_;
@@ -133,8 +134,9 @@ class DetourPlanner {
     return plan.ok() && MakeFeasible(plan, request).ok();
   }
 
-  /// Returns true if only `plan` is drivable. If both plans are drivable, returns whether `plan`
-  /// takes no longer to drive, and is shorter by the smallest turning radius or stops less often.
+  /// Returns whether `plan` is a better plan than `best`. If only one of the two plans is drivable,
+  /// the drivable plan is better. If both are drivable, `plan` is better if it takes no longer to
+  /// drive, and is shorter by the smallest turning radius or has fewer stops.
   [[nodiscard]] bool IsBetter(const Plan& plan, const Plan& best) const {
     if (const bool drivable = IsDrivable(plan); drivable != IsDrivable(best)) {
       return drivable;
@@ -152,10 +154,10 @@ class DetourPlanner {
            RouteLength(stops, radius_, length_) + radius_ <= PlanLength(best);
   }
 
-  /// Replaces `own` by a shorter plan for the request with other headings, if the shorter plan may
-  /// be better than `best`, too. The tried headings are those of the shortest route whose arcs have
-  /// a given radius. Steering ramps need more room than arcs, so larger radii are tried as long as
-  /// the plan has a detour.
+  /// Replaces the plan `own` by a shorter plan with other headings, if the shorter plan may also be
+  /// better than the plan `best`. The tried headings are those of the shortest route whose arcs
+  /// have a given radius. Steering ramps need more room than arcs, so larger radii are tried as
+  /// long as the plan has a detour.
   void TryOtherHeadings(Plan& own, const PlanRequest& request, const Plan& best) const {
     const std::vector<Pose2> stops = PlannedStops(request);
     std::vector<double> tried;
@@ -219,11 +221,11 @@ class DetourPlanner {
     }
   }
 
-  /// Returns the room of a corner at a speed [m/s]: the tangent of an arc, or half of a leg on
-  /// which the car corrects a heading error e without leaving the leg at its ends. The car corrects
-  /// e by two triangular lobes of curvature with opposite signs. The ratio of the lobes' lengths is
-  /// the golden ratio phi. With the sharpness sigma, the lobes need a leg of length sqrt(4 phi^3
-  /// e/sigma).
+  /// Returns the room that a corner needs at a speed [m/s]. The room is the tangent of an arc, or
+  /// half of a leg on which the car corrects a heading error e without leaving the leg at its ends.
+  /// The car corrects a heading error by two triangular curvature pulses of opposite signs. The
+  /// ratio of the pulses' lengths is the golden ratio phi. With the sharpness sigma and the heading
+  /// error e, both pulses need a leg of length sqrt(4 phi^3 e/sigma).
   [[nodiscard]] CornerRoom RoomOf(double turn, double speed) const {
     const VehicleParams& car = request_.vehicle;
     const double sharpness = car.steering_rate / (car.wheelbase * speed);

@@ -11,21 +11,21 @@ namespace trackbed {
 /// Returns the length of the shortest curve between two poses for a turning radius [m].
 using CurveLength = std::function<double(const Pose2&, const Pose2&, double)>;
 
-/// Returns the plan that `plan` makes for the request, or a plan without detours. A detour is a
-/// path that is longer than the straight lines between the waypoints by the car's smallest turning
-/// radius or more, that stops between start and goal, or that the car cannot drive from its start
-/// speed. If the request has no headings, the function tries two remedies against a detour or a
-/// refusal. The first remedy is other headings at the waypoints between start and goal. The tried
-/// headings are those of the shortest curves among sixteen directions per waypoint, for up to three
-/// turning radii. The second remedy leaves out waypoints within a quarter of the car's width from
-/// the lines between the other waypoints, if the path passes them within this distance. A note
-/// names the waypoints left out.
+/// Returns the plan that the function `plan` makes for the request, or another plan without
+/// detours. A detour is a path that exceeds the straight lines between the waypoints by the car's
+/// smallest turning radius or more. A path that stops between start and goal, or that the car
+/// cannot drive from its start speed, is a detour, too. If the request has no headings, the
+/// function tries two remedies against a detour or a refusal. The first remedy is other headings at
+/// the waypoints between start and goal. The tried headings are those of the shortest curves among
+/// sixteen directions per waypoint, for up to three turning radii. The second remedy leaves out
+/// waypoints within a quarter of the car's width from the lines between the other waypoints, if the
+/// path passes them within this distance. A note names the waypoints left out.
 ///
-/// A remedy is taken only if the path takes no longer to drive. The path must also become shorter
-/// by the smallest turning radius or more, or have fewer stops because waypoints are left out. If a
-/// detour is left, a note gives the length of the shorter path of a car at rest. Without obstacles,
-/// a note also gives the length of the shorter path without the given headings. Calls `plan` once
-/// if there is no detour, otherwise up to 21 times.
+/// A remedy is taken only if the path takes no longer to drive. A remedied path must also be
+/// shorter by the smallest turning radius or more, or have fewer stops because waypoints are left
+/// out. If the plan still has a detour, a note gives the length of the shorter path that a car at
+/// rest could drive. Without obstacles, a note also gives the length of the shorter path without
+/// the given headings. Calls `plan` once if there is no detour, otherwise up to 21 times.
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
                     const std::function<Plan(const PlanRequest&)>& plan);
 

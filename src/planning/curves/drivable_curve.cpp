@@ -1,12 +1,13 @@
-// Replaces short arcs of the words arc-straight-arc by gentler ones.
+// Replaces short arcs in curves of arc, straight and arc by gentler arcs.
 //
-// Let alpha be the heading of the straight, seen from the start pose. The arcs turn by alpha and by
-// yaw - alpha, where the signs count, because an arc can change its side as it becomes longer. The
-// arcs and the straight form a curve if f(alpha) = 0, where f is the distance between the two arcs
-// perpendicular to the straight. Let u be the length of the straight, g the ratio kGentleness, and
-// l_1 and l_2 the lengths of the arcs. The derivative of f is f' = -(u + (1/4 - 1/(2 g)) (l_1 +
-// l_2)). The straight is at least as long as each ramp, l/g, and as (l_1 + l_2)/4. For g = 4, each
-// step alpha <- alpha + f/u of the iteration therefore at least halves the error of alpha.
+// Let alpha be the heading of the straight, seen from the start pose. The arcs turn by the signed
+// angles alpha and yaw - alpha; an arc can change its side as it becomes longer. The arcs and the
+// straight form a curve if f(alpha) = 0, where f is the distance between the two arcs perpendicular
+// to the straight. Let u be the length of the straight, g the ratio kGentleness, and l_1 and l_2
+// the lengths of the arcs. The derivative of f(alpha) is f' = -(u + (1/4 - 1/(2 g)) (l_1 + l_2)).
+// The straight must be at least as long as each steering ramp, l_1/g or l_2/g, and as (l_1 +
+// l_2)/4. With g = 4 and this bound of u, each step alpha <- alpha + f/u of the iteration at least
+// halves the error of alpha.
 #include "trackbed/planning/curves/drivable_curve.h"
 
 #include <algorithm>
@@ -22,11 +23,12 @@ namespace {
 /// Largest sweep that counts as a rounding error of a zero angle [rad], as in ToSegments.
 constexpr double kNoTurn = 1e-12;
 
-/// Ratio between the length of a gentler arc and the length of its ramps. For the ratio g, an arc
-/// and half of both ramps have the length (sqrt(g) + 1/sqrt(g)) S, where S is the length of a ramp
-/// for g = 1. The offset due to the steps of curvature is proportional to g^(-3/2). Compared with g
-/// = 1, the ratio g = 4 needs a quarter more room and has an eighth of the offset. The longer arc
-/// lets a controller correct errors while the wheels are at rest.
+/// Ratio between the length of a gentler arc and the length of its ramps. With the length ratio g,
+/// an arc and half of both ramps have the length (sqrt(g) + 1/sqrt(g)) S. S is the length of a ramp
+/// for g = 1. The lateral offset due to curvature steps is proportional to g^(-3/2). An arc 4 times
+/// as long as its ramps needs a quarter more room than an arc of equal length. Its curvature steps
+/// cause an eighth of the offset. On a gentle arc, a controller has time to correct errors while
+/// the wheels keep their angle.
 constexpr double kGentleness = 4.0;
 
 /// The length of a ramp from straight to `curvature` [m], at StepSpeed or at `speed` if lower.
@@ -40,9 +42,9 @@ double SharpRamp(const VehicleParams& vehicle, double curvature, double speed, d
 struct WordEnd {
   double sweep = 0.0;        // Angle of the arc [rad], positive to the left.
   double curvature = 0.0;    // Curvature of the arc [1/m].
-  double beyond = 0.0;       // Curvature of the path outside the word [1/m].
-  double start_speed = 0.0;  // Speed of a car that slows down on the straight outside [m/s].
-  bool continues = false;    // Whether the arc continues an arc of the path outside the word.
+  double beyond = 0.0;       // Curvature of the adjacent path outside the word [1/m].
+  double start_speed = 0.0;  // Speed of a car that slows down before the arc [m/s].
+  bool continues = false;    // Whether the arc continues an arc of the adjacent path.
   bool is_gentle = false;    // Whether the arc may get another radius.
 
   [[nodiscard]] bool IsShort() const { return is_gentle && std::abs(sweep) > kNoTurn; }
@@ -64,8 +66,8 @@ class GentleWord {
 
   [[nodiscard]] bool HasShortArc() const { return first_.IsShort() || last_.IsShort(); }
 
-  /// Returns the speed at which the car can pass the word's short arcs unchanged; 0 if the car must
-  /// stop at these arcs.
+  /// Returns the speed at which the car can drive the curve's short arcs unchanged; 0 if the car
+  /// must stop at these arcs.
   [[nodiscard]] double ShortestSpeed() const {
     double speed = drive_.speed;
     for (const WordEnd* end : {&first_, &last_}) {
@@ -106,12 +108,12 @@ class GentleWord {
   }
 
  private:
-  /// A turn at one end of the word: an arc, and the straight outside the arc.
+  /// A turn at one end of the curve: an arc, and the straight between the arc and the curve's end.
   struct Turn {
     double sweep = 0.0;      // Angle of the arc [rad].
     double curvature = 0.0;  // Signed curvature of the arc [1/m]; 0 with a sweep of 0.
     double ramp = 0.0;       // Length of the ramp from straight to the arc [m].
-    double outside = 0.0;    // Length of the straight outside the arc [m].
+    double outside = 0.0;    // Length of the straight between arc and end [m].
 
     [[nodiscard]] bool IsNothing() const { return std::abs(sweep) <= kNoTurn; }
     [[nodiscard]] double Length() const { return IsNothing() ? 0.0 : sweep / curvature; }
@@ -125,7 +127,7 @@ class GentleWord {
       return outside * std::sin(sweep) + (IsNothing() ? 0.0 : 2.0 * half * half / curvature);
     }
     /// Returns whether an arc whose radius must not change keeps its side and has room for its
-    /// ramp; true for other arcs.
+    /// ramp; true for arcs whose radius may change.
     [[nodiscard]] bool Keeps(const WordEnd& end) const {
       return end.is_gentle || Length() >= (end.continues ? 0.0 : ramp);
     }
@@ -136,9 +138,9 @@ class GentleWord {
     const double sweep = std::abs(piece.sweep);
     WordEnd end{.sweep = side * sweep, .curvature = side / drive_.radius};
     end.beyond = beyond.direction == direction_ ? beyond.curvature : 0.0;
-    // An arc that continues an arc of the path outside never counts as short. Where the word has no
-    // arc, the curve may need a gentle arc, because the changed arc at the other end turns the
-    // straight.
+    // An arc that continues the arc of the neighboring path piece never counts as short. At an end
+    // without an arc, the curve may need a gentle arc, because a changed arc at the other end
+    // rotates the straight.
     end.continues = end.beyond == end.curvature;
     const bool is_short =
         !end.continues && !HasRoomForRamps(vehicle_, sweep * drive_.radius, drive_);
@@ -146,9 +148,9 @@ class GentleWord {
     return end;
   }
 
-  /// Returns the curvature of the sharpest arc that the car can drive at `speed` [1/m]. On this
-  /// arc, the tyres hold, and the steps of curvature displace the car by at most kStepDeviation
-  /// (see StepSpeed).
+  /// Returns the curvature of the sharpest arc that the car can drive at `speed` [1/m]. On the
+  /// sharpest drivable arc, the tyres do not slide, and the curvature steps displace the car by at
+  /// most kStepDeviation (see StepSpeed).
   [[nodiscard]] double SharpestAt(double speed) const {
     const double step = std::pow(
         vehicle_.steering_rate * std::sqrt(24.0 * kStepDeviation) / (vehicle_.wheelbase * speed),
@@ -196,10 +198,10 @@ class GentleWord {
   int direction_;
   WordEnd first_;
   WordEnd last_;
-  CurveGoal goal_;  // Goal of a car that drives forwards [m].
+  CurveGoal goal_;  // Relative goal pose; mirrored for reverse [m].
 };
 
-/// Whether the word is arc, straight, arc, all in one direction.
+/// Whether the curve is an arc, a straight and an arc, all in one direction.
 bool IsArcStraightArc(const ShortestCurve& word) {
   if (word.count != 3 || word.pieces[1].bend != Bend::kNone) {
     return false;
@@ -234,7 +236,7 @@ std::vector<Segment> DrivablePieces(const VehicleParams& vehicle, const Pose2& f
   if (slow < fast) {
     pieces = gentle.PiecesAt(slow);
   }
-  constexpr int kHalvings = 20;  // Accurate to a millionth of the speed.
+  constexpr int kHalvings = 20;  // Bisection to a millionth of the speed.
   for (int i = 0; i < kHalvings && !pieces.empty(); ++i) {
     const double speed = 0.5 * (slow + fast);
     std::vector<Segment> faster = gentle.PiecesAt(speed);

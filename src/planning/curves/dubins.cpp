@@ -33,9 +33,9 @@ struct Sweeps {
 
 /// Each of the following functions computes one Dubins word that begins with a left arc and is
 /// shorter than `limit`. If no word shorter than `limit` exists, the functions return kNone as the
-/// middle piece. The center of the first arc is at (0, 1). The center of the last arc is at (x -
-/// sin, y + cos) if this arc is to the left. The center is at (x + sin, y - cos) if the arc is to
-/// the right.
+/// middle piece. In units of the turning radius, the center of the first arc is at (0, 1). The last
+/// arc ends at the goal (x, y). Its center is at (x - sin, y + cos) for a left arc, and at (x +
+/// sin, y - cos) for a right arc, with the sine and cosine of the goal heading.
 Sweeps LeftStraightLeft(const CurveGoal& goal, double limit) {
   const double dx = goal.x - goal.sin;
   const double dy = goal.y - 1.0 + goal.cos;
@@ -72,8 +72,8 @@ Sweeps LeftRightLeft(const CurveGoal& goal, double limit) {
     // The first and the last circle are too far apart for a middle circle that touches both.
     return {.middle = kNone};
   }
-  // The line from the first center to the center of the middle arc is rotated to the left by
-  // `tilt`. The angle is relative to the line from the first to the last center.
+  // The line from the first center to the middle center is rotated to the left by `tilt`, relative
+  // to the line from the first to the last center.
   const double tilt = std::acos(std::min(0.25 * std::sqrt(square), 1.0));
   const double middle = kPi + 2.0 * tilt;
   const double first = Positive(std::atan2(dy, dx) + 0.5 * kPi + tilt);

@@ -106,8 +106,7 @@ class RouteRefiner {
     return TimeAt(from + sections_[section].Length()) - TimeAt(from);
   }
 
-  /// Returns the time at a station of the best plan [s]; stations behind the end are rounded to the
-  /// end.
+  /// Returns the time at a station of the best plan [s]; stations beyond the end count as the end.
   [[nodiscard]] double TimeAt(double station) const {
     return best_.reference.speed.TimeAt(std::min(station, best_.reference.path.length()));
   }
@@ -135,8 +134,8 @@ class RouteRefiner {
     const double chord = Path({}, own.segments).At(length).pose.position().norm();
     const double least = LegTime(limits_, {{chord, limits_.speed.speed}}, leg.speeds.front(),
                                  profile.SpeedAt(from + length));
-    // No path is faster than the straight line. Skip the search if even this line would gain
-    // little.
+    // No path is faster than the straight line. Skip the search if even the straight line would
+    // gain little.
     if (!std::isfinite(duration) || duration <= least * (1.0 + kLeastGain)) {
       return std::nullopt;
     }

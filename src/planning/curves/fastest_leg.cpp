@@ -7,13 +7,14 @@
 //   minimize    sum of h_i
 //   subject to  -d h_i <= v_(i+1) - v_i <= a h_i,  |delta_(i+1) - delta_i| <= omega h_i,
 //               v_i^2 |kappa_i| <= lateral acceleration,  and the pose of the goal.
-// Only the limit of the lateral acceleration and the pose of the goal are nonlinear. The path
-// divides each piece into parts of equal time, on which the curvature is linear over the length.
-// The end of the path is a sum of integrals over the parts, by Gaussian quadrature. The solution
-// meets the goal to the tolerance of the program; Gauss-Newton steps of the least change of lengths
-// and curvatures meet the goal exactly. The search amplifies rounding errors of its inputs.
-// Therefore the inputs are rounded, and the leg is mirrored if its first turn is to the right: a
-// moved or mirrored leg then has the same solution. Source of the transcription: Betts 2010.
+// In this optimization, only the lateral acceleration limit and the goal pose are nonlinear in the
+// variables. The path divides each piece into parts of equal time, on which the curvature is linear
+// over the length. The end of the path is a sum of integrals over the parts, by Gaussian
+// quadrature. The solution meets the goal to the tolerance of the program; Gauss-Newton steps of
+// the least change of lengths and curvatures meet the goal exactly. The search amplifies rounding
+// errors of its inputs. To give a moved or mirrored leg the same solution, the search rounds its
+// inputs, and mirrors a leg whose first turn is to the right. Source of the transcription: Betts
+// 2010.
 #include "src/planning/curves/fastest_leg.h"
 
 #include <Eigen/QR>
@@ -29,8 +30,8 @@ namespace trackbed {
 namespace {
 
 /// Tolerance of the program, relative to the radius and to the time from lock to straight wheels.
-/// This coarse tolerance suffices, because the end of the path is corrected afterwards, and the
-/// speeds are computed from the path.
+/// The coarse tolerance of the optimization suffices, because the end of the path is corrected
+/// afterwards, and the speeds are computed from the path.
 constexpr double kTolerance = 1e-3;
 constexpr double kLeastTime = 1e-3;  // Least duration of a piece, in units of the program.
 constexpr double kInputGrid =
@@ -41,10 +42,10 @@ double RoundedInput(double value) {
   return std::round(value / kInputGrid) * kInputGrid;
 }
 
-/// The smooth program of a leg. The units of this program are the smallest radius, the mission's
-/// speed, the largest steering angle, and the time in which the wheels turn by this angle. The
-/// variables are the steering angles and the speeds between the pieces, and the times of the
-/// pieces. The car does not steer on a piece that begins or ends at rest.
+/// The smooth program of a leg. The units of the optimization program are the smallest radius, the
+/// mission's speed, the largest steering angle, and the time in which the wheels turn by this
+/// angle. The variables are the steering angles and the speeds between the pieces, and the times of
+/// the pieces. The car does not steer on a piece that begins or ends at rest.
 class LegProgram {
  public:
   explicit LegProgram(const FastestLeg& leg)
@@ -120,7 +121,7 @@ class LegProgram {
           found.rows.col(k).setZero();
         }
       }
-      // The change of a length is proportional to the length, so that short parts remain.
+      // Scale the change of each length by the length, so that short parts keep a positive length.
       found.rows.rightCols(count) *= parts.lengths.asDiagonal();
       const Eigen::Matrix3d square = found.rows * found.rows.transpose();
       const Eigen::VectorXd step =
@@ -286,7 +287,8 @@ class LegProgram {
     }
   }
 
-  /// Sets the distances from the goal, with the derivatives by the chain rule over the parts.
+  /// Sets the distances of the path's end from the goal pose, with derivatives by the chain rule
+  /// over the parts.
   void MeetGoal(const Eigen::VectorXd& x, SmoothValues& values) const {
     const PartsEnd found = EndOf(PartsOf(x));
     values.equal = found.end - goal_.unaryExpr(&RoundedInput);
@@ -328,9 +330,9 @@ class LegProgram {
   Eigen::Vector3d goal_;  // x, y and yaw
 };
 
-/// Returns the leg with an additional part at each end at which the car is at rest. On the
-/// additional part, the car reaches the speed at which it starts to steer, or brakes from the speed
-/// at which it stops steering.
+/// Returns the leg with an additional part at each end at which the car is at rest. On such a first
+/// or last part, the car accelerates to the speed at which it starts to steer, or brakes from the
+/// speed at which it stops steering.
 FastestLeg WithPartsAtRest(FastestLeg leg) {
   const double speed = std::min(leg.held_speed, leg.limits.speed.speed);
   const auto part = [speed](double acceleration, double most) {

@@ -9,7 +9,7 @@
 ///
 /// A leg consists of pieces, on which the steering angle and the speed are linear over the time.
 /// The steering angles and speeds between the pieces and the times of the pieces are the variables
-/// of a smooth program. The car thus slows down where its wheels turn.
+/// of a smooth program. In the fastest leg, the car slows down where its wheels turn.
 namespace trackbed {
 
 /// A leg to be driven in the least time, with the limits on its motion.
@@ -24,9 +24,9 @@ struct FastestLeg {
 };
 
 /// Returns a leg at a local minimum of the driving time near `leg.start`; nullopt if the search
-/// finds none. The leg has the pose and curvature of `leg.start` at both ends, to 1e-10 m and rad.
-/// Near an end at which the car is at rest, the curvature stays constant below `leg.held_speed`.
-/// Costs 1 to 140 ms for 7 to 16 parts.
+/// finds none. At both ends, the returned leg has the same pose and curvature as `leg.start`, to
+/// 1e-10 m and rad. Near an end at which the car is at rest, the curvature stays constant below
+/// `leg.held_speed`. The search takes 1 to 140 ms for 7 to 16 parts.
 std::optional<std::vector<Segment>> FindFasterLeg(const FastestLeg& leg);
 
 }  // namespace trackbed

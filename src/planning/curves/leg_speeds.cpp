@@ -23,10 +23,11 @@ double MostSpeed(const LegLimits& limits, double from, double to, double sharpne
   return speed;
 }
 
-/// Returns the time on a length from one speed to another, with a peak of at most `most` between
-/// them [s].
+/// Returns the driving time over a length, from one speed to another, with a peak speed of at most
+/// `most` [s].
 double PieceTime(const SpeedLimits& limits, double length, double from, double to, double most) {
-  // The car speeds up to the peak p and brakes: (p^2 - from^2)/(2 a) + (p^2 - to^2)/(2 d) = length.
+  // The car accelerates at a to the peak speed p and brakes at d: (p^2 - from^2)/(2 a) + (p^2 -
+  // to^2)/(2 d) = length.
   const double a = limits.acceleration;
   const double d = limits.deceleration;
   const double square = (2.0 * a * d * length + d * from * from + a * to * to) / (a + d);

@@ -14,7 +14,7 @@ namespace trackbed {
 
 /// Limits on the motion along a leg.
 struct LegLimits {
-  SpeedLimits speed;           ///< Speed on straights, and accelerations along the path.
+  SpeedLimits speed;           ///< Speed on straights; acceleration, deceleration.
   double steering_rate = 1.0;  ///< Largest steering rate of the plan [rad/s].
   double lateral = 1.0;        ///< Largest lateral acceleration v^2 kappa [m/s^2].
   double wheelbase = 1.0;      ///< L [m].

@@ -9,18 +9,19 @@ namespace trackbed {
 
 /// A path of clothoids, with the smallest radius as the unit of length.
 struct LinearParts {
-  Eigen::VectorXd curvatures;  // Curvatures at the joints of the parts and at both ends.
+  Eigen::VectorXd curvatures;  // Curvatures between the clothoids and at both ends.
   Eigen::VectorXd lengths;
 };
 
-/// The end of a path of parts that begins at the origin along x, and its derivatives by the
-/// curvatures, then by the lengths.
+/// The end point of a path of clothoids that begins at the origin along x. The derivatives of the
+/// end point are by the curvatures, then by the lengths.
 struct PartsEnd {
   Eigen::Vector3d end;  // x, y and yaw
   SmoothValues::Rows rows;
 };
 
-/// Returns the end of a path. The displacement of each part is an integral by Gaussian quadrature.
+/// Returns the end point of a path of clothoids. The displacement of each part is an integral by
+/// Gaussian quadrature.
 PartsEnd EndOf(const LinearParts& parts);
 
 }  // namespace trackbed

@@ -62,7 +62,7 @@ Sweeps With(double t, double u, double v, double others = 0.0) {
 // Each of the following functions solves an equation of Reeds and Shepp 1990, section 8, for a word
 // whose first arc turns left and is driven forwards. The functions may ignore words longer than
 // `limit`. In the names of words, L is an arc to the left, R an arc to the right and S a straight
-// line. The sign + means forwards, and - means in reverse.
+// line. In a word such as L+S-R+, the sign + means forwards, and - means in reverse.
 
 /// Returns the vector from the center of the first arc to the center of the last arc. ToLeftCenter
 /// assumes that the last arc turns left, and ToRightCenter that it turns right.
@@ -73,7 +73,7 @@ Vec2 ToRightCenter(const CurveGoal& goal) {
   return {goal.x + goal.sin, goal.y - 1.0 - goal.cos};
 }
 
-/// Equation 8.1 solves the word L+S+L+.
+/// Equation 8.1 gives the Reeds-Shepp word L+S+L+.
 Sweeps LSL(const CurveGoal& goal, double limit) {
   const Vec2 d = ToLeftCenter(goal);
   const double u = d.norm();
@@ -85,7 +85,7 @@ Sweeps LSL(const CurveGoal& goal, double limit) {
   return v >= -kRounding ? With(t, u, v) : Sweeps{};
 }
 
-/// Equation 8.2 solves the word L+S+R+.
+/// Equation 8.2 gives the Reeds-Shepp word L+S+R+.
 Sweeps LSR(const CurveGoal& goal, double limit) {
   const Vec2 d = ToRightCenter(goal);
   const double square = d.squaredNorm() - 4.0;
@@ -98,7 +98,8 @@ Sweeps LSR(const CurveGoal& goal, double limit) {
   return t >= -kRounding && v >= -kRounding ? With(t, u, v) : Sweeps{};
 }
 
-/// Equations 8.3 and 8.4 solve the words L+R-L, whose last arc is driven forwards or in reverse.
+/// Equations 8.3 and 8.4 give the Reeds-Shepp words L+R-L, whose last arc is driven forwards or in
+/// reverse.
 Sweeps LRL(const CurveGoal& goal, double /*limit*/) {
   const Vec2 d = ToLeftCenter(goal);
   const double square = d.squaredNorm();
@@ -122,7 +123,7 @@ Sweeps OuterOfFour(const Vec2& d, double u, double v, double yaw, const Last& la
   return With(tau, u, last(tau - u + v - yaw), std::abs(v));
 }
 
-/// Equation 8.7 solves the word L+R+L-R-, whose inner arcs sweep u and -u.
+/// Equation 8.7 gives the Reeds-Shepp word L+R+L-R-, whose inner arcs sweep u and -u.
 Sweeps LRLR(const CurveGoal& goal, double /*limit*/) {
   const Vec2 d = ToRightCenter(goal);
   const double square = d.squaredNorm();
@@ -134,7 +135,7 @@ Sweeps LRLR(const CurveGoal& goal, double /*limit*/) {
   return sweeps.t >= -kRounding && sweeps.v <= kRounding ? sweeps : Sweeps{};
 }
 
-/// Equation 8.8 solves the word L+R-L-R+, whose inner arcs both sweep u.
+/// Equation 8.8 gives the Reeds-Shepp word L+R-L-R+, whose inner arcs both sweep u.
 Sweeps LRLRInner(const CurveGoal& goal, double /*limit*/) {
   const Vec2 d = ToRightCenter(goal);
   const double rho = (20.0 - d.squaredNorm()) / 16.0;
@@ -146,7 +147,7 @@ Sweeps LRLRInner(const CurveGoal& goal, double /*limit*/) {
   return sweeps.t >= -kRounding && sweeps.v >= -kRounding ? sweeps : Sweeps{};
 }
 
-/// Equation 8.9 solves the word L+R-S-L-, whose second arc is a right angle.
+/// Equation 8.9 gives the Reeds-Shepp word L+R-S-L-, whose second arc is a right angle.
 Sweeps LRSL(const CurveGoal& goal, double limit) {
   const Vec2 d = ToLeftCenter(goal);
   const double square = d.squaredNorm() - 4.0;
@@ -162,7 +163,7 @@ Sweeps LRSL(const CurveGoal& goal, double limit) {
   return fits ? With(t, u, v, kRight) : Sweeps{};
 }
 
-/// Equation 8.10 solves the word L+R-S-R-, whose second arc is a right angle.
+/// Equation 8.10 gives the Reeds-Shepp word L+R-S-R-, whose second arc is a right angle.
 Sweeps LRSR(const CurveGoal& goal, double limit) {
   const Vec2 d = ToRightCenter(goal);
   const double u = 2.0 - d.norm();
@@ -174,7 +175,8 @@ Sweeps LRSR(const CurveGoal& goal, double limit) {
   return v <= kRounding ? With(t, u, v, kRight) : Sweeps{};
 }
 
-/// Equation 8.11 solves the word L+R-S-L-R+, whose second and fourth arcs are right angles.
+/// Equation 8.11 gives the Reeds-Shepp word L+R-S-L-R+, whose second and fourth arcs are right
+/// angles.
 Sweeps LRSLR(const CurveGoal& goal, double limit) {
   const Vec2 d = ToRightCenter(goal);
   const double square = d.squaredNorm() - 4.0;

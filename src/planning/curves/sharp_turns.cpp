@@ -9,12 +9,14 @@
 
 #include "src/planning/curves/clothoid.h"
 
-// Finds the shortest word of a turn, a straight and a turn of continuous curvature, all forwards.
-// 1. alpha is the heading of the straight. For a given alpha, both turns are known in closed form;
-//    f is the distance between the ends of the turns, measured perpendicular to the straight.
-// 2. The words are the roots of f where the length of the straight is not negative.
-// 3. The interval of alpha is divided at the values at which a turn changes its side, and then into
-//    cells of 0.3 rad. TOMS 748 finds the root in each cell in which f changes its sign.
+// Finds the shortest curve (word) of a turn, a straight and a turn of continuous curvature, all
+// forwards.
+// 1. alpha is the heading of the straight. For a given heading alpha of the straight, both turns
+//    are known in closed form. The function f(alpha) is the distance between the ends of the turns,
+//    measured perpendicular to the straight.
+// 2. The words (turn sequences) are the roots of f(alpha) with a straight of length >= 0.
+// 3. The interval of the heading alpha is divided where a turn changes its side, and then into
+//    cells of 0.3 rad. TOMS 748 finds the root in each cell in which f(alpha) changes its sign.
 // 4. Steps 1 to 3 are repeated for the goal's heading plus and minus a full turn.
 // Source: Fraichard and Scheuer 2004.
 namespace trackbed {
@@ -38,8 +40,8 @@ struct HalvedAngle {
 
 /// A turn between curvatures of 0.
 struct ZeroTurn {
-  double along = 0.0;   // Distance from start to end along the heading of the end.
-  double across = 0.0;  // Distance across the heading of the end, positive to the outside.
+  double along = 0.0;   // Distance from start to end along the final heading.
+  double across = 0.0;  // Distance from start to end across the final heading, positive outward.
   double length = 0.0;
   double slope = 0.0;  // Value of along - d(across)/d(angle), exact for full turns.
 };
@@ -62,7 +64,7 @@ ZeroTurn TurnByAngle(const TurnCircle& circle, double a, double cos, double sin)
   return turn;
 }
 
-/// One end of a word: a forward turn between a state and curvature 0.
+/// One end of a curve turn-straight-turn: a forward turn between a state and curvature 0.
 class SharpEnd {
  public:
   /// Makes the first turn (`order` +1) or the last turn (`order` -1).
@@ -71,7 +73,7 @@ class SharpEnd {
     const double turned = 0.5 * state_ * state_ / circle.sharpness;
     neutral_ = state.pose.yaw + order * std::copysign(turned, state_);
     for (const int side : {-1, 1}) {
-      // The point at which the curvature is 0 on the clothoid to `side`.
+      // The clothoid from the state toward `side` has the curvature 0 at the point `zero`.
       Side& own = sides_[side < 0 ? 0 : 1];
       own.side = side;
       own.yaw = state.pose.yaw - order * side * turned;
@@ -92,8 +94,8 @@ class SharpEnd {
 
   struct Side {
     int side = 1;
-    Vec2 zero{0, 0};    // Position where the curvature is 0.
-    double yaw = 0.0;   // Heading where the curvature is 0.
+    Vec2 zero{0, 0};    // Position at which the turn's curvature is 0.
+    double yaw = 0.0;   // Heading at which the turn's curvature is 0.
     Vec2 half{1, 0};    // Direction of half the heading `yaw`.
     double done = 0.0;  // Length of the clothoid from `zero` to the state.
   };
@@ -113,9 +115,9 @@ class SharpEnd {
   [[nodiscard]] const Side& SideFor(double alpha) const {
     return sides_[order_ * (alpha - neutral_) < 0.0 ? 0 : 1];
   }
-  /// Returns the deflection of the turn, measured from curvature 0. Where a turn changes its side,
-  /// a tiny deflection is set to 0: the length of a small turn, a square root of the deflection,
-  /// would amplify its rounding error.
+  /// Returns the heading change of the turn from the point where its curvature is 0 to its end.
+  /// Where a turn changes its side, a tiny deflection is set to 0: the length of a small turn, a
+  /// square root of the deflection, would amplify its rounding error.
   [[nodiscard]] double Deflection(const Side& side, double alpha) const {
     const double deflection = order_ * side.side * (alpha - side.yaw);
     const double least = side.done > 0.0 ? 0.0 : kTurnRounding;
@@ -154,8 +156,9 @@ class SharpEnd {
   std::array<Side, 2> sides_{};
 };
 
-/// The words to a goal, as functions of alpha, in an interval of alpha in which no turn changes its
-/// side. The heading of the goal includes full turns.
+/// The curves turn-straight-turn to a goal, as functions of the straight's heading alpha. The
+/// interval of alpha is one in which no turn changes its side. The heading of the goal includes
+/// full turns.
 class SharpWords {
  public:
   SharpWords(const SharpEnd& first, const SharpEnd& last, double from, double to)
@@ -179,7 +182,7 @@ class SharpWords {
     double across = 0.0;            // Value of f.
     double straight = 0.0;          // Length u of the straight.
     double length = 0.0;            // Length of the word.
-    double slope = 0.0;             // Slope -f' = u + g, approximate for small turns.
+    double slope = 0.0;             // Slope -df/d(alpha), approximate for small turns.
     Vec2 apart{0, 0};               // Vector from the first turn to the last, with x along alpha.
     std::array<double, 2> along{};  // Extents of the turns along alpha.
     std::array<double, 2> turns{};  // Lengths of the turns.
@@ -187,7 +190,7 @@ class SharpWords {
 
   [[nodiscard]] Word At(double alpha) const { return At(alpha, Direction(0.5 * alpha)); }
 
-  /// Returns the word for `alpha`; `half` is the direction of alpha/2.
+  /// Returns the curve whose straight has the heading `alpha`; `half` is the direction of alpha/2.
   [[nodiscard]] Word At(double alpha, const Vec2& half) const {
     const ZeroTurn before = first_.Turn(first_side_, alpha, half);
     const ZeroTurn after = last_.Turn(last_side_, alpha, half);
@@ -205,9 +208,9 @@ class SharpWords {
     return word;
   }
 
-  /// Returns an upper bound of the straight's length u for all alpha between the words a and b. As
-  /// a function of alpha, the extent of a turn by at most pi is at least 0 and has a single
-  /// maximum.
+  /// Returns an upper bound of the straight's length u for all headings alpha between the curves a
+  /// and b. As a function of alpha, the extent of a turn by at most pi is at least 0 and has a
+  /// single maximum.
   [[nodiscard]] double MostStraight(const Word& a, const Word& b) const {
     if (!turn_by_at_most_pi_) {
       return kNoCurve;
@@ -217,21 +220,22 @@ class SharpWords {
     return most - std::min(a.along[0], b.along[0]) - std::min(a.along[1], b.along[1]);
   }
 
-  /// Returns whether the last turn lies behind the first turn for all alpha between two directions
-  /// at most half a turn apart. The straight then has a length u < 0 for all these alpha.
+  /// Returns whether the last turn lies behind the first turn for all headings alpha between two
+  /// directions at most half a turn apart. For such headings, the straight between the turns would
+  /// have a negative length.
   [[nodiscard]] bool AreBehind(const Vec2& from, const Vec2& to) const {
     return turn_by_at_most_pi_ && from.dot(apart_) < 0.0 && to.dot(apart_) < 0.0 &&
            Cross(from, to) >= 0.0;
   }
 
-  /// Returns a lower bound of the word's length for all alpha between the words a and b.
+  /// Returns a lower bound of the curve's length for all headings alpha between the curves a and b.
   [[nodiscard]] double LeastLength(const Word& a, const Word& b) const {
     return std::min(a.turns[0], b.turns[0]) + std::min(a.turns[1], b.turns[1]) - done_;
   }
 
-  /// Returns an upper bound of the change of the word's length per change of alpha. The bound is
-  /// the distance between the turns, plus the lengths of both turns beyond their extent along
-  /// alpha.
+  /// Returns an upper bound of the change of the word's length per change of the straight's heading
+  /// alpha. The bound is the distance between the turns, plus the lengths of both turns beyond
+  /// their extent in the direction alpha.
   [[nodiscard]] double MostLengthPerAngle() const {
     const auto radius = [](const TurnCircle& circle) {
       return std::hypot(circle.across, circle.along);
@@ -239,7 +243,8 @@ class SharpWords {
     return distance_ + 2.0 + radius(first_.circle()) + radius(last_.circle());
   }
 
-  /// Returns the magnitude below which f is a rounding error.
+  /// Returns the magnitude below which f(alpha), the lateral distance of both turns, is a rounding
+  /// error.
   [[nodiscard]] double rounding() const {
     return 4.0 * std::numeric_limits<double>::epsilon() * (1.0 + distance_);
   }
@@ -263,11 +268,12 @@ class SharpWords {
   bool turn_by_at_most_pi_ = false;
 };
 
-/// Searches for the alpha of the shortest word. Where the straight's length u is at least 0, f
-/// falls with alpha: f' = -u - g, with g > 0 due to the turns. A small turn adds a quarter of its
-/// length to g, and a full turn adds the constant `along` of its circle. Therefore f has at most
-/// one root in a range of alpha in which u >= 0. The search halves an interval of alpha until the
-/// bound on u shows that u < 0, or until the interval is small.
+/// Searches for the heading alpha of the straight in the shortest word. Where the straight's length
+/// u is at least 0, f falls with alpha: f' = -u - g, with g > 0 due to the turns. In the slope f',
+/// a small turn adds a quarter of its length to g, and a full turn adds the constant `along` of its
+/// circle. As f falls, it has at most one root in a range of alpha with a straight's length u >= 0.
+/// The search halves an interval of alpha until it is small, or until a bound shows that the
+/// straight's length u is negative.
 class AlphaSearch {
  public:
   AlphaSearch(const SharpWords& words, double limit) : words_(words), limit_(limit) {}
@@ -291,10 +297,10 @@ class AlphaSearch {
   using Word = SharpWords::Word;
 
   void Split(const Word& a, const Word& b) {
-    constexpr double kSpacing = 0.3;  // Spacing at which two roots are told apart [rad].
+    constexpr double kSpacing = 0.3;  // Smallest distance of distinct roots [rad].
     const double most = words_.MostStraight(a, b);
-    // The function f falls by at most `slope` per angle. The function f therefore has no root if it
-    // is too far above 0 at the first end, or too far below 0 at the last one.
+    // The function f falls by at most `slope` per angle. If f is too far above 0 at the first
+    // angle, or too far below 0 at the last angle, it has no root between these angles.
     const double slope = most + (a.slope - a.straight) + (b.slope - b.straight);
     const double fall = slope * (b.alpha - a.alpha);
     if (most < -kTurnRounding || a.across > fall || -b.across > fall ||
@@ -316,8 +322,9 @@ class AlphaSearch {
     if (is_solved || (a.straight < 0.0) == (b.straight < 0.0)) {
       return;
     }
-    // On the part of the cell where the straight has a length u >= 0, f falls. Therefore f may have
-    // a root on this part even if f has the same sign at both ends of the cell.
+    // The function f of alpha falls only on the part of the cell where the straight's length u is
+    // >= 0. Between the cell's end with u > 0 and the heading with u = 0, f may have a root even if
+    // f has the same sign at both ends of the cell.
     const Word& in = a.straight < 0.0 ? b : a;
     if ((&in == &a ? in.across : -in.across) <= 0.0) {
       return;
@@ -328,7 +335,7 @@ class AlphaSearch {
     }
   }
 
-  /// Returns the word between `a` and `b` whose straight has the length u = 0.
+  /// Returns the curve between the curves `a` and `b` whose straight has the length u = 0.
   [[nodiscard]] Word Edge(const Word& a, const Word& b) const {
     std::uintmax_t most = 60;
     const auto zero = boost::math::tools::toms748_solve(
@@ -337,9 +344,10 @@ class AlphaSearch {
     return words_.At(0.5 * (zero.first + zero.second));
   }
 
-  /// Solves f = 0 between two words by Newton steps, then secants, and by bisection where a step
-  /// leaves the bracket or shrinks it too slowly. Returns false if the straight has a negative
-  /// length at the root. Stops early for words that are longer than the limit.
+  /// Solves f(alpha) = 0 between the headings of two curves by Newton steps, then secants, and by
+  /// bisection where a step leaves the bracket or shrinks it too slowly. Returns false if the
+  /// straight has a negative length at the root. Stops early if the curve is longer than the length
+  /// limit.
   bool Solve(const Word& a, const Word& b) {
     double low = a.alpha;
     double high = b.alpha;
@@ -370,7 +378,7 @@ class AlphaSearch {
     return word.straight >= -kTurnRounding;
   }
 
-  /// Keeps the word if it is a root and the shortest one.
+  /// Keeps the word if it is a root of f(alpha) and the shortest word so far.
   void Take(const Word& word) {
     if (std::abs(word.across) <= kTurnRounding && word.straight >= -kTurnRounding &&
         word.length < limit_) {

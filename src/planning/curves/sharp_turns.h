@@ -6,18 +6,19 @@
 /// the arc has the smallest curvature that suffices.
 ///
 /// Symbols, in units of the smallest radius r: alpha is the heading of the straight, as seen from
-/// the start. A turn from curvature 0 to curvature 0 has the deflection a. In the direction of the
-/// turn's mean heading, its ends have the distance d(a). A turn from another curvature is the
-/// remainder of a turn from curvature 0. A word is a root of f(alpha), the distance between the two
-/// turns perpendicular to the straight. The turns depend continuously on alpha, and their lengths
-/// tend to 0 with a. Therefore no threshold has to distinguish nearly straight words.
+/// the start. A turn from curvature 0 to curvature 0 changes the heading by the deflection a. The
+/// ends of such a turn are the distance d(a) apart, in the direction of its mean heading. A turn
+/// that begins with another curvature is the last part of a turn that begins with curvature 0. A
+/// valid curve is a root of f(alpha), the distance between the two turns perpendicular to the
+/// straight. The turns depend continuously on the heading alpha, and their lengths tend to 0 with
+/// the deflection a. Nearly straight curves need no threshold or special case.
 namespace trackbed {
 
-/// Returns the shortest forward word of two sharpest turns from the origin with the curvature
-/// `start` to `goal`, if it is shorter than `limit`, else a curve of infinite length. The heading
-/// change of each turn differs by at most pi from the heading change of a turn that only
-/// straightens the wheels. The goal is in units of the smallest radius. Roots closer than 0.3 rad
-/// to each other may be missed.
+/// Returns the shortest forward curve turn-straight-turn of the largest sharpness, from the origin
+/// with the curvature `start` to `goal`. If no such curve is shorter than `limit`, returns a curve
+/// of infinite length. The heading change of each turn differs by at most pi from the heading
+/// change of a turn that only straightens the wheels. The goal is in units of the smallest radius.
+/// Of two curves whose straights differ in heading by less than 0.3 rad, the search may miss both.
 ShortestCurve SharpWord(const TurnCircle& circle, double start, const CurveState& goal,
                         double limit);
 

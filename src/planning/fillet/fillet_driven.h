@@ -11,7 +11,7 @@ namespace trackbed::fillet {
 
 /// Number of variables per turn in the joint search. The variables of turn k are the radius [m],
 /// the shift of the start of steering D_{2k-1}, and the change of the hold length D_2k - D_{2k-1}.
-/// The shift and the change of the hold length are expressed as fractions of the ramp length.
+/// The two steering variables (shift and change of hold length) are fractions of the ramp length.
 inline constexpr std::size_t kDrivenVariables = 3;
 
 /// Optimizes all variables of all turns jointly for the objective kDriven, starting at a plan with

@@ -16,8 +16,8 @@
 // Computes the limits of a turn's radius (Skackauskas, dissertation, eqs. (C.34) and (C.40)).
 // Equation C.34 limits the tangent length of the turn to half of the shorter adjacent leg. Equation
 // C.40 also reserves the distance that the car drives while its wheels turn (steering_room.h). If
-// no radius is permitted at the mission's speed, the options decide whether the turn gets a lower
-// speed, is refused, or is limited by equation C.34 alone.
+// no radius is permitted at the mission's speed, the planner's options decide what happens. The
+// turn gets a lower speed, is refused, or is limited only by its tangent length.
 
 namespace trackbed::fillet {
 namespace {
@@ -67,7 +67,7 @@ std::string DescribeShortLeg(const FilletTurn& turn, double radius, double min_t
   const double half_leg = 0.5 * turn.shorter_leg;
   const double per_leg = std::tan(0.5 * turn.interior_angle);
   const double millimeters = 1000.0 * half_leg * per_leg;
-  // Round the proposed radius down to millimeters, so that it is small enough.
+  // Round the proposed radius down to millimeters, so that its turn fits on the legs.
   const std::string remedy =
       half_leg * per_leg >= min_turning_radius
           ? fmt::format("set plan.radius to at most {:.10g}", 0.001 * std::floor(millimeters))
@@ -77,10 +77,11 @@ std::string DescribeShortLeg(const FilletTurn& turn, double radius, double min_t
       radius / per_leg, half_leg, remedy);
 }
 
-/// Returns the radii that equation C.40 permits. If equation C.40 permits no radius at the
-/// mission's speed, first raises the upper bound to the radius that leaves most room, at most to
-/// `largest`. If equation C.40 still permits no radius, lowers the speed of the turn. Returns none
-/// if only equation C.34 is to limit the radius.
+/// Returns the fillet radii at which the steering ramps fit on the legs (equation C.40). If no
+/// radius is permitted at the mission's speed, first raises the upper bound to the radius that
+/// leaves most room for steering, at most to `largest`. If the steering ramps still fit at no
+/// radius, lowers the speed of the turn. Returns nullopt if the options limit the radius only by
+/// the length of the legs (equation C.34).
 std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle, double speed,
                                                     const FilletOptions& options, double largest,
                                                     RadiusInterval& bounds, FilletTurn& turn) {
@@ -126,7 +127,8 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
     turn.note = fmt::format("{}; speed reduced to {:.4g} m/s", why, *slower);
     return room_at(*slower);
   }
-  // Equation C.40 reserves a whole ramp on the leg, although half of the ramp lies on the arc.
+  // The room condition (equation C.40) reserves a whole steering ramp on the leg, although half of
+  // the ramp lies on the arc.
   const double v = std::min(options.min_speed, speed);
   const auto room =
       SteeringRoomRadii(vehicle, 0.5 * v, turn.interior_angle, turn.shorter_leg, bounds);
@@ -144,7 +146,8 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
 
 /// Returns the amount by which the length S of the steering ramp to a radius exceeds the longest
 /// permitted length [m]. A steering ramp centered on the tangent point displaces the car from the
-/// arc by S^2/(24 r). The permitted displacement is a quarter of the car's width.
+/// arc by S^2/(24 r). A steering ramp may displace the car from the arc by a quarter of the car's
+/// width.
 double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double speed,
                   double radius) {
   const double travel = SteeringForCurvature(vehicle, 1.0 / radius) - NeutralTowardTurn(turn);
@@ -153,7 +156,8 @@ double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double s
 }
 
 /// Lowers the speed of a turn, at most to `min_speed`, until the steering ramp to the largest
-/// radius is short enough. Returns the radii that equation C.40 permits at the new speed.
+/// radius is short enough. Returns the radii at which the steering ramps fit on the legs at the new
+/// speed (equation C.40).
 RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions& options,
                                const RadiusInterval& bounds, const RadiusInterval& room,
                                FilletTurn& turn) {

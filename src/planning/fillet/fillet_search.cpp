@@ -52,7 +52,7 @@ std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan&
   return yaws;
 }
 
-/// Simulates the first run and returns each turn's window for the objective.
+/// Simulates the first run and returns the driven distance and heading change of each turn.
 std::vector<Window> FirstDrive(const VehicleParams& vehicle, const Route& route, double speed,
                                const FilletOptions& options, std::vector<FilletTurn> turns) {
   for (FilletTurn& turn : turns) {
@@ -106,7 +106,7 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
   search.result = Search(problem, options.search, seed);
   if (!search.result.ok()) {
     // The interval of feasible radii is too narrow for a search with constraints. Search between
-    // the known ends of the interval of feasible radii, without the constraint.
+    // the interval's known ends, without the constraint of feasible radii.
     problem.lower = {limits.radii.low};
     problem.upper = {limits.radii.high};
     search.result = Search(problem, options.search, seed);

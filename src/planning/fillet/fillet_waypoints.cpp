@@ -9,13 +9,13 @@
 #include "trackbed/planning/fillet/steering_room.h"
 
 // Leaves out waypoints between which no turn fits, such as points on a line that were rounded to
-// millimeters. The search of LeaveOutCloseWaypoints chooses the points. If the car slows down where
+// millimeters. LeaveOutCloseWaypoints chooses the points to leave out. If the car slows down where
 // turns lack room, a first pass leaves out waypoints that lie off a straight line only because of
-// rounded coordinates. The car would otherwise slow down at such waypoints. A second pass leaves
-// out waypoints at which no turn fits at all. The car begins in the direction of the first leg.
-// Therefore, if the first waypoint is too close to the start for a turn, the path continues
-// straight through this waypoint, and turns behind the waypoint. If the path leaves out the first
-// waypoint, it may turn on the first leg.
+// rounded coordinates. Without the first pass, the car would slow down at each waypoint that
+// rounding moved off a straight line. A second pass leaves out waypoints at which no turn fits at
+// all. The car begins in the direction of the first leg. If the first waypoint is too close to the
+// start for a turn, the path continues straight through this waypoint, and turns beyond it. If the
+// path leaves out the first waypoint, it may turn on the first leg.
 
 namespace trackbed::fillet {
 namespace {
@@ -65,8 +65,8 @@ bool PassesNear(const std::vector<Vec2>& points, const std::vector<Vec2>& waypoi
   });
 }
 
-/// Returns the numbers of the waypoints that are points of the route. An added point has the number
-/// of the first waypoint.
+/// Returns the numbers of the waypoints that are points of the route. A point that was added before
+/// the first waypoint has the number of the first waypoint.
 std::vector<int> NumbersOf(const std::vector<Vec2>& points, const std::vector<Vec2>& waypoints) {
   std::vector<int> numbers;
   std::size_t next = 0;
@@ -114,7 +114,7 @@ std::vector<Vec2> WithFewestTightCorners(const VehicleParams& vehicle, const Rou
     }
     std::vector<Vec2> fewer = LeaveOutCloseWaypoints(points, choice);
     const int tight = TightCorners(fewer, choice);
-    // With an added point, the path may lead back unless all corners fit.
+    // If the path with an added point has a corner that does not fit, the path may double back.
     const bool may_help = tight == 0 || distance == 0.0;
     if (tight < fewest && may_help && PassesNear(fewer, route.waypoints, choice.max_gap)) {
       best = std::move(fewer);
@@ -148,8 +148,8 @@ Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, do
   std::vector<Vec2> points = route.waypoints;
   double lowest = speed;
   if (options.without_room == InfeasibleTurnPolicy::kSlowDown) {
-    // Largest gap of a waypoint in the first pass, about the rounding error of coordinates in
-    // decimeters.
+    // Largest distance from the path to a waypoint that the first pass leaves out: about the
+    // rounding error of coordinates in decimeters.
     constexpr double kRounding = 0.25 * kUnnoticedShareOfWidth;
     points = WithFewestTightCorners(vehicle, route, points, choice_at(speed, kRounding));
     lowest = 0.5 * std::min(options.min_speed, speed);

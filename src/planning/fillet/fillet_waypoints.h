@@ -8,8 +8,9 @@ namespace trackbed::fillet {
 
 /// Leaves out waypoints if a turn has no room on its legs, and if the turns at the remaining
 /// waypoints have room. The remaining legs must pass each waypoint within a quarter of the car's
-/// width and FilletOptions::max_waypoint_miss. In all other cases, returns the route unchanged.
-/// Start, goal and the direction of the first leg stay the same.
+/// width and FilletOptions::max_waypoint_miss. If some turn would still lack room, or a leg would
+/// pass a waypoint too far away, returns the route unchanged. Start, goal and the direction of the
+/// first leg stay the same.
 Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, double speed,
                             const FilletOptions& options);
 

@@ -5,8 +5,9 @@
 
 #include "src/planning/fillet/feasible_root.h"
 
-// The function g(r) of equation C.40 has a single minimum, so the permitted radii form an interval
-// between two roots of g, which are found by the method TOMS 748.
+// Equation C.40 permits the fillet radii r at which the function g(r) is negative. As g has a
+// single minimum, these radii form an interval between two roots of g. The method TOMS 748 finds
+// the roots.
 
 namespace trackbed {
 namespace {
@@ -71,8 +72,8 @@ std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, do
 std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
                                         double shorter_leg, RadiusInterval bounds,
                                         SpeedInterval speeds, double neutral) {
-  // The smallest value of g(r) over all radii r grows with the speed, so its root is the highest
-  // permitted speed.
+  // The smallest value over all radii r of g(r) (equation C.40) grows with the speed; where it is
+  // 0, the speed is the highest permitted one.
   const auto least = [&](double speed) {
     const double r = RoomiestRadius(vehicle, speed, interior_angle, neutral, bounds);
     return SteeringRoom(vehicle, speed, interior_angle, shorter_leg, neutral, r);

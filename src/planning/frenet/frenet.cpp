@@ -44,7 +44,7 @@ std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOpt
 }
 
 /// Returns a motion at constant speed and constant offset that begins at the end of a piece and
-/// lasts until the horizon. Returns none if the piece itself lasts until the horizon.
+/// lasts until the horizon. Returns nullopt if the piece already lasts until the horizon.
 std::optional<FrenetPiece> Extrapolate(const FrenetPiece& piece, double horizon) {
   if (!(horizon > piece.duration)) {
     return std::nullopt;

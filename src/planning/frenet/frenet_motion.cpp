@@ -11,7 +11,7 @@ namespace {
 /// Minimum distance between two points that form a path segment [m].
 constexpr double kMinSegmentLength = 1e-3;
 
-/// Returns the number of equal time intervals into which a piece is divided. Returns none if the
+/// Returns the number of equal time intervals into which a piece is divided. Returns nullopt if the
 /// Frenet frame does not exist at a point of the motion.
 std::optional<int> CountIntervals(const Path& path, const FrenetPiece& piece, double time_step,
                                   double spacing) {

@@ -116,7 +116,7 @@ class Lattice {
     node.target.speed = wanted_speed;
   }
 
-  /// Returns the motion between two nodes; none if the car would stand still or move backward.
+  /// Returns the motion between two nodes; nullopt if the car would stand still or move backward.
   [[nodiscard]] std::optional<FrenetPiece> Between(const FrenetState& from,
                                                    const FrenetState& to) const {
     const double way = to.s - from.s;
@@ -198,8 +198,9 @@ class Lattice {
     return static_cast<std::ptrdiff_t>(layers_[layers_.size() - 2]);
   }
 
-  /// Checks the cheapest path in full. If the path passes the check, stores it as the result;
-  /// otherwise bans the failed edge and returns the layer in which this edge ends.
+  /// Checks the cheapest path of the lattice against all limits. If the path passes the check,
+  /// stores it as the result; otherwise bans the failed edge and returns the layer in which this
+  /// edge ends.
   std::size_t Finish(const TrajectoryCheck& check) {
     const auto end = std::min_element(nodes_.begin() + Last(), nodes_.end(),
                                       [](const Node& a, const Node& b) { return a.cost < b.cost; });

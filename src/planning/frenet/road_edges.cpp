@@ -21,8 +21,8 @@ struct SidePoint {
 constexpr int kPointsPerSide = 5;  // number of points on each long side of the footprint
 using SidePoints = std::array<SidePoint, 2 * kPointsPerSide>;
 
-/// Returns points on both long sides of the footprint. Returns none if a point lies at or beyond
-/// the path's center of curvature.
+/// Returns points on both long sides of the footprint. Returns nullopt if a point of the footprint
+/// lies at or beyond the path's center of curvature.
 std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
                                   const FrenetState& frenet) {
   const double k = at.curvature;
@@ -40,10 +40,10 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
     if (to_center <= 0.0) {
       return std::nullopt;
     }
-    // On a path of curvature k, a point has the offset d = (1 - sqrt((k ahead)^2 + (1 - k
-    // aside)^2))/k relative to the rear axle. Relative to the rear axle, the point (ahead, aside)
-    // has the station s = atan(k ahead/(1 - k aside))/k. The code evaluates the equations for d and
-    // s in forms that also hold for k = 0.
+    // On a path of curvature k, the point (ahead, aside) relative to the rear axle has the offset d
+    // = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k. Relative to the rear axle, the point (ahead,
+    // aside) has the station s = atan(k ahead/(1 - k aside))/k. The code evaluates the equations
+    // for d and s in forms that also hold for k = 0.
     const double turned = k * ahead / to_center;
     constexpr double kSmall = 1e-6;
     const double along = std::abs(turned) < kSmall ? ahead / to_center : std::atan(turned) / k;

@@ -105,8 +105,8 @@ TrajectoryCheck::Reach TrajectoryCheck::ComputeReach(const PathPoint& at,
     for (const double y : {-0.5 * car.width, 0.5 * car.width}) {
       const double ahead = x * cosine - y * sine;
       const double aside = frenet.d + x * sine + y * cosine;
-      // The offset is d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k; the code uses a form that
-      // also holds for k = 0.
+      // On a path of curvature k, the point (ahead, aside) of the footprint has the offset d = (1 -
+      // sqrt((k ahead)^2 + (1 - k aside)^2))/k. The code uses a form that also holds for k = 0.
       const double to_center = 1.0 - k * aside;
       const double d = (2.0 * aside - k * (aside * aside + ahead * ahead)) /
                        (1.0 + std::sqrt(k * ahead * k * ahead + to_center * to_center));

@@ -34,7 +34,8 @@ class TrajectoryCheck {
   TrajectoryCheck(const Path& path, const FrenetRequest& request, const FrenetLimits& limits,
                   double to);
 
-  /// Returns the reason why no motion is possible from the start; none if a motion may be possible.
+  /// Returns the reason why no motion is possible from the start; nullopt if a motion may be
+  /// possible.
   [[nodiscard]] const std::optional<std::string>& blocked() const { return blocked_; }
 
   /// Checks a piece of a motion that begins `time` [s] after the start, at samples every
@@ -45,7 +46,7 @@ class TrajectoryCheck {
     Rejection rejection;
     double time;  ///< [s]
   };
-  /// Returns the first violation of a limit in a motion; none if all points satisfy the limits.
+  /// Returns the first violation of a limit in a motion; nullopt if all points satisfy the limits.
   [[nodiscard]] std::optional<Flaw> CheckFinely(const std::vector<TrajectoryPoint>& points) const;
 
  private:

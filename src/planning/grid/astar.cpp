@@ -120,8 +120,8 @@ constexpr std::size_t kPocket = 64;
 
 /// Returns the number of cells that are reachable from `cell`, or 0 if `other` is reachable or more
 /// than kPocket cells are reachable. PocketSize takes only microseconds and detects an enclosed
-/// start or goal. Without this check, the search could expand all other cells before finding that
-/// the goal is unreachable.
+/// start or goal. Without this check for an enclosed goal, the search could expand all other cells
+/// before finding that the goal is unreachable.
 std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t other) {
   const auto free = [&](int x, int y) {
     return x >= 0 && y >= 0 && x < grid.columns && y < grid.rows &&

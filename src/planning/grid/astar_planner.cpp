@@ -15,9 +15,9 @@
 #include "trackbed/planning/grid/astar.h"
 
 // Plans leg by leg with A* on a grid (Hart, Nilsson and Raphael 1968), straightens each leg, and
-// rounds its corners. The first path begins at the car's position. If this path does not begin
+// rounds its corners. The first path begins at the car's position. If the first path does not begin
 // along the car's heading or is not feasible, other paths begin with straights and turns from the
-// car, and the search continues at their ends.
+// car. The search continues at the ends of these initial parts.
 
 namespace trackbed {
 namespace {
@@ -41,9 +41,9 @@ PlanStatus ToPlanStatus(GridStatus status) {
   return PlanStatus::kNoPath;
 }
 
-/// Returns half the diagonal of a cell [m], by which obstacles are additionally inflated. Due to
-/// this additional inflation, free cells and the lines between the centers of free cells keep the
-/// required distance from obstacles.
+/// Returns half the diagonal of a cell [m], by which obstacles are additionally inflated. With
+/// obstacles inflated by this half diagonal, free cells and the lines between their centers keep
+/// the required distance from obstacles.
 double CellInflation(const AStarOptions& options) {
   return 0.5 * std::sqrt(2.0) * options.cell;
 }

@@ -67,8 +67,9 @@ double ClothoidCosts::Of(const Segment& before, const Segment& segment, bool is_
       const double other = std::min(SpeedOn(before), v);
       const double fast = std::max(w, other);
       const double slower = fast - std::min(w, other);
-      // A car that slows down speeds up again later. Slowing down and speeding up cost the same:
-      // the mean of the time lost by braking and the time lost by accelerating.
+      // A car that slows down on a segment speeds up again later, which takes time, too. Slowing
+      // down and speeding up cost the same: the mean of the time lost by braking and the time lost
+      // by accelerating.
       const double per_acceleration = 0.5 / drive_.acceleration + 0.5 / drive_.deceleration;
       cost += 0.5 * slower * slower * per_acceleration * v / fast;
     }

@@ -23,7 +23,7 @@ class ClothoidCosts {
   /// Returns the cost of a segment after the segment `before`, which is empty at the start [m].
   [[nodiscard]] double Of(const Segment& before, const Segment& segment, bool is_reverse) const;
 
-  /// Returns the largest sharpness at a speed [1/m^2].
+  /// Returns the largest sharpness of a clothoid at a speed [1/m^2].
   [[nodiscard]] double SharpnessAt(double speed) const;
 
   /// Returns the speeds for which clothoids are made, fastest first [m/s].
@@ -32,8 +32,8 @@ class ClothoidCosts {
   /// Returns the largest curvature at a speed [1/m].
   [[nodiscard]] double CurvatureAt(double speed) const;
 
-  /// Returns whether a car that rolls at the start has room to slow down for a segment which begins
-  /// `length` m behind the start.
+  /// Returns whether a car that rolls at the start has room to slow down for a segment that begins
+  /// `length` m after the start.
   [[nodiscard]] bool BrakesFor(const Segment& segment, double length) const;
 
  private:

@@ -7,15 +7,16 @@
 #include "src/planning/grid/pose_tree.h"
 #include "trackbed/planning/curves/continuous_curvature.h"
 
-// The curvature belongs to the state of the search. The five values of the curvature, the levels,
-// are multiples of 1/(2r); the start of a rolling car may have another curvature. A step is an arc
-// of the present curvature, or a clothoid to the next level on either side. The sharpness of a
-// clothoid is the largest one at one of a few speeds. With cusp steps, the first arc behind a cusp
-// may have any level.
+// Each state of the search includes the path's curvature. The five values of the curvature, the
+// levels, are multiples of 1/(2r); the start of a rolling car may have another curvature. A step is
+// an arc of the present curvature, or a clothoid to the next level on either side. Each clothoid
+// has the largest sharpness for one of a few speeds. If the curvature may step at cusps, the first
+// arc after a cusp may have any level of curvature.
 //
-// The curves to the goal are words of continuous curvature. Successive attempts to reach the goal
-// try the words for one speed after another. Only the first attempt tries the words for all speeds;
-// without obstacles, no further attempt is needed.
+// The last curve of a path, which ends at the goal, is a Dubins or Reeds-Shepp word of continuous
+// curvature. Successive attempts to reach the goal try the curves for one speed after another. Only
+// the first attempt tries the curves for all speeds; without obstacles, no further attempt is
+// needed.
 
 namespace trackbed {
 namespace {
@@ -98,7 +99,7 @@ class ClothoidSearch final : public PoseTree {
     return steps;
   }
 
-  /// Adds the clothoids from a node to a curvature.
+  /// Calls `add` with the clothoids that lead from a node to the given curvature.
   template <typename Add>
   void AddClothoids(const Node& node, int direction, double curvature, const Add& add) const {
     const double change = curvature - node.curvature;
@@ -144,7 +145,7 @@ class ClothoidSearch final : public PoseTree {
     return static_cast<std::uint64_t>(std::clamp(level, -3, 3) + 3);
   }
 
-  /// Returns the words between two states, as segments of the path.
+  /// Returns the candidate curves (words) between two states, as path segments.
   [[nodiscard]] std::vector<std::vector<Segment>> Words(const ContinuousCurves& curves,
                                                         const CurveState& from,
                                                         const CurveState& to) const {
@@ -158,7 +159,8 @@ class ClothoidSearch final : public PoseTree {
       add(options_.curvature == CurveCurvature::kCuspSteps ? curves.HybridReedsSheppWords(from, to)
                                                            : curves.ReedsSheppWords(from, to));
     } else {
-      // The words with cusps from and to curved states are many, and need much time.
+      // Between states of nonzero curvature, there are many curves with cusps, which need much
+      // time.
       add(curves.DubinsWords(from, to));
       for (const ShortestCurve& word : curves.DubinsWords(to, from)) {
         words.push_back(Reversed(ToSegments(word)));

@@ -16,12 +16,11 @@
 
 // Runs hybrid A* at the requested resolution and, if this finds no path, at a fixed series of
 // resolutions from coarse to fine. Coarse bins lose narrow maneuvers; fine bins use up the budget
-// in wide areas. The series of resolutions depends on the turning radius alone. A path that the
-// series finds is therefore found for every `cell` and for every number of `headings`. At each
-// resolution of the series, one search from the start and one search from the goal advance in turn.
-// If one of the two searches has expanded all its poses, the next resolution follows. A tight gap
-// around the goal is thus detected from inside within few poses, while a search from the start
-// would expand the whole area.
+// in wide areas. The series of resolutions depends on the turning radius alone, so its paths do not
+// depend on the options `cell` and `headings`. At each resolution of the series, one search from
+// the start and one search from the goal advance in turn. If one of the two searches has expanded
+// all its poses, the next resolution follows. The search from the goal detects a tight gap around
+// the goal within few poses, while a search from the start would expand the whole area.
 
 namespace trackbed {
 namespace {
@@ -70,8 +69,8 @@ class Searches {
       return Enclosed();
     }
     const auto search = MakePoseSearch(Space(), Requested(), SearchSide::kStart, to_goal);
-    // The series of resolutions gets half of the budget. The result of the series therefore does
-    // not depend on the number of poses that the search at the requested resolution expands.
+    // The series of resolutions has half of the budget for itself. Its result does not depend on
+    // the number of poses that the search at the requested resolution expands.
     const int for_series = options_.budget / 2;
     const bool goal_in_gap = SearchWhileGoalIsOpen(*search, grid, options_.budget - for_series);
     const bool series_ended = !search->has_path() && RunSeries(for_series);
@@ -126,9 +125,9 @@ class Searches {
   }
 
   /// Makes a grid in which a cell is occupied if the rear-axle center cannot be at any point of the
-  /// cell. Every point of an occupied cell is closer to an obstacle than the permitted minimum. The
-  /// permitted minimum is the distance from the rear-axle center to the nearest side of the
-  /// footprint, plus the required distance.
+  /// cell. Every point of an occupied cell is too close to an obstacle. The minimum distance of the
+  /// rear-axle center is its distance to the nearest side of the footprint, plus the required
+  /// clearance.
   [[nodiscard]] std::shared_ptr<const OccupancyGrid> MakeGrid(double cell) const {
     const auto inflated_by = [&](double distance) {
       return std::max(clear_.inner_radius() + distance - 0.5 * std::sqrt(2.0) * cell, 0.0);
@@ -152,8 +151,9 @@ class Searches {
   }
 
   /// Advances a search from the start until it ends, or until it has expanded `most` poses. Stops
-  /// and returns true if the goal is in a gap. A gap is detected if a search from the goal, at the
-  /// requested resolution, expands all its poses before the search from the start finds a path.
+  /// and returns true if the goal is in an enclosed gap. The goal is in such a gap if a search from
+  /// the goal, at the requested resolution, expands all reachable poses before the start's search
+  /// finds a path.
   [[nodiscard]] bool SearchWhileGoalIsOpen(PoseSearch& search,
                                            const std::shared_ptr<const OccupancyGrid>& grid,
                                            int most) const {

@@ -54,7 +54,7 @@ struct Route {
   CollisionChecker clear;
 };
 
-/// Returns how the leg behind stop `i` begins if no obstacle is in its way.
+/// Returns the initial curvature of the leg after stop `i`, if no obstacle is in its way.
 PathBend BendAfter(const Route& route, std::size_t i) {
   if (i + 1 == route.stops.size()) {
     return {};
@@ -131,7 +131,8 @@ HybridAStarResult FirstRollingLeg(const Route& route) {
   return found;
 }
 
-/// Returns how the car drives a path of continuous curvature through the stops of a request.
+/// Returns the speeds and limits with which the car drives a path of continuous curvature through
+/// the stops of a request.
 ClothoidDrive DriveOf(const HybridAStarOptions& options, const PlanRequest& request) {
   const VehicleParams& car = request.vehicle;
   ClothoidDrive drive{.speed = std::max(request.speed.speed, options.min_speed),
@@ -144,7 +145,7 @@ ClothoidDrive DriveOf(const HybridAStarOptions& options, const PlanRequest& requ
   return drive;
 }
 
-/// Returns how the car drives the leg to stop `i`.
+/// Returns the speeds and limits with which the car drives the leg to stop `i`.
 ClothoidDrive DriveOfLeg(ClothoidDrive drive, const PlanRequest& request, std::size_t i,
                          std::size_t stops) {
   drive.rests_at_start = i == 1 && request.start_speed == 0.0;

@@ -27,7 +27,8 @@ class GridDistance {
   std::vector<double> distances_;  // Distances to the target, in side lengths of a cell.
 };
 
-/// Bins and steps of a search. The search keeps one pose for each bin of position and heading.
+/// Resolution of a search: its bins of poses, and its steps between poses. The search keeps one
+/// pose for each bin of position and heading.
 struct Resolution {
   double cell = 0.0;  ///< Side length of a position bin [m].
   int headings = 0;   ///< Number of heading bins per full turn.
@@ -35,7 +36,8 @@ struct Resolution {
 
   /// Returns the resolution with the shortest arcs that leave their bins: every arc is longer than
   /// a cell's diagonal, and the sharpest arc turns by a heading bin. Shorter arcs would end in the
-  /// bins of straight lines. The search would drop such arcs, because straight lines cost less.
+  /// same bins as straight lines. In each bin (grid cell and heading), the search keeps only the
+  /// cheapest pose, and a straight line costs less than an arc.
   static Resolution WithBins(double cell, int headings, double radius);
 };
 

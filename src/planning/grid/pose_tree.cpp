@@ -71,7 +71,7 @@ void PoseTree::Advance() {
       Expand(index, node, ++expansions_);
       return;
     }
-    // The search has since found a cheaper path to this cell.
+    // Skip the node: the search has since found a cheaper path to this cell.
   }
 }
 

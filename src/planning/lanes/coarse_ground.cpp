@@ -11,8 +11,8 @@ std::size_t Index(const HeightGrid& grid, int column, int row) {
          static_cast<std::size_t>(column);
 }
 
-/// Returns a height grid of half the resolution. Each height is the mean of up to four known
-/// heights of the original grid.
+/// Returns a height grid of half the resolution. Each height of the coarse grid is the mean of up
+/// to four known heights of the original grid.
 HeightGrid Halved(const HeightGrid& grid) {
   HeightGrid half{.columns = (grid.columns + 1) / 2, .rows = (grid.rows + 1) / 2, .heights = {}};
   for (int row = 0; row < half.rows; ++row) {

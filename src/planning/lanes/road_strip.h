@@ -23,7 +23,7 @@ class RoadStrip {
     double straight_on = 0.0;  ///< Part of `beyond` that lies on the straight extension of the road
                                ///< [m].
     /// Factor from 0 to 1 by which the height `z` counts in the mean height of nearby strips.
-    /// The factor falls to 0 toward the road's center of curvature.
+    /// The weight factor of a strip falls to 0 toward the road's center of curvature.
     double share = 1.0;
   };
 
@@ -32,8 +32,8 @@ class RoadStrip {
   /// [m] after the strip. The road must outlive the strip.
   RoadStrip(const Road& road, double from, double to, double before, double after);
 
-  /// Finds the place on the surface below a point. Returns none for a point near or beyond the
-  /// road's center of curvature.
+  /// Finds the place on the road surface below a point. Returns nullopt for a point near or beyond
+  /// the road's center of curvature.
   [[nodiscard]] std::optional<Place> Locate(const Vec2& point_W) const;
 
   [[nodiscard]] const Road& road() const { return *road_; }

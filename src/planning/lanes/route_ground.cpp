@@ -16,7 +16,7 @@
 #include "trackbed/core/error.h"
 
 // Makes a smooth terrain from the road surfaces along a route. First, the algorithm cuts the
-// required stretches of road, extended at both ends, into short strips. Then a coarse terrain
+// required stretches of road, extended at both ends, into short strips. A coarse terrain
 // interpolates the heights of points on the lanes. Away from the lanes, the terrain slopes to a
 // level border. Blocks of the terrain near the roads are refined: on a lane, the terrain has the
 // height of this lane. Beside lanes, the terrain has the mean height of the lanes, weighted by
@@ -159,8 +159,8 @@ class Surfaces {
     return blend;
   }
 
-  /// Returns the place with the largest height difference between two lanes. Returns none if all
-  /// differences are at most 0.1 m, which may be inaccuracies of the map.
+  /// Returns the place with the largest height difference between two lanes. Returns nullopt if all
+  /// height differences are at most 0.1 m, which may be inaccuracies of the map.
   [[nodiscard]] const std::optional<Crossing>& crossing() const { return crossing_; }
 
  private:
@@ -209,8 +209,8 @@ double ShareInside(const Terrain::Size& size, int column, int row) {
   return u * u * (3.0 - 2.0 * u);
 }
 
-/// Makes the coarse terrain, before blocks are refined. Returns none if the terrain would be too
-/// large.
+/// Makes the coarse terrain, before blocks are refined. Returns nullopt if the coarse terrain would
+/// be too large.
 std::optional<Terrain> CoarseTerrain(const std::vector<RoadStrip>& strips) {
   std::vector<RoadPosition> points;
   for (const RoadStrip& strip : strips) {

@@ -10,13 +10,15 @@
 // 1. CapsOf limits the speed between two points to the mean of their speeds.
 // 2. The car of the file stands at points with the speed 0, and at places within max_deviation
 //    where it stays so long that its mean speed is below kMinSpeed.
-// 3. The duration of a standstill is the time at these points, plus the part of the steps before
-//    and after that is longer than starting and braking take (StandingPart).
+// 3. The duration of a standstill is the time from its first to its last point, plus a part of the
+//    steps before and after. Of a step, only the time counts that braking or starting does not need
+//    (StandingPart).
 // 4. AddStops adds a stop at each standstill, and a wait if the file has times.
 namespace trackbed {
 namespace {
 
-// Lower bound of the speed caps [m/s]. Next to a stop, the mean of the file's speeds may be lower.
+// Lower bound of the speed caps [m/s]. Next to a stop, the mean of the file's speeds may be lower
+// than this bound.
 constexpr double kMinSpeed = 0.1;
 
 // Ratio of the length of the path through some points to the distance between the first and the
@@ -48,8 +50,8 @@ struct Standstill {
   double duration = 0.0;  // Duration of the standstill [s]; 0 if the file has no times.
 };
 
-/// Returns the runs of points at which the speed in the file is 0. Runs that lie within
-/// max_deviation of each other are joined to one run.
+/// Returns the runs of points at which the speed in the file is 0. Standstills that lie within
+/// max_deviation of each other are joined to one standstill.
 std::vector<Standstill> PointsWithoutSpeed(const FittedPath& fitted) {
   const std::vector<double>& speed = fitted.given.speed;
   const std::vector<double>& s = fitted.stations;
@@ -68,10 +70,11 @@ std::vector<Standstill> PointsWithoutSpeed(const FittedPath& fitted) {
   return found;
 }
 
-/// Returns the part of the time step between point i, at which the car stands, and its neighbor j
-/// for which the car stands [s]. A car that starts at constant acceleration a reaches the speed v
-/// after the distance d = v^2/(2 a) and the time 2 d/v; at constant jerk, after 3 d/v. If the time
-/// step is at most 3 d/v, up to rounding of the file, the car does not stand.
+/// Returns for how long the car stands during the time step between the points i and j [s]. The car
+/// stands at point i and moves at its neighbor j. A car that starts at constant acceleration a
+/// reaches the speed v after the distance d = v^2/(2 a) and the time 2 d/v; at constant jerk, after
+/// 3 d/v. A time step of at most 3 d/v, up to rounding of the file, counts as pure starting without
+/// standing.
 double StandingPart(const FittedPath& fitted, std::size_t i, std::size_t j) {
   const double step = std::abs(fitted.given.time[j] - fitted.given.time[i]);
   const double distance = std::abs(fitted.stations[j] - fitted.stations[i]);
@@ -94,7 +97,7 @@ std::vector<Standstill> SlowPlaces(const FittedPath& fitted) {
   };
   std::vector<Standstill> found;
   Standstill joined{0, 0};   // Union of the present window and all earlier windows that overlap it.
-  Standstill longest{0, 0};  // Longest of the windows in `joined`.
+  Standstill longest{0, 0};  // Longest window of standing that is part of `joined`.
   const auto finish = [&] {
     const bool creeps = (joined.first > 0 && !is_fast(joined.first - 1)) ||
                         (joined.last + 1 < t.size() && !is_fast(joined.last));
@@ -248,7 +251,8 @@ std::vector<Problem> FileSpeedProblems(const FittedPath& fitted, const std::stri
   const PathPoints& given = fitted.given;
   std::vector<Problem> problems;
   for (const auto& [first, last, duration] : PointsWithoutSpeed(fitted)) {
-    // Points that are closer than the fit resolves are one place, at which the car stands.
+    // Points that are closer together than the fit resolves count as one place, at which the car
+    // stands.
     const double extent = fitted.stations[last] - fitted.stations[first];
     if (extent > fitted.options.max_deviation) {
       const double noise = NoiseOf(given, first, last);

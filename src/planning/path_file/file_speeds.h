@@ -22,18 +22,18 @@ std::vector<Problem> FileSpeedProblems(const FittedPath& fitted, const std::stri
 std::optional<double> FileStartSpeed(const FittedPath& fitted);
 
 /// Adds to the plan the speed caps, stops, waits and notes that follow from the file's speeds and
-/// times. The plan must have the stops that its curvature needs. A car that starts at `start_speed`
-/// [m/s] above 0 does not wait at the start.
+/// times. The plan must already contain the stops at curvature steps and cusps. A car that starts
+/// at `start_speed` [m/s] above 0 does not wait at the start.
 ///
 /// Between two points, the cap is the mean of the speeds at these points. The car may start faster
 /// than the file's speeds, and then slows down at the mission's deceleration.
 ///
 /// The car stops where the file's speed is 0. If the file has times, the car waits at a stop for as
 /// long as the file's car stands. The duration of a standstill is the time from the first to the
-/// last point with the speed 0. Added to this duration is the part of the previous and the next
-/// step that the file's car does not need to brake and to start. In a recording with noise, the
-/// file's car also stands where it stays within PathFitOptions::max_deviation for longer than a car
-/// at 0.1 m/s would.
+/// last point with the speed 0. The wait also includes any time of the adjacent steps that the
+/// file's car does not need to brake and to start. In a recording with noise, the file's car also
+/// stands where it stays within PathFitOptions::max_deviation for longer than a car at 0.1 m/s
+/// would.
 void FollowFileSpeeds(Plan& plan, const FittedPath& fitted, double start_speed);
 
 }  // namespace trackbed

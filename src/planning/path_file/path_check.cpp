@@ -115,7 +115,7 @@ std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, double slo
 }
 
 /// Returns the largest slope |d delta/ds| of the steering angle on a piece [rad/m]. On tight bends,
-/// the slope varies within a piece. The function therefore samples the slope each time the steering
+/// the slope varies within a piece. The function samples this steering slope each time the steering
 /// has turned by about 0.02 rad.
 double SteepestSlope(const Path& path, const PathPiece& piece, const VehicleParams& vehicle) {
   constexpr double kTurn = 0.02;  // [rad]
@@ -177,7 +177,7 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
   const double spacing = std::max(kSpacing, path.length() / kMaxPieces);
   ForEachPiece(path, spacing, [&](const PathPiece& piece) {
     // Where an arc replaces a heading jump, report the jump instead of the arc's curvature. The
-    // arc's curvature depends on the spacing of the points in the file and not on the intended
+    // curvature of such an arc depends on the spacing of the file's points and not on the intended
     // path.
     while (jump != jumps.end() && jump->rounded.to <= piece.stations.from + 1e-9) {
       ++jump;

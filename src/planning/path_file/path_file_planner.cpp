@@ -25,7 +25,7 @@
 namespace trackbed {
 namespace {
 
-// Lowest speed of the car at a step of curvature [m/s], as of the curve planners.
+// Lowest speed of the car at a curvature step [m/s], equal to that of the curve planners.
 constexpr double kMinStepSpeed = 0.3;
 
 bool HasReversePieces(const Path& path) {
@@ -48,8 +48,8 @@ bool HasCurvatureSteps(const Path& path) {
 }
 
 /// Makes the steering schedule of the fitted path. On a path with continuous curvature and no
-/// heading jumps, the steering schedule follows the curvature. At a cusp, the wheels turn within
-/// the last micrometer.
+/// heading jumps, the steering schedule follows the curvature. In the schedule, the wheels turn
+/// within the last micrometer before a cusp.
 SteeringSchedule ScheduleOf(const FittedPath& fitted, const PlanRequest& request,
                             const std::vector<SpeedCap>& caps, const std::vector<double>& stops) {
   const Path& path = fitted.path;

@@ -23,7 +23,7 @@ GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide si
   const double below = std::max(0.0, sine - kStep);
   const double above = std::min(1.0, sine + kStep);
   // At the angle q, the boundary (f_y, f_x) = (lateral cos q, F(sin q)) has the normal vector (F'
-  // cos q, lateral sin q).
+  // cos q, lateral sin q). F is the longitudinal force, and `lateral` the maximum of f_y.
   const double rise = std::max(0.0, (force_at(above) - force_at(below)) / (above - below));
   double across = rise * std::cos(angle);
   double along = lateral * sine;

@@ -76,7 +76,8 @@ LapModel::Turn LapModel::TurnAt(const Lap& lap, std::size_t i, double speed) con
 double LapModel::SpeedOfTurn(const Lap& lap, std::size_t i) const {
   const double from = lap.curvature[i];
   const double to = lap.curvature[After(i)];
-  // Beyond the lateral grip, the brush model does not slip more, and the car cannot drive anyway.
+  // Beyond the lateral grip, the slip of the brush tyre model no longer grows, and the car cannot
+  // drive anyway.
   const double sharpest = std::max(std::abs(from), std::abs(to));
   const double most =
       sharpest * fastest_ * fastest_ > lateral_ ? std::sqrt(lateral_ / sharpest) : fastest_;

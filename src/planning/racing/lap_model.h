@@ -46,8 +46,8 @@ class LapModel {
     /// Mean steering rate, as a fraction of the rate that the lap may use, with the sign of the
     /// change of the steering angle.
     double ratio = 0.0;
-    double by_from = 0.0;   ///< Derivative of the steering-rate ratio by the curvature i [m].
-    double by_to = 0.0;     ///< Derivative of the steering-rate ratio by the curvature i + 1 [m].
+    double by_from = 0.0;   ///< Derivative of steering-rate ratio by kappa at station i [m].
+    double by_to = 0.0;     ///< Derivative of steering-rate ratio by kappa at station i + 1 [m].
     double by_speed = 0.0;  ///< Derivative of the steering-rate ratio by the speed [s/m].
   };
   /// Computes the steering between the stations i and i + 1 of a lap at the given speed [m/s], on
@@ -59,8 +59,9 @@ class LapModel {
   [[nodiscard]] double UsableRate() const;
   /// Returns the steering angle of the car at a station of the lap, at the given speed [rad].
   [[nodiscard]] double SteeringAt(double curvature, double speed) const;
-  /// Returns the largest speed at which the ratio of TurnAt has at most the magnitude 1. Returns
-  /// fastest() if the steering rate suffices at all speeds within the lateral grip.
+  /// Returns the highest speed at which the steering-rate ratio of TurnAt has at most the magnitude
+  /// 1. Returns the top speed fastest() if the steering rate limits no speed within the lateral
+  /// grip.
   [[nodiscard]] double SpeedOfTurn(const Lap& lap, std::size_t i) const;
 
   LapLimits limits_;

@@ -11,8 +11,8 @@
 // the relative changes of the squared speeds. The objective is the lap time, to second order in
 // speeds and lengths. The constraints (rows) of the quadratic program limit offsets, steps,
 // curvature, steering rate, lateral force, and the forces of motor and brakes. Further constraints
-// are tangents to the g-g-v boundary of the tyres. The boundary's curvature at active tangents
-// enters the Hessian, weighted by the multipliers of the previous program.
+// are tangents to the g-g-v boundary of the tyres. The curvature of the g-g-v boundary at active
+// tangents enters the Hessian, weighted by the multipliers of the previous program.
 
 namespace trackbed {
 namespace {
@@ -21,8 +21,8 @@ namespace {
 /// actual bounds are far smaller.
 constexpr double kUnbounded = 50.0;
 /// Value of the argument `keep` of AddCut with which no cut (linear inequality) is skipped. No cut
-/// may be skipped if a braking point may move along a straight, so that intervals change from
-/// driving to braking.
+/// (linear inequality) may be skipped if a braking point may move along a straight, so that
+/// intervals change from driving to braking.
 constexpr double kKeepAlways = kUnbounded;
 constexpr double kMinRange = 1e-9;  // Minimum difference between upper and lower bound of a row.
 
@@ -66,8 +66,8 @@ void LapProgram::Form::Add(const Form& other, double factor) {
   }
 }
 
-/// Returns the linearized change of a function of d, d' and d'' at the station i. The vector `by`
-/// holds the derivatives of the function by d, d' and d''.
+/// Returns the linearized change of a function of the line's offset d, d' and d'' at the station i.
+/// The vector `by` holds the function's partial derivatives by d, d' and d''.
 LapProgram::Form LapProgram::OffsetForm(std::size_t i, const Eigen::Vector3d& by) const {
   Form form;
   for (std::size_t k = 0; k < ClosedSplineBasis::kSupport; ++k) {
@@ -121,7 +121,7 @@ void LapProgram::AddRow(const Form& form, double lower, double upper) {
 /// speeds and lengths.
 void LapProgram::AddTime(const Lap& lap) {
   const std::size_t count = model_.count();
-  std::vector<double> pace(count);  // derivative of the lap time with respect to the stretch at
+  std::vector<double> pace(count);  // derivative of the lap time by the line's stretch factor at
                                     // each station [s]
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t next = model_.After(i);
@@ -235,7 +235,7 @@ void LapProgram::AddLateral(const Lap& lap, std::size_t i) {
 /// `interval`, for the limits at the interval's end `at`. The argument `bound_rate` is the
 /// derivative of the cut's margin, at constant forces, by the relative change of the squared speed
 /// w. Skips the cut if the lap satisfies it with a margin of more than `keep`. Returns whether the
-/// row was added.
+/// program got a row for the cut.
 bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
                         double bound_rate, double keep) {
   const double squared = Squared(lap.speeds[at]);

@@ -22,12 +22,12 @@ struct LapTrust {
 
 /// Builds the quadratic program linearized about each lap of the search.
 ///
-/// The first variables are the changes of the line's coefficients [m]. The remaining variables are
-/// the relative changes of the squared speeds. The tyres limit the curvature to kappa <= a/w, where
-/// a is the largest lateral acceleration and w the squared speed. If this limit is active, the
-/// program replaces it by its linearization kappa <= a/w_0 (1 - (w - w_0)/w_0), which never exceeds
-/// a/w. Therefore a step satisfies the lateral limit, except for the linearization error of the
-/// curvature.
+/// The first variables are the changes of the line's spline coefficients [m]. The remaining
+/// variables are the relative changes of the squared speeds. The tyres limit the curvature to kappa
+/// <= a/w, where a is the largest lateral acceleration and w the squared speed. If the tyre limit
+/// is active, the program replaces a/w by its linearization about w_0: kappa <= a/w_0 (1 - (w -
+/// w_0)/w_0). As this linearization never exceeds a/w, a step satisfies the tyre limit, except for
+/// the linearization error of the curvature.
 class LapProgram {
  public:
   LapProgram(const LapModel& model, const ClosedSplineBasis& basis,
@@ -95,7 +95,7 @@ class LapProgram {
   // The following members hold the linearization about one lap.
   // Change of the curvature at each station as a function of the variables.
   std::vector<Form> curvature_;
-  std::vector<Form> stretch_;  // Change of dl/ds at each station as a function of the variables.
+  std::vector<Form> stretch_;  // Change of the stretch dl/ds at each station, by the variables.
   // Change of the acceleration in each interval as a function of the variables.
   std::vector<Form> acceleration_;
   std::vector<double> accelerations_;

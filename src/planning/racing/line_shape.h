@@ -43,7 +43,8 @@ OffsetBounds BoundsAt(const Track& track, const PathPoint& center, double s, dou
 std::string TooNarrow(const Track& track, double s, double beside);
 
 /// Returns the remedy for a track on which lines can keep at most the distance `room` [m] from the
-/// edges: the largest margin for a car of the given width [m], or that the car does not fit.
+/// edges. The remedy is the largest margin for a car of the given width [m], or the statement that
+/// the car does not fit.
 std::string RemedyForNarrowTrack(double room, double car_width);
 
 }  // namespace trackbed

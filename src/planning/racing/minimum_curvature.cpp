@@ -38,7 +38,7 @@ class CurvatureProblem {
       program_.lower[i] = bounds.lower;
       program_.upper[i] = bounds.upper;
       const double room = 0.5 * (bounds.upper - bounds.lower) + beside;
-      // Names the first of several places that are equally narrow, except for rounding errors.
+      // Tolerance of widths: of equally narrow places of the track, the message names the first.
       constexpr double kSameRoom = 1e-6;  // [m]
       if (room < room_ - kSameRoom) {
         room_ = room;
@@ -144,7 +144,7 @@ Plan PlanWith(const MinimumCurvatureOptions& options, const PlanRequest& request
 
 MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside) {
   constexpr int kMaxIterations = 30;
-  // Relative change of the integral below which the iteration ends.
+  // The iteration ends below this relative change of the integral of kappa^2.
   constexpr double kConvergenceTolerance = 1e-6;
   CurvatureProblem problem(track, beside);
   MinimumCurvatureLine found{.refused = problem.refused(), .line = {}, .room = problem.room()};

@@ -115,7 +115,7 @@ class LapSearch {
   }
 
   /// Applies the step, or the largest fraction of the step that improves the lap. Returns false if
-  /// no fraction improves the lap.
+  /// no fraction of the step improves the lap.
   bool Take(const Eigen::VectorXd& step, double promised) {
     for (const double part : {1.0, 0.5, 0.25, 0.1}) {
       TrackLine line(basis_, line_.coefficients() + part * step.head(program_.coefficients()));
@@ -137,7 +137,7 @@ class LapSearch {
     return false;
   }
 
-  static constexpr double kTrustOffset = 1.0;  // Limit of the change of d if the scale is 1 [m].
+  static constexpr double kTrustOffset = 1.0;  // Limit of the change of the offset d at scale 1.
   // Limit of the relative change of a squared speed if the scale is 1.
   static constexpr double kTrustSquared = 0.3;
   static constexpr double kMaxScale = 2.0;
@@ -306,7 +306,8 @@ MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimi
   found.start_time = before.time;
   if (before.sharpest > most) {
     // If the line of least curvature is too tight, return the line that the lap-time search found.
-    // If the found line is too tight as well, return the line at which the search began.
+    // If the line of the lap-time search is too tight as well, return the line at which the search
+    // began.
     found.improved = true;
     found.line = after.sharpest <= most ? search.line() : first;
     found.time = after.sharpest <= most ? after.time : model.Drive(first).time;

@@ -50,8 +50,8 @@ class Unrolled {
     return offset;
   }
 
-  /// Returns pose and curvature of the line at the unrolled station s. Returns none if the Frenet
-  /// frame does not exist at this station.
+  /// Returns pose and curvature of the line at the unrolled station s; nullopt if the Frenet frame
+  /// does not exist at station s.
   [[nodiscard]] std::optional<MotionState> At(double s) const {
     const LineOffset offset = OffsetAt(s);
     return FromFrenet(
@@ -86,8 +86,8 @@ struct LinePath {
   std::vector<double> passed;  // stations of the path [m]
 };
 
-/// Computes the path along a line over at least two ascending stations of the track. Returns none
-/// if the Frenet frame does not exist at a station.
+/// Computes the path along a line over at least two ascending stations of the track. Returns
+/// nullopt instead of a path if the Frenet frame does not exist at a station.
 std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
                                   const std::vector<double>& stations) {
   LinePath path;
@@ -109,8 +109,8 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
     const double parts = std::ceil(span / spacing);
     for (double k = 0.0; k < parts; k += 1.0) {
       const double s = stations[i] + span * k / parts;
-      // Skip points that are too close together, as on the inside of a hairpin. Without skipping
-      // such points, the finest oscillations of the line's curvature would limit the speed.
+      // Skip points that are too close together, as on the inside of a hairpin. If close points
+      // were kept, the finest oscillations of the line's curvature would limit the speed.
       const bool close = k > 0.0 && length - path.points.back().s < kMinSpacing * spacing;
       if (!close && !add(s)) {
         return std::nullopt;

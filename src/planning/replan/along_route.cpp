@@ -16,11 +16,11 @@
 
 // Plans motions along a route among obstacles, by polynomials in the Frenet frame or by a lattice.
 // The planner first tries to stop at the goal, to proceed at the wanted speed, to pull out beside a
-// moving leading obstacle, and to follow it. If these maneuvers fail, the planner tries to proceed
-// more slowly and then to stop behind an obstacle. The planner accepts a motion only if the car can
-// brake to a stop after the motion. While braking, the car must keep clear of obstacles, stay
-// within the steering limits and the track's edges, and stop before the goal. Moving obstacles are
-// extrapolated at constant velocity.
+// moving leading obstacle, and to follow it. If all maneuvers at the wanted speed fail, the planner
+// tries to proceed more slowly and then to stop behind an obstacle. The planner accepts a motion
+// only if the car can brake to a stop after the motion. While braking, the car must keep clear of
+// obstacles, stay within the steering limits and the track's edges, and stop before the goal.
+// Moving obstacles are extrapolated at constant velocity.
 
 namespace trackbed {
 namespace {
@@ -204,8 +204,8 @@ class AlongRoute {
                                                          double offset) const {
     FrenetMotion motion = found_.motion;
     if (end.s_rate > 0.0) {
-      // With the deceleration a, the car stops after the time end.s_rate/a and the distance
-      // end.s_rate^2/(2 a).
+      // From the final speed end.s_rate, a car with the deceleration a stops after the time
+      // end.s_rate/a and the distance end.s_rate^2/(2 a).
       const double braking = request_.speed.deceleration;
       const double distance = 0.5 * end.s_rate * end.s_rate / braking;
       motion.pieces.push_back(
@@ -306,7 +306,8 @@ class AlongRoute {
   }
 
   /// Returns whether the motion passes the obstacle. To pass a moving obstacle, the car must also
-  /// have room for the rest of the maneuver; if it has no room, stores the reason in `why_`.
+  /// have room to complete the maneuver after the motion; if it has no room, stores the reason in
+  /// `why_`.
   bool Passes(const Leader& leader) {
     if (!PassesObstacle(leader)) {
       return false;
@@ -385,9 +386,10 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
             .edges = std::make_shared<const RoadEdges>(
                 EdgesBeside(path, *route.laps.track, vehicle, edge_distance))};
   }
-  // The smoothing window w [m] must be so long that the wheels can follow the curvature. A step
-  // from a straight to a bend of curvature k needs the longest window, on which the steering rate
-  // is at most v L k/w. Smoothing increases the bend's own curvature by the fraction (k w)^2/24.
+  // The smoothing window w [m] must be so long that the wheels can follow the curvature. The
+  // longest window is needed where the curvature steps from 0 to k. There, the steering rate is at
+  // most v L k/w with the wheelbase L. Smoothing with a window of length w increases the curvature
+  // k of a bend by the fraction (k w)^2/24.
   constexpr double kSampleSpacing = 0.5;  // Spacing of the samples [m].
   double window = 0.1;                    // Smoothing window [m].
   for (const PathPoint& point : path.Sample(kSampleSpacing)) {

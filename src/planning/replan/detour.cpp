@@ -19,7 +19,7 @@
 // Searches for a detour around static obstacles by any planner that keeps clear of obstacles. The
 // detour leaves the driven path on a straight, either as early as possible or after the car's
 // braking distance. The detour returns to the route at one of up to three places on straights
-// behind the last blocked stretch. If the planner ignores headings, the first and the last leg of
+// beyond the last blocked stretch. If the planner ignores headings, the first and the last leg of
 // the detour are straight and 10, 6 or 3 m long. The comparator selects the best path. The car
 // takes the selected path only if the comparator rates it better than the current path.
 
@@ -175,7 +175,7 @@ class DetourSearch {
         return;
       }
       if (entry_.has_headings) {
-        return;  // planners with headings need no straight legs
+        return;  // planners that choose headings need no straight start
       }
     }
   }

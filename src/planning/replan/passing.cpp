@@ -10,10 +10,10 @@
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
-// Finds the leader, and decides where, how fast and whether a car may pass a moving leader. A car
-// that pulls out may meet oncoming obstacles. Therefore the car pulls out only if it could finish
-// passing. The rest of the maneuver, with constant limits, is checked against all obstacles and
-// against the end of the route.
+// Finds the leader, and decides where, how fast and whether a car may pass a moving leader. Because
+// of oncoming obstacles, the car pulls out only if it could finish passing. The planner checks the
+// passing maneuver after the motion, with constant limits, against all obstacles and the end of the
+// route.
 
 namespace trackbed {
 namespace {
@@ -36,7 +36,7 @@ double RoomBeside(const AlongRequest& request, const AlongSettings& settings) {
   return 0.5 * request.vehicle.width + settings.safe_distance;
 }
 
-/// Continues a motion after its end. Times count from the end of the motion.
+/// Continues a motion after its end. In the continuation, times count from the end of the motion.
 class Continuation {
  public:
   explicit Continuation(const FrenetState& from) : end_(from) {}
@@ -268,7 +268,8 @@ std::string WhyNotPastAt(double passing_speed, const RouteFrame& frame, const Al
   }
   const double pulling_in = ShiftLength(request.vehicle, limits, speed, past.end().d);
   const double passing = behind > 0.0 ? behind / (speed - leader.speed) : 0.0;
-  // A stop by a quartic s(t) takes the time c v/a and the distance c v^2/(2 a).
+  // With the deceleration a, a stop from the speed v by a quartic s(t) takes the time c v/a and the
+  // distance c v^2/(2 a). The factor c is kQuarticAcceleration.
   const double stopping = kQuarticAcceleration * speed / request.speed.deceleration;
   const double left = frame.goal - past.end().s - 0.5 * speed * stopping;
   if (!(speed * passing + pulling_in <= left)) {

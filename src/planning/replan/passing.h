@@ -24,7 +24,7 @@ std::vector<double> ClearanceMargins(const AlongRequest& request, const AlongSet
                                      const Pose2& start);
 
 /// Returns the index of the first obstacle to which the car comes closer than its margin; nullopt
-/// if the points are clear. Ignores the points up to the time `from`. The time 0 of the points is
+/// if the points are clear. Ignores points of the motion up to the time `from`. The motion begins
 /// `shift` [s] after the present.
 std::optional<std::size_t> FirstTooNear(const AlongRequest& request,
                                         const std::vector<double>& margins,
@@ -38,7 +38,8 @@ bool ClearsLaterally(const AlongRequest& request, const AlongSettings& settings,
 
 /// Returns the shortest distance [m] over which the car at the constant speed `speed` [m/s] can
 /// move sideways by `aside` [m] with a quintic d(s). The limits are those of the steering angle,
-/// the steering rate and the lateral acceleration. The computation assumes small heading errors.
+/// the steering rate and the lateral acceleration. The computation of this distance assumes small
+/// angles between the car and the road.
 double ShiftLength(const VehicleParams& vehicle, const FrenetLimits& limits, double speed,
                    double aside);
 
@@ -57,9 +58,9 @@ std::vector<double> PassingSpeeds(const AlongRequest& request, const Leader& lea
                                   const AlongOptions& options);
 
 /// Returns the options with which the method searches for motions that pull out to one of `offsets`
-/// and end at `speed` [m/s], in the order in which to try them. The offset is a function of the
-/// station unless the options say otherwise, because a car that accelerates then needs a lower
-/// steering rate.
+/// and end at `speed` [m/s], in the order in which to try them. The lateral offset is a function of
+/// the station, unless the options say otherwise. An offset over the station needs a lower steering
+/// rate of an accelerating car than an offset over time.
 ///
 /// For the method `frenet`, the end times include the times that the steering needs to move aside
 /// at `speed`. For the method `lattice`, the first options have a lattice of one layer, just long
@@ -72,10 +73,10 @@ std::vector<AlongOptions> PullOutOptions(AlongOptions options, const AlongReques
 /// pass, the car accelerates at the last offset of the motion to the desired speed, or to a lower
 /// speed. The car drives until its rear is the safe distance ahead of the leader's front, and
 /// returns to the route. The whole maneuver must keep the safe distance from all obstacles, which
-/// are extrapolated at constant velocity. The maneuver must leave the distance in which the car
-/// brakes to a stop at the end of the route. When the car stops at the end of the route, the leader
-/// is behind the car. The final distance between car and leader must be at least the distance that
-/// the car itself would keep from a leader.
+/// are extrapolated at constant velocity. Before the end of the route, the maneuver must leave the
+/// distance that the car needs to brake to a stop. When the car stops at the end of the route, the
+/// leader must still be behind the car. The final distance between car and leader must be at least
+/// the distance that the car itself would keep from a leader.
 std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
                        const AlongSettings& settings, const FrenetLimits& limits,
                        const Leader& leader, const FrenetMotion& motion);

@@ -28,9 +28,9 @@ namespace {
 /// [m].
 constexpr double kLastMeters = 1.0;
 /// Largest deviations from the route at which a car counts as back on the route.
-constexpr double kBackOffset = 0.02;     // Largest distance from the route [m].
-constexpr double kBackHeading = 0.005;   // Largest difference of the heading [rad].
-constexpr double kBackSteering = 0.002;  // Largest difference of the steering angle [rad].
+constexpr double kBackOffset = 0.02;     // Tolerance of the distance from the route [m].
+constexpr double kBackHeading = 0.005;   // Tolerance of the heading [rad].
+constexpr double kBackSteering = 0.002;  // Tolerance of the steering angle [rad].
 
 /// Converts a motion to a plan.
 Plan ToPlan(const VehicleParams& vehicle, const std::vector<TrajectoryPoint>& points,
@@ -79,8 +79,8 @@ class Replanning {
       motion = Motion(along);
       along = motion.ok() ? along : AlongPlan{};
     }
-    // Do not resume the route behind a leading obstacle, because the route is clear only up to this
-    // obstacle.
+    // Do not resume the route while the car follows a leading obstacle, because the route is clear
+    // only up to this obstacle.
     if (!driving_.on_route && (!along.ok() || along.kind == ManeuverType::kProceed)) {
       if (auto back = RejoinedRoute()) {
         return std::move(*back);

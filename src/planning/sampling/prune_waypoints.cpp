@@ -104,7 +104,7 @@ bool CornersFit(const std::vector<Vec2>& way, const PruningProblem& problem) {
 /// A corner that may replace some successive points of a path.
 struct OuterCorner {
   Vec2 at;
-  /// Index of the corner among the points of the path; none for a new corner.
+  /// Index of the corner among the points of the path; nullopt for a new corner.
   std::optional<std::size_t> point{};
 };
 

@@ -44,7 +44,8 @@ std::vector<OptionProblem> CheckSmoothing(const RrtPlannerOptions& options,
 }
 
 /// Checks the options for detours. The check rejects a wall-clock limit, because detours must be
-/// reproducible. The check also rejects partial plans, because a detour must return to the route.
+/// reproducible. The check rejects the option of partial plans, because a detour must return to the
+/// route.
 std::vector<OptionProblem> CheckDetour(const RrtPlannerOptions& options) {
   std::vector<OptionProblem> problems;
   if (options.time_limit) {
@@ -164,9 +165,9 @@ struct Try {
 };
 
 /// Returns whether the attempt `other` is better than the attempt `current`. Complete plans are
-/// better than partial plans, and partial plans are better than failures. Among complete plans, the
-/// score decides. Among partial plans and among failures, the number of reached goals decides, then
-/// the distance to the next goal.
+/// better than partial plans, and partial plans are better than failures. Complete plans are
+/// compared by the comparator's score. Among partial plans and among failures, the number of
+/// reached goals decides, then the distance to the next goal.
 bool IsBetterTry(const Try& other, const Try& current) {
   const auto rank = [](const Try& each) { return !each.plan.ok() ? 0 : each.is_partial() ? 1 : 2; };
   if (rank(other) != rank(current)) {
@@ -209,8 +210,8 @@ void PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points, Try& 
 
 /// Plans a partial path that ends at the tree's node nearest to the next goal, because the tree did
 /// not reach this goal. The car may be unable to stop at the nearest node, because the front of the
-/// car extends beyond the node. In this case, the plan ends at the last earlier node of the tree's
-/// path to which a feasible plan exists.
+/// car extends beyond the node. If the car cannot stop there, the plan ends at the last earlier
+/// node of the tree's path to which a feasible plan exists.
 void UsePartialPath(const Forest& forest, Try& next) {
   const std::vector<Vec2> reached = next.way.points;
   const std::vector<Vec2> nearest = next.way.nearest;

@@ -18,8 +18,8 @@
 #include "trackbed/planning/sampling/smoothing.h"
 
 /// Functions that the sampling planners share. The planners draw their random samples in the car's
-/// start frame. Therefore, if a whole mission is moved or rotated, the plan is moved or rotated in
-/// the same way.
+/// start frame. If a whole mission is moved or rotated, the samples and the plan are moved or
+/// rotated in the same way.
 namespace trackbed {
 
 /// The mission in the car's start frame.
@@ -122,7 +122,7 @@ inline constexpr int kLeadIns = 3;
 /// The plan of one call of `plan_trees`.
 struct TreesPlan {
   Plan plan;
-  /// The best plan before MakeFeasible rejected it; none if no plan was rejected. Explains the
+  /// The best plan before MakeFeasible rejected it; nullopt if no plan was rejected. Explains the
   /// rejection.
   std::optional<Plan> rejected{};
 };
@@ -147,14 +147,14 @@ inline bool IsTooNear(const Plan& plan) {
 }
 
 /// Plans with `plan_trees`. If the plan fails because its first corner is too near, PlanWithLeadIn
-/// retries with up to `tries` longer initial straights. The first retry uses the longest initial
-/// straight, on which the car can stop. If an obstacle blocks the longest straight, the next
-/// retries add only a half or a quarter of the additional length. For a car at rest, the next retry
-/// uses half of the initial straight, because an obstacle ahead may block the whole straight. The
-/// last retries begin with DeparturesToNearWaypoint, unless the options have no initial straight,
-/// or allow only one retry. Later retries grow only one tree each. Many of the retried missions
-/// have no plan at all, so more trees would waste computing time. If the first plan is rejected, it
-/// gets an explanation (Refusal::kExplained).
+/// retries with up to `tries` longer initial straights. The first retry lengthens the initial
+/// straight by the car's stopping distance plus its smallest turning radius. If an obstacle blocks
+/// this longest initial straight, the next retries add only a half or a quarter of the additional
+/// length. For a car at rest, the next retry uses half of the initial straight, because an obstacle
+/// ahead may block the whole straight. The last retries begin with DeparturesToNearWaypoint, unless
+/// the options have no initial straight, or allow only one retry. Later retries grow only one tree
+/// each. Many of the retried missions have no plan at all, so more trees would waste computing
+/// time. A rejection of the first plan includes an explanation (Refusal::kExplained).
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
                     int tries) {
