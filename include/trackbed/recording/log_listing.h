@@ -8,12 +8,12 @@
 
 #include "trackbed/recording/log_map.h"
 
-/// Lists the content of a log, and proposes a map to read it.
+/// Lists the content of a log, and proposes a log map (description of its columns) to read it.
 namespace trackbed {
 
 /// One series of rows in a log: a CSV file, the tracks of a GPX file, a topic of a bag.
 struct LogTopic {
-  std::string name;  ///< Name of a topic of a bag; "" for other files.
+  std::string name;  ///< Name of a topic of a ROS bag; "" for other files.
   std::string type;  ///< Message type of a topic of a bag; format of the file for other files.
   std::size_t rows = 0;
   std::vector<std::string> columns;  ///< Names of the columns, as in a log map.
@@ -22,9 +22,11 @@ struct LogTopic {
 
 struct LogListing {
   std::vector<LogTopic> topics;
-  /// Log map that reads the log; nullopt unless the log's columns have usual names.
+  /// Proposed log map (description of the columns) to read the log; nullopt unless the log's
+  /// columns have usual names.
   std::optional<LogMap> map;
-  std::string problem;  ///< Why the log has no map, such as missing columns; empty if `map` is set.
+  /// Why no log map can be proposed, such as missing columns; empty if `map` is set.
+  std::string problem;
   std::vector<std::string> notes;  ///< Notes on damaged parts of the log.
 };
 

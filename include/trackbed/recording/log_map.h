@@ -38,8 +38,8 @@ struct LogColumn {
   std::vector<Vec2> curve{};
   double delay = 0.0;  ///< Delay between measurement and logging of a value [s].
   /// Update period of the values, if a slower control loop repeats each value in several rows [s].
-  /// Values are interpolated linearly between the updates of the control loop; if no period is
-  /// given, between rows.
+  /// Values are interpolated linearly between the updates of the control loop; without a given
+  /// update period, between rows.
   std::optional<double> period{};
 };
 
@@ -57,7 +57,8 @@ struct LogTime {
   std::optional<std::string> nanoseconds{};
 };
 
-/// The columns of the position: x and y in a plane, or latitude and longitude in WGS 84.
+/// The columns of a log that contain the position: x and y in a plane, or latitude and longitude in
+/// WGS 84.
 struct LogPosition {
   std::string x{};
   std::string y{};
@@ -104,7 +105,7 @@ struct LogSensor {
 /// An accelerometer in the vehicle; the axes of the accelerometer are parallel to the axes of the
 /// vehicle. The yaw rate and its derivative serve to convert the measured accelerations to
 /// accelerations of the rear axle. When the car rolls or pitches, gravity contributes to the
-/// measured accelerations; this effect is not removed.
+/// measured accelerations; ImportLog does not remove this effect.
 struct LogAccelerometer {
   std::string x;
   std::string y;
@@ -175,8 +176,9 @@ struct LogMap {
 
 void Visit(KeyVisitor& keys, LogMap& map);
 
-/// Returns the problems of a log map that concern more than one key. Each returned pair contains
-/// the key that the user should change and the message.
+/// Returns the problems of a log map (description of a log's columns) that concern several of its
+/// keys together. Each returned pair contains the key that the user should change and the error
+/// message.
 std::vector<std::pair<std::string, std::string>> LogMapProblems(const LogMap& map);
 
 }  // namespace trackbed

@@ -16,8 +16,9 @@ inline constexpr const char* kRecordCsv = "record.csv";
 /// equal samples. The CSV has the columns `t_s`, `x_m`, `y_m`, `yaw_rad`, `yaw_rate_radps` and
 /// `yaw_acceleration_radps2`. The columns `speed_mps`, `rear_lateral_speed_mps`,
 /// `rear_longitudinal_acceleration_mps2` and `rear_lateral_acceleration_mps2` are for the rear axle
-/// in the axes of the vehicle. The column `valid` is 0 in gaps. The columns `steering_rad`,
-/// `steering_command_rad` and `throttle_mps2` are present if the drive has these signals.
+/// in the axes of the vehicle. The column `valid` is 0 for samples in gaps of the log. The columns
+/// `steering_rad`, `steering_command_rad` and `throttle_mps2` are present if the drive has these
+/// signals.
 std::string RecordCsv(const RecordedDrive& drive);
 
 /// Reads a file in the format of RecordCsv. Throws InputError in the same cases as ReadCsvExcerpt.

@@ -49,13 +49,13 @@ struct RecordedDrive {
   /// Returns the fraction of the samples that are valid.
   [[nodiscard]] double valid_fraction() const;
   /// Returns the sample at the given time, interpolated linearly between samples and constant
-  /// beyond the first and last sample. The returned sample is valid if both neighboring samples are
-  /// valid. Cost O(1).
+  /// beyond the first and last sample. The interpolated sample is valid if both neighboring samples
+  /// are valid. Cost O(1).
   [[nodiscard]] RecordedSample At(double time) const;
 };
 
-/// Converts a sample to a state of the given vehicle. The speeds and accelerations in the state are
-/// those of the vehicle's center of gravity:
+/// Converts a recorded sample to a state of the given vehicle. The speeds and accelerations in the
+/// state are those of the vehicle's center of gravity:
 ///   v_y = v_y(V) + l r,  a_x = a_x(V) - l r^2,  a_y = a_y(V) + l r',
 /// where l is the distance from the rear axle to the center of gravity and r is the yaw rate. If
 /// `measured` is true, the state's steering angle is the measured angle, otherwise the commanded

@@ -35,8 +35,8 @@ struct ReplayOptions {
 struct WindowPrediction {
   double start = 0.0;  ///< Start time of the window since the start of the drive [s].
   /// Predicted states at `start`, `start` + `control_period`, … until the end of the window. The
-  /// member `time` of a state counts from the start of the drive. The list of states ends before
-  /// the end of the window if the simulation of the plant diverged.
+  /// member `time` of a state counts from the start of the drive. The list of predicted states ends
+  /// before the end of the window if the simulation of the plant diverged.
   std::vector<VehicleState> states{};
   bool diverged = false;
 };
@@ -64,8 +64,8 @@ std::vector<WindowPrediction> PredictWindows(const CarModel& car, const std::str
                                              const ReplayOptions& options = {});
 
 /// Returns the start times of windows of the length `horizon` [s], at multiples of `spacing` [s]
-/// from the start of the drive. Includes a window only if the window fits into the drive, all its
-/// samples are valid, and its mean speed is at least `min_speed` [m/s].
+/// from the start of the drive. WindowStarts includes a window only if the window fits into the
+/// drive, all its samples are valid, and its mean speed is at least `min_speed` [m/s].
 std::vector<double> WindowStarts(const RecordedDrive& drive, double horizon, double spacing,
                                  double min_speed);
 
@@ -76,7 +76,7 @@ std::vector<double> WindowStarts(const RecordedDrive& drive, double horizon, dou
 /// root mean square of the recorded quantity.
 struct WindowErrors {
   double horizon = 0.0;  ///< Length of the prediction windows [s].
-  int count = 0;         ///< Number of windows.
+  int count = 0;         ///< Number of prediction windows.
   /// Number of windows in which the simulation diverged; the errors of these windows count as
   /// infinite.
   int diverged = 0;

@@ -41,7 +41,7 @@ struct FilmOptions {
   /// with the quality "film" takes about four times as long as with "draft".
   std::string quality = "draft";
   /// The OpenGL library for rendering: "osmesa", "egl" or "auto". With "auto", the environment
-  /// variable MUJOCO_GL selects the library. If MUJOCO_GL is not set either, "auto" selects EGL if
+  /// variable MUJOCO_GL selects the OpenGL library. If MUJOCO_GL is not set, "auto" selects EGL if
   /// the program is linked with EGL; otherwise OSMesa if OSMesa is installed; otherwise EGL.
   std::string gl = "auto";
   /// Name of the inset, one of Cameras() or FlatInsets(); empty: no inset.
@@ -53,8 +53,8 @@ struct FilmOptions {
   std::vector<std::string> plants{};
   /// Title in the video's caption; if empty, the name of the run folder is the title.
   std::string title{};
-  /// Note under the title; if the note is empty, the video shows the remark on the vehicle, if
-  /// there is a remark.
+  /// Note under the video's title; if the note is empty, the video shows the remark on the vehicle,
+  /// if any.
   std::string note{};
   /// Time in the run at which the video begins [s]; nullopt: the first recorded time.
   std::optional<double> from{};
@@ -77,7 +77,7 @@ struct FilmReport {
 std::string VideoEncoder();
 
 /// Checks the extension of a file name for RenderFilm. Throws InputError if the extension is
-/// unknown, or if the extension is `.mp4` and the build has no video encoder.
+/// unknown, or if a build without a video encoder is asked for an extension other than `.png`.
 void CheckFilmName(const std::filesystem::path& output);
 
 /// Throws InputError if `gl` is not a value of FilmOptions::gl, or if `gl` is "auto" and MUJOCO_GL
@@ -92,30 +92,32 @@ void CheckGl(const std::string& gl);
 /// `<plant>.csv`. The file `plan.csv` is optional. The file `scenario.resolved.yaml` is optional if
 /// the world is flat, calm and uniform. The file `<plant>.plan.csv` is read if the plant adopted
 /// new plans during the run. The first plant whose name begins with "mujoco" is shown as the car.
-/// Without such a name, the first plant in alphabetical order is shown as the car. Every other
-/// plant is shown as a translucent car (ghost). If FilmOptions::plants is not empty, each of these
-/// plants is instead shown in a separate part of the frame, without ghosts. The video shows the
-/// recorded world with its friction patches, and the overlays of FilmOptions::overlays. When the
-/// car adopts a new plan, that plan gets a distinct color, and earlier plans become faint and
-/// narrow. New plans of the plants that are shown as ghosts are not drawn. Frame k shows the run at
-/// the time `from` + k / fps, with linear interpolation between recorded states. The last frame
-/// shows a time at or before `to`; if `to` is not set, a time at or before the end of the longest
-/// recording. A plant whose recording ends before the end of the video stays at the last recorded
-/// pose.
+/// If no plant's name begins with "mujoco", the first plant in alphabetical order is shown as the
+/// car. Every other plant is shown as a translucent car (ghost). If FilmOptions::plants is not
+/// empty, each of these plants is instead shown in a separate part of the frame, without ghosts.
+/// The video shows the recorded world with its friction patches, and the overlays of
+/// FilmOptions::overlays. When the car adopts a new plan, that plan gets a distinct color, and
+/// earlier plans become faint and narrow. New plans of the plants that are shown as ghosts are not
+/// drawn. Frame k shows the run at the time `from` + k / fps, with linear interpolation between
+/// recorded states. The last frame shows a time at or before `to`; if `to` is not set, a time at or
+/// before the end of the longest recording. A plant whose recording ends before the end of the
+/// video stays at the last recorded pose.
 ///
 /// The function `progress`, which may be empty, is called after every frame with the finished
-/// fraction, in (0, 1]. If `progress` throws an exception, RenderFilm stops and rethrows the
-/// exception.
+/// fraction of the frames, in (0, 1]. If `progress` throws an exception, RenderFilm stops and
+/// rethrows the exception.
 ///
 /// The extension of `output` selects the format. RenderFilm creates the folder of `output` if the
 /// folder is missing. The format `.mp4` is a video (H.264, yuv420p) that a player can start to play
-/// before the file is loaded completely. A build without an encoder cannot write videos. Even after
-/// an exception, the `.mp4` file is either unchanged or a complete video. The formats `.webp` and
-/// `.apng` are an animated picture that repeats. Even after an exception, the `.webp` or `.apng`
-/// file is either unchanged or complete. The format `.png` has one file per frame. For example, the
-/// name `frames/f.png` produces `frames/f_00000.png`, `frames/f_00001.png`, ... Each `.png` file is
-/// either unchanged or complete; after an exception, the frames written so far remain. Additional
-/// frames of an older, longer video with the same name are removed.
+/// before the file is loaded completely. A build without a video encoder can only write `.png`
+/// files. Even after an exception, the `.mp4` file is either unchanged or a complete video. The
+/// formats `.webp` and `.apng` are an animated picture that repeats. Even after an exception, the
+/// `.webp` or `.apng` file is either unchanged or complete. The format `.png` has one file per
+/// frame. For example, the name `frames/f.png` produces `frames/f_00000.png`, `frames/f_00001.png`,
+/// ... Each `.png` file is either unchanged or complete. If `progress` throws an exception, the
+/// frames written so far remain. After any other exception, the frames written so far remain only
+/// if there was no earlier video of the same name. Additional `.png` frames of an older, longer
+/// video with the same name are removed.
 ///
 /// Guarantees: the same run folder, options and OpenGL library always produce the same bytes. A
 /// separate thread encodes and writes the frames, at most three frames after they are drawn. The

@@ -12,9 +12,9 @@
 /// Makes the web page of a run in progress, and the messages that add new data to the page.
 namespace trackbed {
 
-/// Formats the rows of one plant as JSON arrays of numbers, in the same order and with the same
-/// rounding as the channels in the page's data. A live page that has received all rows of a run
-/// therefore equals the report of the run.
+/// Formats the log rows of one plant as JSON arrays of numbers, in the same order and with the same
+/// rounding as the channels in the page's data. Because order and rounding are those of the report,
+/// a live page that has received all rows of a run equals the run's report.
 class LiveRows {
  public:
   /// The argument `plant` is the plant's entry in the list runs[0].plants of ReportData.

@@ -25,9 +25,9 @@ enum class FilmPlace {
 /// and resolved scenarios. To show a study, `paths` contains the folder of a sweep or the CSV file
 /// of a study. The page of a study shows the study's table. To compare two results of the same
 /// study, `paths` contains first the result before a change, then the result after the change. The
-/// page of two results shows both tables, and pairs rows with equal settings. The page of a single
-/// identification shows the estimates with their standard errors and correlations, the prediction
-/// errors for each record before and after the fit, and the residuals over time.
+/// page of two study results shows both tables, and pairs rows with equal settings. The page of a
+/// single identification shows the estimates with their standard errors and correlations, the
+/// prediction errors for each record before and after the fit, and the residuals over time.
 ///
 /// Plants are compared with each other at equal stations, as described in
 /// trackbed/analysis/compare.h. The page of a comparison shows the compared pairs of plants, with
@@ -35,9 +35,9 @@ enum class FilmPlace {
 /// compared with the plant of the same name in every other run.
 ///
 /// Numbers are rounded to six significant digits; magnitudes below 5e-7 are rounded to 0. If the
-/// logs have more than 7500 rows in total, rows are left out (thinning). Thinning keeps the rows in
-/// which a column has a local maximum or minimum, so extreme values are not lost. Quantities are in
-/// SI units and radians, as in the run folders.
+/// logs have more than 7500 rows in total, rows are left out (thinning). Thinning of the logs keeps
+/// the rows in which a column has a local maximum or minimum, so that no extreme value is lost.
+/// Quantities are in SI units and radians, as in the run folders.
 ///
 /// Throws InputError if a file is missing or invalid. Throws InputError if a path is neither a run,
 /// a comparison, a study nor an identification, or if a comparison, study or identification is
@@ -48,9 +48,9 @@ enum class FilmPlace {
 nlohmann::ordered_json ReportData(const std::vector<std::filesystem::path>& paths);
 
 /// Makes the complete HTML page from the data of a report. Text from files is escaped, so that the
-/// text cannot act as markup or script. In addition, the page's Content-Security-Policy lets a
-/// browser run only the page's own scripts, identified by their hashes. Invisible characters in
-/// texts are replaced by the names of the characters.
+/// text cannot act as markup or script. The page's Content-Security-Policy lets a browser run only
+/// the page's own scripts, identified by their hashes. Invisible characters in texts are replaced
+/// by the names of the characters.
 std::string ReportPage(const nlohmann::ordered_json& data);
 
 /// Returns the page that WriteReport would write to `file`, without writing a file. Throws the same
@@ -58,20 +58,20 @@ std::string ReportPage(const nlohmann::ordered_json& data);
 std::string ReportPageOf(const std::vector<std::filesystem::path>& paths,
                          const std::filesystem::path& file, FilmPlace film);
 
-/// Makes the report of `paths` and writes it to `file`. After an error, `file` is unchanged.
-/// Creates the folder of `file` if the folder is missing. The page loads nothing from a network,
-/// and forbids the browser to load anything. The same folders always result in the same page, byte
-/// for byte. Throws the same errors as ReportData. Throws RunError if a file cannot be read or
-/// written.
+/// Makes the report of `paths` and writes it to `file`. If WriteReport throws an exception, `file`
+/// is unchanged. Creates the folder of `file` if the folder is missing. The report page loads
+/// nothing from a network, and forbids the browser to load anything. The same run folders always
+/// result in the same page, byte for byte. Throws the same errors as ReportData. Throws RunError if
+/// a file cannot be read or written.
 void WriteReport(const std::vector<std::filesystem::path>& paths, const std::filesystem::path& file,
                  FilmPlace film = FilmPlace::kEmbedded);
 
 /// Returns the report page of a run in progress; the page grows during the run. The argument `data`
-/// is the ReportData of a run folder in which the log of each plant has only one row. The page has
-/// neither metrics nor a verdict. The page connects to the WebSocket `live` of its server. The page
-/// has the same Content-Security-Policy as every report, but also allows the connection to the
-/// WebSocket. The `id` identifies the run: if the server announces a different id, the browser
-/// reloads the page.
+/// is the ReportData of a run folder in which the log of each plant has only one row. The page of a
+/// run in progress has neither metrics nor a verdict. The live page connects to the WebSocket
+/// `live` of its server. The live page has the same Content-Security-Policy as every report, but
+/// also allows the connection to the WebSocket. The `id` identifies the run: if the server
+/// announces a different id, the browser reloads the page.
 std::string LivePage(const nlohmann::ordered_json& data, const std::string& id);
 
 }  // namespace trackbed

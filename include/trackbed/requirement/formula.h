@@ -24,9 +24,9 @@
 ///     number, signal, abs(x), min(x, y, …), max(x, y, …), ( )
 ///
 /// The bounds a and b of a window are times in seconds after the time at which the formula is
-/// evaluated, with 0 <= a <= b. A bound may also be `T`, the duration of the log, or `T - c` for a
-/// number c; a negative `T - c` is replaced by 0. An operator without a window has the window [0,
-/// T].
+/// evaluated, with 0 <= a <= b. A bound of a window may also be `T`, the duration of the log, or `T
+/// - c` for a number c; a negative `T - c` is replaced by 0. An operator without a window has the
+/// window [0, T], the whole log.
 ///
 /// This table states the value of each formula at the sample i of a log, at the time t_i (Donzé and
 /// Maler 2010; Fainekos and Pappas 2009):
@@ -39,7 +39,7 @@
 ///     phi until[a, b] psi   maximum over these j of min(psi_j, phi_i, …, phi_{j-1})
 ///
 /// Formulas are not evaluated between samples, and the bounds of windows have a tolerance of 1 ns.
-/// A window that extends beyond the end of the log is shortened to end with the log. If the window
+/// A window that extends beyond the end of the log is shortened to end with the log. If a window
 /// contains no samples, the value of `always` is +infinity and the value of `eventually` and
 /// `until` is -infinity, as in RTAMT (Nickovic and Yamaguchi 2020).
 namespace trackbed {
@@ -48,7 +48,8 @@ namespace trackbed {
 /// duration of the log.
 struct WindowBound {
   double seconds = 0.0;  ///< Time [s], nonnegative.
-  /// If `from_end` is true, the bound is T - `seconds`; otherwise the bound is `seconds`.
+  /// If `from_end` is true, the bound of the window is T - `seconds`, with the duration T of the
+  /// log; otherwise the bound is `seconds`.
   bool from_end = false;
 };
 
@@ -77,13 +78,14 @@ enum class FormulaOperation {
   kUntil,
 };
 
-/// One step of a formula; the steps are stored in postfix order. The evaluation of a step takes one
-/// or two operands from a stack, and puts the result of the step on the stack.
+/// One step of a formula; the steps are stored in postfix order. The evaluation of a step pops up
+/// to two operands from a stack, and pushes the result of the step.
 struct FormulaStep {
   FormulaOperation operation = FormulaOperation::kNumber;
-  double number = 0.0;     ///< Value of kNumber.
-  std::size_t signal = 0;  ///< Index of the signal in Formula::signals, for kSignal.
-  WindowBound from{};      ///< Start of the window, for kAlways, kEventually and kUntil.
+  double number = 0.0;     ///< Value of the number, for the operation kNumber.
+  std::size_t signal = 0;  ///< Index of the signal in Formula::signals, for the operation kSignal.
+  /// Start of the time window, for the operations kAlways, kEventually and kUntil.
+  WindowBound from{};
   WindowBound to{};
   /// Range [begin, end) of characters in the formula's text that contains the step and the step's
   /// operands.
@@ -102,16 +104,18 @@ class Formula {
   /// Parses the text of a formula. The message of an InputError states the column in the text (from
   /// 1), the invalid text and the alternatives. Throws InputError if the text has a syntax error,
   /// or names a signal that is not in `signals` (the message suggests the most similar name).
-  /// Throws InputError if a number is given where a condition is needed or vice versa, or if bounds
-  /// are out of order or above 1e6 s. Throws InputError if the formula has no signals, or if the
-  /// text exceeds kMaxLength or kMaxDepth. The cost is proportional to the length of the text.
+  /// Throws InputError if a number is given where a condition is needed or vice versa, or if the
+  /// bounds of a window are out of order or above 1e6 s. Throws InputError if the formula has no
+  /// signals, or if the text exceeds kMaxLength or kMaxDepth. The parsing time is proportional to
+  /// the length of the text.
   static Formula Parse(std::string_view text, const std::vector<std::string>& signals);
 
   [[nodiscard]] const std::string& text() const { return text_; }
   /// Returns the names of the signals in the formula, in the order of their first use.
   [[nodiscard]] const std::vector<std::string>& signals() const { return signals_; }
-  /// Returns how far after a sample the log can affect the robustness at this sample [s]. Returns
-  /// infinity if a window's bound is missing or relative to the end of the log.
+  /// Returns the time after a sample within which the log can affect the formula's robustness at
+  /// this sample [s]. Returns infinity if a window's bound is missing or relative to the end of the
+  /// log.
   [[nodiscard]] double horizon_s() const;
   [[nodiscard]] const std::vector<FormulaStep>& steps() const { return steps_; }
 

@@ -13,14 +13,14 @@ namespace trackbed {
 /// The result of evaluating a formula at the first sample of a log.
 struct FormulaResult {
   /// Robustness of the formula, in the unit of the comparison that determines the robustness. The
-  /// robustness is +-infinity if no sample determines the robustness, because all relevant windows
-  /// begin after the end of the log.
+  /// robustness is +-infinity if no sample determines the robustness, because all relevant time
+  /// windows of the formula begin after the end of the log.
   double robustness = 0.0;
   /// Whether the formula is satisfied, that is, whether the robustness is > 0. If the robustness is
   /// 0, the comparison operator decides: if x = y, `x <= y` is satisfied, but `x < y` is not.
   bool satisfied = false;
   /// Row of the log with the sample that determines the robustness; the earliest row if several
-  /// samples do.
+  /// samples determine it.
   std::optional<std::size_t> row;
 };
 

@@ -20,8 +20,9 @@ struct LanePlace {
 /// A part of a route within one lane section.
 struct LaneStretch {
   std::string road;
-  int lane = 0;  ///< Lane at the start of the stretch.
-  /// Lane at the end of the stretch; differs from the lane at the start if the route changes lanes.
+  int lane = 0;  ///< Number of the lane at the start of the stretch.
+  /// Number of the lane at the end of the stretch; differs from the lane at the start if the route
+  /// changes lanes.
   int to_lane = 0;
   double from = 0.0;  ///< Station of the stretch's start [m].
   /// Station of the stretch's end [m]; smaller than `from` if the traffic moves against the
@@ -57,16 +58,16 @@ std::string LanePlaceError(const RoadNetwork& network, const LanePlace& place);
 /// the same lane section. The lateral offset during a lane change is a quintic polynomial of the
 /// station, over the whole distance between the two places.
 ///
-/// The path follows the centers of the lanes in the plane, with the curvature of the centers. Kinks
-/// of more than 1e-6 rad in the centers of lanes are rounded over 0.5 m on either side. Across a
-/// gap between lanes, the path moves sideways over a length that adds at most 1e-3 1/m of
+/// The path follows the centers of the lanes in the plane, with the curvature of the lane centers.
+/// Kinks of more than 1e-6 rad in the centers of lanes are rounded over 0.5 m on either side.
+/// Across a gap between lanes, the path moves sideways over a length that adds at most 1e-3 1/m of
 /// curvature: 7.6 m for a gap of 1 cm. Away from kinks and gaps, the path is within 1 mm of the
-/// centers of the lanes. The value `deviation` is the largest distance by which rounding and
-/// closing of gaps move the path. FindLaneRoute finds no route if a kink exceeds 0.2 rad, if the
-/// deviation exceeds 0.05 m, or if the route is longer than 100 km. FindLaneRoute also finds no
-/// route if a lane lies beyond the center of curvature of the lane's road. If a route is missing
-/// because the file has broken links or roads (RoadNetwork::broken), `failure` names the broken
-/// parts.
+/// centers of the lanes. The value `deviation` is the largest distance by which the rounding of
+/// kinks and the closing of gaps move the path. FindLaneRoute finds no route if a kink exceeds 0.2
+/// rad, if the deviation exceeds 0.05 m, or if the route is longer than 100 km. FindLaneRoute also
+/// finds no route if a lane lies beyond the center of curvature of the lane's road. If a route is
+/// missing because the file has broken links or roads (RoadNetwork::broken), `failure` names the
+/// broken parts.
 ///
 /// Throws PreconditionError if there are fewer than two places, or if LanePlaceError rejects a
 /// place. The cost is O(n log n) for each pair of places in a network of n lanes, plus about 30 us

@@ -12,22 +12,22 @@ namespace trackbed {
 inline constexpr std::size_t kMaxOpenDriveBytes = std::size_t{32} << 20U;
 
 /// Reads an OpenDRIVE file of version 1.4 to 1.7; files of other versions 1.x are read like version
-/// 1.7, with a note in RoadNetwork::notes. Reads these elements: reference lines (line, arc,
-/// spiral, poly3 and paramPoly3); elevation, superelevation, shape and lane offset; lane sections
-/// with lanes, widths or borders, links and road marks; links of roads; and connections of
-/// junctions. Objects, signals, controllers, railroads, surfaces, user data and the geographic
-/// reference are skipped. Road::unread_heights and RoadNetwork::notes list the skipped elements
-/// that would change the height of the road.
+/// 1.7, with a note in RoadNetwork::notes. ReadOpenDrive reads these elements: reference lines
+/// (line, arc, spiral, poly3 and paramPoly3); elevation, superelevation, shape and lane offset;
+/// lane sections with lanes, widths or borders, links and road marks; links of roads; and
+/// connections of junctions. Objects, signals, controllers, railroads, surfaces, user data and the
+/// geographic reference are skipped. Road::unread_heights and RoadNetwork::notes list the skipped
+/// elements that would change the height of the road.
 ///
-/// A road or junction with a problem is left out: RoadNetwork::broken contains its first problem,
-/// and RoadNetwork::notes names it. Links to missing or broken elements, links and connections with
-/// a problem, and wrong road marks only cause a note.
+/// A road or junction with a problem is left out: RoadNetwork::broken contains the first problem of
+/// the road or junction, and RoadNetwork::notes names it. Links to missing or broken elements,
+/// links and connections with a problem, and wrong road marks only cause a note.
 ///
 /// Throws InputError if the document is not an OpenDRIVE file, or if each road has a problem. The
 /// InputError lists the first twenty problems, each with its line in the file and its place in the
 /// road network. Problems of a file are invalid XML, a wrong root element, a document type
-/// declaration, and a missing or repeated id. A number that is missing, not finite or out of range
-/// is also a problem of the file. Other problems of a file are decreasing stations, and gaps of
+/// declaration, and a missing or repeated id. A number in the file that is missing, not finite or
+/// out of range is also a problem. Other problems of a file are decreasing stations, and gaps of
 /// more than 0.1 m in the stations of a reference line. Lanes that are not numbered consecutively
 /// or have no width are also problems of a file. Throws RunError if the file cannot be read or is
 /// larger than kMaxOpenDriveBytes. Reading takes about 20 ms per megabyte, and temporarily needs 25
@@ -41,7 +41,8 @@ struct OpenDriveFile {
   /// Offset of the header [m]: the place of the file's origin in the coordinates of its map
   /// projection. The header's offset is not part of the coordinates of the roads.
   Vec2 offset = Vec2::Zero();
-  double offset_heading = 0.0;  ///< Rotation of the header's offset [rad]; not applied.
+  /// Rotation in the header's offset [rad]; not applied to the roads.
+  double offset_heading = 0.0;
 };
 
 /// Reads a file like ReadOpenDrive, and also returns the text of the file, which is stored in the

@@ -13,8 +13,8 @@ namespace trackbed {
 /// The value and the derivatives of a function of the station.
 struct CubicValue {
   double value = 0.0;
-  double slope = 0.0;   ///< First derivative [1/m].
-  double second = 0.0;  ///< Second derivative [1/m^2].
+  double slope = 0.0;   ///< First derivative of the function by the station [1/m].
+  double second = 0.0;  ///< Second derivative of the function by the station [1/m^2].
 };
 
 /// A function of the station that consists of cubic polynomial pieces a + b d + c d^2 + e d^3,
@@ -33,7 +33,7 @@ class PiecewiseCubic {
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
   /// Returns the value of the function at station s; 0 before the first piece, and 0 if there are
-  /// no pieces. If several pieces begin at the same station, the last of these pieces applies.
+  /// no pieces. If several polynomial pieces begin at the same station, the last of them applies.
   /// Computing time: O(log n) for n pieces.
   [[nodiscard]] CubicValue At(double s) const { return At(s, s); }
   /// Returns the value at station s of the polynomial piece that At(`piece_of`) uses.
@@ -49,9 +49,9 @@ class PiecewiseCubic {
 /// curve's length.
 class ParametricCubic {
  public:
-  /// Makes the curve for the parameter p from 0 to `p_end`. Stations along the curve are scaled
-  /// uniformly so that the station at the end of the curve is `length` [m]. Throws InternalError
-  /// unless the arc length of the curve is positive and finite.
+  /// Makes the curve (u(p), v(p)) for the parameter p from 0 to `p_end`. Stations along the curve
+  /// are scaled uniformly so that the station at the end of the curve is `length` [m]. Throws
+  /// InternalError unless the arc length of the curve is positive and finite.
   ParametricCubic(const std::array<double, 4>& u, const std::array<double, 4>& v, double p_end,
                   double length);
 
@@ -112,8 +112,8 @@ class ReferenceLine {
 
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
-  /// Returns the point of the reference line at station s. The point is exact to rounding on lines
-  /// and arcs, and to 1e-9 m on other pieces. Computing time: O(log n) for n pieces.
+  /// Returns the point of the reference line at station s. The returned point is exact to rounding
+  /// on lines and arcs, and to 1e-9 m on other pieces. Computing time: O(log n) for n pieces.
   [[nodiscard]] ReferenceLinePoint At(double s) const { return At(s, s); }
   /// Returns the point at station s on the piece of the reference line that At(`piece_of`) uses.
   [[nodiscard]] ReferenceLinePoint At(double s, double piece_of) const;

@@ -22,10 +22,10 @@ namespace trackbed {
 struct RoadMark {
   /// Distance from the start of the lane section to the start of the road mark [m].
   double s = 0.0;
-  /// Type of the mark in the file: "solid", "broken", "solid solid", "none", ...
+  /// Type of the road mark in the file: "solid", "broken", "solid solid", "none", ...
   std::string type;
-  std::string color;   ///< Color of the mark in the file: "standard", "white", "yellow", ...
-  double width = 0.0;  ///< Width of the mark [m]; 0 if the width is unknown.
+  std::string color;   ///< Color of the road mark in the file: "standard", "white", "yellow", ...
+  double width = 0.0;  ///< Width of the road mark [m]; 0 if the width is unknown.
 };
 
 /// The profile of a road's surface across the road at one station.
@@ -44,8 +44,9 @@ struct Lane {
   /// [m].
   PiecewiseCubic extent;
   bool has_border = false;
-  /// Numbers of the lanes to which this lane is linked at the start of the section (predecessors)
-  /// and at the end of the section (successors). Start and end refer to the direction of growing s.
+  /// Numbers of the lanes to which a lane is linked at the start of its lane section (predecessors)
+  /// and at the end of the section (successors). The start and end of the section refer to the
+  /// direction of growing station s.
   std::vector<int> predecessors;
   std::vector<int> successors;
   std::vector<RoadMark> marks;
@@ -54,7 +55,7 @@ struct Lane {
 /// A part of a road with a constant number of lanes.
 struct LaneSection {
   double s = 0.0;  ///< Station of the section's start [m].
-  /// Lanes from left to right; the lane numbers decrease by one from lane to lane.
+  /// Lanes of the section from left to right; the lane numbers decrease by one from lane to lane.
   std::vector<Lane> lanes;
 
   /// Returns the lane with the number `lane`; null if the section has no such lane.
@@ -101,7 +102,7 @@ struct Road {
   /// Returns the index of the lane section at station s. At the border of two sections, returns the
   /// index of the section that begins at s.
   [[nodiscard]] std::size_t SectionAt(double s) const;
-  /// Returns the station of a section's end [m].
+  /// Returns the station of a lane section's end [m].
   [[nodiscard]] double SectionEnd(std::size_t section) const;
 };
 
@@ -125,16 +126,16 @@ struct RoadNetwork {
   std::map<std::string, Road, std::less<>> roads;          ///< Roads by id.
   std::map<std::string, Junction, std::less<>> junctions;  ///< Junctions by id.
   /// Parts of the file that cannot be read and are left out, such as "road 7", "road 7 successor",
-  /// "junction 2" and "junction 2 connection", each with a text for users. The text states the
-  /// first problem of the broken part and the problem's line.
+  /// "junction 2" and "junction 2 connection", each with a text for users. The text for users
+  /// states the first problem of the broken part and the problem's line in the file.
   std::map<std::string, std::string, std::less<>> broken;
   /// Notes on parts of the file that are not used: broken roads, links to missing roads, junctions
   /// or lanes, invalid road marks, and heights that are not read.
   std::vector<std::string> notes;
 };
 
-/// The borders of a lane at one station: the t coordinates [m], and the derivatives of t with
-/// respect to s.
+/// The borders of a lane at one station: the lateral coordinates t [m], and their derivatives with
+/// respect to the station s.
 struct LaneBorders {
   CubicValue inner;  ///< Border of the lane toward the center lane.
   CubicValue outer;
@@ -173,28 +174,29 @@ struct RoadPosition {
 double ShapeHeight(const Road& road, double s, double t);
 
 /// The center of a lane, or another line along a road, at one station s: a point in the plane and
-/// its derivatives with respect to s. The line is at the distance t(s) from the reference line,
-/// measured across the surface, which the superelevation rolls about the tangent of the reference
-/// line. The height profiles of the road (Road::shape) do not move the line.
+/// its derivatives with respect to s. The line along the road is at the distance t(s) from the
+/// reference line, measured across the surface, which the superelevation rolls about the tangent of
+/// the reference line. The height profiles of the road (Road::shape) do not move the line.
 struct SurfaceLine {
   Vec2 position{0.0, 0.0};
   double heading = 0.0;    ///< Heading [rad].
   double curvature = 0.0;  ///< Curvature [1/m].
   double speed = 0.0;      ///< Derivative of the arc length in the plane with respect to s.
-  /// Whether t is so large that the line runs backward, beyond the center of curvature.
+  /// Whether the distance t from the reference line is so large that the line runs backward, beyond
+  /// the center of curvature.
   bool folded = false;
 };
 
-/// Returns the SurfaceLine at the distance `t` from the reference line. Uses the polynomial pieces
-/// of the road that apply at the station `piece_of`.
+/// Returns the SurfaceLine at the distance `t` from the reference line. SurfaceLineAt uses the
+/// polynomial pieces of the road that apply at the station `piece_of`.
 SurfaceLine SurfaceLineAt(const Road& road, const CubicValue& t, double s, double piece_of);
 
 /// Returns the point of the road's surface at station s and at the distance t [m] from the
-/// reference line. The distance is measured across the road's surface: along the left normal of the
-/// reference line, rotated by the superelevation about the tangent of the reference line. The
-/// height of the profiles (ShapeHeight) is added upward. Height data of the kinds in
-/// Road::unread_heights are ignored. Throws PreconditionError if the station
-/// is outside of the road by more than 1 mm, or if a number is not finite.
+/// reference line. The distance t is measured across the road's surface: along the left normal of
+/// the reference line, rotated by the superelevation about the tangent of the reference line. The
+/// height of the road's profiles (ShapeHeight) is added vertically. Height data of the kinds in
+/// Road::unread_heights are ignored. Throws PreconditionError if the station is outside of the road
+/// by more than 1 mm, or if a number is not finite.
 RoadPosition PositionAt(const Road& road, double s, double t);
 
 /// Returns the point of the road's surface at the distance `offset` [m] from the center of a lane,
@@ -215,8 +217,8 @@ bool IsDrivable(const Lane& lane);
 /// the center lane, if no lane is drivable.
 std::pair<int, int> OutermostLanes(const LaneSection& section);
 
-/// Whether traffic on the lane moves in the direction of growing s. Returns true for the right
-/// lanes of a road with right-hand traffic, and for the left lanes of a road with left-hand
+/// Whether traffic on the lane moves in the direction of growing station s. Returns true for the
+/// right lanes of a road with right-hand traffic, and for the left lanes of a road with left-hand
 /// traffic.
 bool FollowsRoad(const Road& road, int lane);
 

@@ -11,7 +11,7 @@ namespace trackbed {
 struct PaintedLine {
   std::vector<Vec2> points;  ///< Points along the painted line [m], at least two.
   double width = 0.0;        ///< Width of the painted line [m], > 0.
-  bool yellow = false;       ///< Whether the line is yellow; other lines are white.
+  bool yellow = false;       ///< Whether the painted line is yellow; else the line is white.
 };
 
 /// A part of a paved road, seen from above: points of the left and right border at the same
@@ -31,10 +31,10 @@ struct RoadPaint {
 /// and lines are at most `spacing` [m] apart; in large networks, the spacing is increased so that
 /// there are at most about 10^5 points. Neighboring paved lanes of each section (all types except
 /// sidewalks, borders, curbs and "none") form one band. Broken lines are dashes of 3 m every 9 m.
-/// Double lines consist of two lines that are 0.1 m apart. Marks of other types ("grass", "curb",
-/// "edge", "custom", "botts dots") are solid lines. Marks of the type "none" are not drawn.
-/// Superelevation moves lines as it moves the centers of lanes (SurfaceLineAt). Throws
-/// InternalError unless the spacing is positive.
+/// Double lines consist of two lines that are 0.1 m apart. Road marks of other types ("grass",
+/// "curb", "edge", "custom", "botts dots") are solid lines. Road marks of the type "none" are not
+/// drawn. Superelevation shifts painted lines in the same way as the centers of lanes
+/// (SurfaceLineAt). Throws InternalError unless the spacing is positive.
 RoadPaint PaintRoads(const RoadNetwork& network, double spacing);
 
 }  // namespace trackbed

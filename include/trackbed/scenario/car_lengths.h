@@ -16,8 +16,9 @@ inline constexpr double kFullSizeCar = 4.0;
 bool FollowsCarSize(const Key& key, const std::string& method);
 
 /// Returns the factor by which default lengths are multiplied for the scenario's car: min(1,
-/// length/kFullSizeCar). Returns 1 if the car cannot be loaded; another function reports this error
-/// later. Compiles the car's model, unless the model is the default car.
+/// length/kFullSizeCar). Returns the factor 1 if the car cannot be loaded, an error that another
+/// function reports later. CarLengthScale compiles the car's model, unless the model is the default
+/// car.
 double CarLengthScale(const Scenario& scenario);
 
 }  // namespace trackbed

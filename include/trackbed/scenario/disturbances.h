@@ -17,8 +17,8 @@ namespace trackbed {
 struct SpeedLoss {
   /// Time from which the speed limit applies [s]; cannot be combined with `station`.
   std::optional<double> from;
-  /// Station on the path from which the speed limit applies [m]; if there is no path, the distance
-  /// traveled. If neither `from` nor `station` is set, the speed limit applies from the start of
+  /// Station on the path from which the speed limit applies [m]; without a path, the traveled
+  /// distance. If neither `from` nor `station` is set, the speed limit applies from the start of
   /// the run.
   std::optional<double> station;
   double speed = 0.0;  ///< Speed limit [m/s].

@@ -22,7 +22,7 @@ struct ParameterPrior {
 /// A parameter to estimate; all values are in the unit of the car model.
 struct IdentifiedParameter {
   std::string name;   ///< Name of the parameter, as in sim/car_parameters.h.
-  double from = 0.0;  ///< Lower bound.
+  double from = 0.0;  ///< Lower bound of the parameter.
   double to = 0.0;    ///< Upper bound of the parameter, above the lower bound.
   /// Start value of the search, within the bounds; nullopt: the value in the car model, clamped to
   /// the bounds.
@@ -33,24 +33,28 @@ struct IdentifiedParameter {
 };
 
 /// Expected standard deviation of the residuals of each signal; a residual is the difference
-/// between a predicted and a recorded value. Signals without a deviation are not used for the fit.
+/// between a predicted and a recorded value. Signals without an expected deviation are not used for
+/// the fit.
 struct ResidualDeviations {
-  std::optional<double> yaw_rate{};  ///< Expected deviation of the yaw rate [rad/s].
-  /// Expected deviation of the lateral acceleration of the center of gravity [m/s^2].
+  std::optional<double> yaw_rate{};  ///< Expected deviation of the predicted yaw rate [rad/s].
+  /// Expected deviation of the predicted lateral acceleration of the center of gravity [m/s^2].
   std::optional<double> lateral_acceleration{};
-  /// Expected deviation of the lateral speed of the center of gravity [m/s].
+  /// Expected deviation of the predicted lateral speed of the center of gravity [m/s].
   std::optional<double> lateral_speed{};
-  std::optional<double> position{};  ///< Expected deviation of the position along each axis [m].
-  std::optional<double> heading{};   ///< Expected deviation of the heading [rad].
-  std::optional<double> speed{};     ///< Expected deviation of the speed [m/s].
+  /// Expected deviation of the predicted position along each axis [m].
+  std::optional<double> position{};
+  std::optional<double> heading{};  ///< Expected deviation of the predicted heading [rad].
+  std::optional<double> speed{};    ///< Expected deviation of the predicted speed [m/s].
 };
 
 /// The loss function: the contribution of a residual to the cost. The number r is the residual
 /// divided by the expected deviation of the signal.
 enum class RobustLoss {
-  kSquared,  ///< Loss r^2/2.
-  kHuber,    ///< Loss r^2/2 for |r| up to `loss_scale`, and linear in |r| beyond (Huber 1964).
-  kSoftL1,   ///< Loss s^2 (sqrt(1 + (r/s)^2) - 1) of r, with s = `loss_scale`.
+  kSquared,  ///< Loss r^2/2 of the scaled residual r.
+  /// Loss r^2/2 of the scaled residual r up to |r| = `loss_scale`, and linear in |r| beyond (Huber
+  /// 1964).
+  kHuber,
+  kSoftL1,  ///< Loss s^2 (sqrt(1 + (r/s)^2) - 1) of the scaled residual r, with s = `loss_scale`.
 };
 
 /// The bank of a track or an open road on which all records were driven, as a function of the
@@ -59,7 +63,8 @@ struct BankEstimation {
   /// File of the track; nullopt: the path of the first fitted record, or the first lap of this
   /// path.
   std::optional<std::string> track{};
-  /// Distance between two knots of the bank along the track [m]; nullopt: an eighth of the track.
+  /// Distance between two knots of the bank spline along the track [m]; nullopt: an eighth of the
+  /// track.
   std::optional<double> spacing{};
   /// Standard deviation of the prior distribution of the bank at each knot, which is normal with
   /// the mean 0 [rad], > 0.
@@ -88,10 +93,10 @@ struct Identification {
   /// Scale of the robust loss function, as a multiple of the expected deviation.
   double loss_scale = 2.0;
   std::vector<IdentifiedParameter> parameters;
-  /// Whether a constant steering offset is estimated besides `parameters` (identify.h).
+  /// Whether a constant steering offset is estimated in addition to `parameters` (identify.h).
   bool steering_offset = true;
-  /// Estimates the bank of the track besides `parameters`, for the plant `mujoco`; nullopt: the
-  /// ground is that of the scenarios.
+  /// Estimates the bank of the track in addition to `parameters`, for the plant `mujoco`; nullopt:
+  /// the ground is that of the scenarios.
   std::optional<BankEstimation> bank{};
   /// Number of searches: the first search begins at the parameters' `start` values, the others at
   /// random values within the bounds.

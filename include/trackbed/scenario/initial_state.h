@@ -5,12 +5,11 @@
 
 namespace trackbed {
 
-/// Returns the same initial state as InitialState(scenario), except for the steering angle on a
-/// route that the mission gives: a path from a file, a course, a route over lanes, or a track. On a
-/// route of the mission, the wheels start at the steering angle that matches the curvature at the
-/// start of the route, if this angle is within the car's limit. If the mission or a recording sets
-/// the steering angle, the wheels start at the set angle. For a route over lanes, InitialState
-/// searches the route again.
+/// Returns the same initial state as InitialState(scenario), except for the steering angle at the
+/// start of a path file, course, route over lanes or track. On a route of the mission, the wheels
+/// start at the steering angle that matches the curvature at the start of the route, if this angle
+/// is within the car's limit. If the mission or a recording sets the steering angle, the wheels
+/// start at the set angle. For a route over lanes, InitialState repeats the search for the route.
 StartState InitialState(const Scenario& scenario, const VehicleParams& vehicle);
 
 /// Returns the track and the laps of the mission; no track if the mission is not on a track.

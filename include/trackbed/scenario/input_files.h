@@ -23,14 +23,14 @@ std::vector<std::string> InputFileNames();
 bool HasOwnVehicle(const VehicleSpec& vehicle);
 
 /// Returns the scenario's YAML like ResolvedYaml, but without start values and duration if the
-/// scenario does not set them. An override of a key in the portable YAML therefore has the same
-/// effect as in the scenario's own file. For example, an override of the first waypoint in the
-/// portable YAML also moves the start.
+/// scenario does not set them. Because unset start values stay unset, an override of a key in the
+/// portable YAML has the same effect as in the scenario's own file. For example, an override of the
+/// first waypoint in the portable YAML also moves the start.
 std::string PortableYaml(const Scenario& scenario);
 
-/// Returns the options with which ComposeScene makes the scenario's car. Reads the tyre files of
-/// the scenario (ReadTyreFile). Errors: throws InputError if a tyre file is missing or cannot be
-/// used.
+/// Returns the options with which ComposeScene makes the scenario's car. MakeSceneOptions reads the
+/// tyre files of the scenario (ReadTyreFile). Errors: throws InputError if a tyre file is missing
+/// or cannot be used.
 SceneOptions MakeSceneOptions(const Scenario& scenario);
 
 /// Returns the notes about how the scenario's tyre files were read; empty without tyre files.

@@ -23,23 +23,23 @@ struct KeySection {
   /// Dotted key of the section, in which N stands for the index of a list element; empty for the
   /// whole file.
   std::string key;
-  /// Name of the method that has these keys; empty if the keys do not depend on the method.
+  /// Name of the method to which the section's keys belong; empty if the keys apply to all methods.
   std::string method;
   std::string text;  ///< One-line description.
   std::vector<KeyInfo> keys;
 };
 
-/// Returns the sections of a scenario in the order of the file. Each section is listed before the
-/// sections that it contains.
+/// Returns the sections of keys of a scenario, in the order of the file. Each section is listed
+/// before the sections that it contains.
 std::vector<KeySection> ScenarioKeys();
 
-/// Returns the sections of a study file.
+/// Returns the sections of keys of a study file.
 std::vector<KeySection> StudyKeys();
 
-/// Returns the sections of a log map (recording/log_map.h).
+/// Returns the sections of keys of a log map (recording/log_map.h).
 std::vector<KeySection> LogMapKeys();
 
-/// Returns the sections of an identification study.
+/// Returns the sections of keys of an identification study.
 std::vector<KeySection> IdentificationKeys();
 
 }  // namespace trackbed

@@ -11,15 +11,16 @@ namespace trackbed {
 /// `settle` and have a slowly changing yaw rate. Gradients over the lateral acceleration a_y are
 /// least-squares fits to the samples with fit_from <= |a_y| <= fit_to.
 struct SteadyStateCircleOptions {
-  double settle = 2.0;    ///< Settling time [s].
+  double settle = 2.0;    ///< Settling time before the evaluation [s].
   double fit_from = 0.5;  ///< Smallest lateral acceleration |a_y| of fitted samples [m/s^2].
   double fit_to = 4.0;    ///< Largest lateral acceleration |a_y| of fitted samples [m/s^2].
 };
 
-/// SAE J266, method 2: slowly increasing steer at constant speed. The metrics are those of the
-/// steady-state circular test, plus the steering angle at a lateral acceleration of 0.3 g.
+/// SAE J266, method 2: slowly increasing steer at constant speed. The metrics of slowly increasing
+/// steer are those of the steady-state circular test, plus the steering angle at a lateral
+/// acceleration of 0.3 g.
 struct SlowlyIncreasingSteerOptions {
-  double settle = 2.0;    ///< Settling time [s].
+  double settle = 2.0;    ///< Settling time before the evaluation [s].
   double fit_from = 0.5;  ///< Smallest lateral acceleration |a_y| of fitted samples [m/s^2].
   double fit_to = 4.0;    ///< Largest lateral acceleration |a_y| of fitted samples [m/s^2].
 };

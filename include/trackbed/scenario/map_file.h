@@ -33,15 +33,16 @@ using AccessCheck = std::function<std::string(const std::filesystem::path& file)
 ///     free_thresh in (0, occupied_thresh]        required
 ///
 /// The image is a PGM (P2, P5) or a PNG file. A pixel has the darkness d = 1 - v/v_max, where v is
-/// the gray value of the pixel, or the mean of red, green and blue. If `negate` is 1, the darkness
-/// of a pixel is d = v/v_max. A pixel with the darkness d is occupied if d > occupied_thresh, free
-/// if d < free_thresh, and otherwise unknown. In mode `scale`, a pixel that is not opaque is also
-/// unknown. In mode `scale`, map_server converts a darkness between the two thresholds to a
-/// probability, whereas ReadRosMap makes the cell unknown. Mode `raw` is not supported.
+/// the gray value of the pixel, or the mean of red, green and blue, and v_max the largest possible
+/// value. If `negate` is 1, the darkness of a pixel with the gray value v is d = v/v_max. A pixel
+/// with the darkness d is occupied if d > occupied_thresh, free if d < free_thresh, and otherwise
+/// unknown. In mode `scale`, a pixel that is not opaque makes the cell unknown. In mode `scale`,
+/// map_server converts a darkness between the two thresholds to a probability, whereas ReadRosMap
+/// makes the cell unknown. The mode `raw` of map_server is not supported.
 ///
 /// Throws InputError, which lists every problem of the YAML file with line, column and key, or the
-/// first problem of the image. Calls `access_error` before reading the image, to check that the
-/// image may be read.
+/// first problem of the image. ReadRosMap calls `access_error` before reading the image, to check
+/// that the image may be read.
 GridMap ReadRosMap(const std::filesystem::path& file, const AccessCheck& access_error = {});
 
 /// Returns true if the file has the keys `image` and `resolution`, which ROS maps have but

@@ -10,8 +10,8 @@
 #include "trackbed/recording/log_map.h"
 #include "trackbed/recording/recorded_drive.h"
 
-/// The recorded drive of a scenario. Every plant replays the recorded drive, and the result is
-/// compared with the recorded drive.
+/// The recorded drive of a scenario. Every plant replays the recorded drive, and the simulated
+/// motion is compared with the recorded drive.
 namespace trackbed {
 
 struct BankedTrack;

@@ -11,7 +11,7 @@
 namespace trackbed {
 
 enum class SampleMethod {
-  kRandom,  ///< Independent points.
+  kRandom,  ///< Independent, uniformly distributed random points.
   /// Latin hypercube: the range of each coordinate is divided into `count` equal intervals, and
   /// each interval contains one point.
   kLatinHypercube,
@@ -28,12 +28,13 @@ struct SampleSpec {
 };
 
 /// Makes a sample as a table with one row per point and one column per coordinate. All coordinates
-/// are in (0, 1).
+/// of the sample are in (0, 1).
 ///
 /// Guarantees: the same arguments give bit-identical samples on every machine. The numbers in a
-/// column do not depend on the number of columns, so the values of a parameter stay the same when
-/// another parameter is added. With kRandom and kSobol, the numbers of a point also do not depend
-/// on `count`. Each column is uniformly distributed for any seed.
+/// column of the sample do not depend on the number of columns, so the values of a parameter stay
+/// the same when another parameter is added. With kRandom and kSobol, the coordinates of a point
+/// also do not depend on the number of points `count`. Each column is uniformly distributed for any
+/// seed.
 ///
 /// kLatinHypercube is the method of McKay, Beckman and Conover (1979): the intervals are permuted
 /// at random, and the position in each interval is random. kSobol is the sequence of Sobol' (1967)
@@ -65,11 +66,12 @@ struct Distribution {
   DistributionKind kind = DistributionKind::kUniform;
   double from = 0.0;
   double to = 1.0;
-  /// Step of kUniform: only the values `from` + k `step` occur, and all are equally likely. If the
-  /// step is 0, all values of the range can occur.
+  /// Step of a uniform distribution: only the values `from` + k `step` (k = 0, 1, ...) occur, and
+  /// all are equally likely. If the step is 0, all values of the range can occur.
   double step = 0.0;
   double mean = 0.0;
-  double deviation = 1.0;  ///< Standard deviation of kNormal before the distribution is truncated.
+  /// Standard deviation of the normal distribution before it is truncated.
+  double deviation = 1.0;
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   std::vector<std::string> values;  ///< Possible values, each as YAML on one line.

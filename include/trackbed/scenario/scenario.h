@@ -144,7 +144,7 @@ struct PlantExpectation {
   std::optional<double> min_clearance;
   /// True if the car must hit an obstacle, false if the car must not hit any obstacle.
   std::optional<bool> collision;
-  std::vector<MetricExpectation> metrics;  ///< Expectations on metrics without an own key.
+  std::vector<MetricExpectation> metrics;  ///< Expectations on metrics that have no own key.
   std::vector<RequirementExpectation> requirements;
 };
 
@@ -223,13 +223,13 @@ using MetricPaths = std::function<std::vector<std::string>(const Scenario& scena
 /// similar known key), missing or repeated key, wrong type, NaN or infinity, value out of range,
 /// unknown name. For a problem of an override, the InputError states the text of the override. The
 /// function `metrics` returns the names that are allowed in `expect.metrics`. If `metrics` is
-/// empty, ReadScenario does not check these names; LoadScenario (analysis/run.h) checks them.
+/// empty, ReadScenario does not check metric names; LoadScenario (analysis/run.h) checks them.
 /// `asset_folders` becomes Scenario::asset_folders.
 ///
 /// If a coordinate of a place exceeds 1e5 m, as in UTM, all places are moved to one local origin
 /// (Scenario::origin). The local origin is the middle of the places, rounded to 1000 m, or the key
 /// `origin`. Places are the positions in keys and files, and the start. Throws InputError if a
-/// place is more than 1e5 m from the origin, because the inputs then have different coordinates.
+/// place is more than 1e5 m from the origin, because the inputs then differ in coordinate system.
 /// The <offset> in the header of a road network is added to the roads' coordinates if only the
 /// shifted roads are near the other places.
 Scenario ReadScenario(const std::filesystem::path& file,

@@ -16,19 +16,19 @@ enum class FolderContent { kScenarios, kScenariosAndStudies };
 std::vector<std::filesystem::path> ShippedScenarios(FolderContent content);
 
 /// Finds the scenario file or study file that a name refers to. FindScenario returns an existing
-/// file, or a name with an extension, unchanged. Any other name refers to a shipped scenario or
-/// study, such as "three_turns", "studies/robustness" or "robustness". Throws InputError if several
-/// shipped files match the name. For an unknown name, FindScenario throws InputError that suggests
-/// the most similar name. If shipped files match the name, FindScenario reads only the matching
-/// files.
+/// file, or a name with an extension, unchanged. A name without an extension that is no existing
+/// file refers to a shipped scenario or study, such as "three_turns", "studies/robustness" or
+/// "robustness". Throws InputError if several shipped files match the name. For an unknown name,
+/// FindScenario throws InputError that suggests the most similar name. If shipped files match the
+/// name, FindScenario reads only the matching files.
 std::filesystem::path FindScenario(const std::filesystem::path& name);
 
-/// Returns the scenario files that `paths` name, without duplicates. Each path that is not a folder
-/// is resolved by FindScenario. A folder is replaced by all its *.yaml and *.yml files, sorted,
-/// with files before subfolders. ScenarioFiles skips hidden files and folders (.git) and links to
-/// folders. If a folder contains no scenarios, the returned list contains the folder itself, so
-/// that RefuseFolder can report the folder. ScenarioFiles throws RunError if a folder cannot be
-/// read.
+/// Returns the scenario files that `paths` name, without duplicates. FindScenario resolves each of
+/// the `paths` that is not a folder. A folder is replaced by all its *.yaml and *.yml files,
+/// sorted, with files before subfolders. ScenarioFiles skips hidden files and folders (.git) and
+/// links to folders. If a folder contains no scenarios, the returned list contains the folder
+/// itself, so that RefuseFolder can report the folder. ScenarioFiles throws RunError if a folder
+/// cannot be read.
 std::vector<std::filesystem::path> ScenarioFiles(const std::vector<std::string>& paths,
                                                  FolderContent content);
 

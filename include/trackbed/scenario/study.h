@@ -23,9 +23,9 @@ struct Setting {
 
 /// A bisection that finds the highest value of a key with which the run passes.
 struct BisectSpec {
-  std::string key;         ///< Dotted key of the number to bisect.
-  double from = 0.0;       ///< Value with which the run is expected to pass.
-  double to = 0.0;         ///< Value above `from` with which the run is expected to fail.
+  std::string key;    ///< Dotted key of the number to bisect.
+  double from = 0.0;  ///< Value of the key with which the run is expected to pass.
+  double to = 0.0;    ///< Value of the key, above `from`, with which the run is expected to fail.
   double tolerance = 0.0;  ///< Maximum error of the value that the bisection finds.
   int line = 0;
   int column = 0;
@@ -44,15 +44,15 @@ struct KeepSpec {
     kNone,
     kFailed,  ///< Rows of the study whose run did not pass.
     kAll,
-    kHighest,  ///< The `count` rows of the study with the highest output `by`.
-    kLowest,   ///< The `count` rows of the study with the lowest output `by`.
+    kHighest,  ///< The `count` rows of the study with the highest values of the output `by`.
+    kLowest,   ///< The `count` rows of the study with the lowest values of the output `by`.
   };
   Rows rows = Rows::kNone;
   int count = 0;
   std::string by{};
 };
 
-/// Formats the selection in the notation of study files, such as "worst 10 by
+/// Formats the selection of kept rows in the notation of study files, such as "worst 10 by
 /// metrics.mujoco.cross_track.max".
 std::string ToString(const KeepSpec& keep);
 
@@ -77,7 +77,7 @@ struct Variation {
   std::vector<Condition> when{};
 };
 
-/// A key whose value is computed from other keys.
+/// A key of the scenario whose value is computed from other keys.
 struct DerivedKey {
   std::string key;      ///< Dotted key.
   std::string formula;  ///< Formula that computes the value from other keys of the study.
@@ -88,10 +88,10 @@ struct DerivedKey {
 /// Options of `trackbed falsify`, which varies the keys with distributions to find a run that
 /// fails.
 struct SearchSpec {
-  std::string method = "surrogate";  ///< One of StudySearches().
+  std::string method = "surrogate";  ///< Search method, one of StudySearches().
   int runs = 200;                    ///< Maximum number of runs of the search.
   /// Number of parallel NLopt searches, which together use the maximum number of runs. If
-  /// `restarts` is 0, there are two searches, or one search with the method `direct`.
+  /// `restarts` is 0, two parallel searches are run, or one search with the method `direct`.
   int restarts = 0;
   /// Population size of the methods crs2, esch and isres. If `population` is 0, the population size
   /// is 4 n + 4 for n keys.
@@ -123,7 +123,7 @@ struct Study {
   std::string scenario_text;
   /// Overrides of keys from the command line, which take precedence over `set`.
   std::vector<Override> overrides;
-  MetricPaths metrics;                               ///< Allowed metrics, for ReadScenario.
+  MetricPaths metrics;  ///< Names of allowed metrics, for ReadScenario.
   std::vector<std::filesystem::path> asset_folders;  ///< Asset folders, for ReadScenario.
   std::vector<Setting> set;                          ///< Settings that apply to every run.
   /// Keys that vary between runs, in the order of the file.
@@ -134,7 +134,7 @@ struct Study {
   std::optional<SampleSpec> sample;
   /// Options for a search over the keys of `vary` with distributions.
   std::optional<SearchSpec> search;
-  /// Nominal values of the searched keys, toward which a counterexample is shrunk.
+  /// Nominal values of the searched keys, toward which a found counterexample is shrunk.
   std::vector<Setting> nominal;
   /// Keys whose values are computed, in the order of the file.
   std::vector<DerivedKey> derive;

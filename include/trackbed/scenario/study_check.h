@@ -12,10 +12,11 @@ namespace trackbed {
 /// evenly spaced points that include the first and the last point.
 std::vector<std::size_t> PointsToCheck(const StudyPoints& points);
 
-/// Checks the scenarios at the points from PointsToCheck. Throws InputError, which lists each
-/// problem once, with one of the affected points unless all points are affected. For a bisection,
-/// the scenario is checked at both ends of the bisected range and at one value in between. If `all`
-/// is true, every point must be valid; otherwise one valid point is enough.
+/// Checks the scenarios of a study at the points from PointsToCheck. Throws InputError, which lists
+/// each problem once, with one of the affected points unless all points are affected. For a
+/// bisection, the scenario is checked with both end values of the bisected key and with one value
+/// between them. If `all` is true, every checked point must be valid; otherwise one valid point is
+/// enough.
 void CheckPoints(const StudyPoints& points, bool all);
 
 }  // namespace trackbed

@@ -14,15 +14,15 @@ namespace trackbed {
 /// A point of a study: the settings of one run, and the scenario with these settings.
 struct StudyPoint {
   std::vector<Setting> settings;  ///< Settings at this point, from `vary`, `list` and `derive`.
-  /// Scenario with the settings of this point; a bisected key has the value `from`.
+  /// Scenario with the settings of this point; a bisected key has its lowest value `from`.
   Scenario scenario;
   /// Reason why the scenario at this point is invalid; empty if the scenario is valid.
   std::string refused{};
 };
 
-/// Reads the scenario at a point, with the bisected key set to `bisected`. Throws InputError in the
-/// same cases as ReadScenario. For a problem in a setting of the study, the InputError states the
-/// position in the study's file.
+/// Reads the scenario at a point of a study, with the bisected key set to `bisected`. Throws
+/// InputError in the same cases as ReadScenario. For a problem in a setting of the study, the
+/// InputError states the position in the study's file.
 Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
                    std::optional<double> bisected = {});
 
@@ -30,13 +30,13 @@ Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
 /// scenario is invalid, StudyPoint::refused is the first problem.
 StudyPoint PointWith(const Study& study, std::vector<Setting> settings);
 
-/// Returns the number that a key has in the scenario, including default values; nullopt if there is
-/// no such key.
+/// Returns the numeric value of a key in the scenario, including default values; nullopt if there
+/// is no such key.
 std::optional<double> NumberAt(const Scenario& scenario, const std::string& key);
 
-/// The points of a study, which are computed on demand and not stored. Points are ordered as in
-/// nested loops. The keys of `vary` are the outer loops in the order of the file, `list` is the
-/// next inner loop, and the sample is the innermost loop.
+/// The points of a study, which are computed on demand and not stored. The points of a study are
+/// ordered as in nested loops. The keys of `vary` are the outer loops in the order of the file,
+/// `list` is the next inner loop, and the sample is the innermost loop.
 ///
 /// Guarantees: the same study always has the same points. Several threads may read points at the
 /// same time, because StudyPoints cannot be changed after construction. If points of the grid

@@ -15,12 +15,13 @@ namespace trackbed {
 struct AdaptOptions {
   /// Folders for meshes (SceneOptions::asset_folders).
   std::vector<std::filesystem::path> asset_folders{};
-  /// Name of the body that is the vehicle, or that contains it, if the file has several vehicles.
+  /// Name of the body that is or contains the vehicle, for a file with several vehicles.
   std::string body{};
-  std::optional<double> wheel_radius{};    ///< Radius of all wheels [m].
-  std::optional<double> steering_limit{};  ///< Largest bicycle angle to each side [rad].
-  std::optional<double> steering_rate{};   ///< Largest rate of the bicycle angle [rad/s].
-  std::optional<double> drive_torque{};    ///< Largest torque on all driven wheels together [N m].
+  std::optional<double> wheel_radius{};  ///< Radius of all wheels [m].
+  /// Largest steering angle of the bicycle model to each side [rad].
+  std::optional<double> steering_limit{};
+  std::optional<double> steering_rate{};  ///< Largest steering rate of the bicycle model [rad/s].
+  std::optional<double> drive_torque{};   ///< Largest torque on all driven wheels together [N m].
   /// Whether only the front axle steers, although the rear wheels of the model have steering
   /// joints, too. The rear wheels of the proposed car point straight ahead.
   bool steers_front_only = false;
@@ -30,8 +31,8 @@ struct AdaptOptions {
 struct AdaptGuess {
   std::string what;   ///< Part or parameter of the car, such as "wheel fl" or "steering limit".
   std::string value;  ///< The proposed value, with its unit.
-  /// The parts of the model from which the value follows. The evidence begins with "assumed" if
-  /// nothing in the model determines the value.
+  /// The parts of the model from which the proposed value follows. The evidence begins with
+  /// "assumed" if nothing in the model determines the value.
   std::string evidence;
 };
 
@@ -64,8 +65,9 @@ struct AdaptedModel {
 /// Errors: throws InputError if the file cannot be read or does not compile. Throws InputError,
 /// with a question and the option that answers it, if the model has no vehicle with four wheels or
 /// with two driven wheels. Also throws InputError if the steered axle cannot be determined, or if
-/// nothing in the model suggests a value for a missing limit. The model's size and the separate
-/// process have the limits of ComposeScene and CompileScene. AdaptModel compiles the model twice.
+/// nothing in the model suggests a value for a missing limit. The limits of ComposeScene and
+/// CompileScene apply to the model's size and to the separate process that compiles the model.
+/// AdaptModel compiles the model twice.
 AdaptedModel AdaptModel(const std::filesystem::path& file, const AdaptOptions& options);
 
 }  // namespace trackbed

@@ -36,8 +36,8 @@ struct CarTyres {
 inline constexpr double kAirDensity = 1.225;
 
 /// Aerodynamic force on the car, computed from the relative wind velocity v as 1/2 rho |v| v times
-/// an area. The longitudinal and the lateral aerodynamic force have separate areas; an area of 0
-/// means no force.
+/// an area, with the air density rho. The longitudinal and the lateral aerodynamic force have
+/// separate areas; an area of 0 means no force.
 struct CarAerodynamics {
   double drag_area = 0.0;  ///< Effective area C_d A for wind along x [m^2].
   double side_area = 0.0;  ///< Effective area C_s A for wind along y [m^2].
@@ -68,8 +68,8 @@ struct CarParts : ChassisParts {
   std::array<int, 2> steer_dof{};
   int rack_qpos = -1;
   int rack_dof = -1;
-  int steer_actuator = -1;  ///< Index of the steering control in ctrl.
-  int steer_state = -1;     ///< Index of the steering actuator's state in act.
+  int steer_actuator = -1;  ///< Index of the steering control in MuJoCo's ctrl.
+  int steer_state = -1;     ///< Index of the steering actuator's state in MuJoCo's act.
   int drive_actuator = -1;
   double drive_limit = 0.0;  ///< Largest total drive torque on all driven wheels together [N m].
   double drive_power = 0.0;  ///< Largest power of the drive [W]; 0: no limit.
@@ -90,7 +90,7 @@ struct WheelPairParts : ChassisParts {
   std::array<int, 2> wheel{};  ///< Index of the body of each wheel.
   std::array<int, 2> spin_qpos{};
   std::array<int, 2> spin_dof{};
-  std::array<int, 2> actuator{};  ///< Index of each wheel's control in ctrl.
+  std::array<int, 2> actuator{};  ///< Index of each wheel's control in MuJoCo's ctrl.
   double wheel_speed = 0.0;       ///< Largest angular speed of a wheel [rad/s].
   /// Error of the wheel speed at which the servo commands the motor's maximum torque [rad/s].
   double servo_slack = 0.0;
@@ -102,7 +102,7 @@ struct WheelPairParts : ChassisParts {
 /// arrays, the left wheel comes before the right wheel.
 struct TrailerParts {
   TrailerParams params;
-  int body = -1;  ///< Index of the body that the hitch moves.
+  int body = -1;  ///< Index of the trailer's body, which the hitch moves.
   /// Indices of the coordinates of the hitch: yaw, pitch and roll of the trailer relative to the
   /// car, in this order.
   std::array<int, 3> hitch_qpos{};
@@ -113,7 +113,7 @@ struct TrailerParts {
   std::array<int, 2> spin_qpos{};
   std::array<int, 2> spin_dof{};
   std::array<double, 2> spin_inertia{};  ///< Inertia of each wheel about its spin axis [kg m^2].
-  double hub_height = 0.0;               ///< Height of the wheel centers, at rest [m].
+  double hub_height = 0.0;               ///< Height of the trailer's wheel centers, at rest [m].
 };
 
 /// A vehicle compiled by MuJoCo, with its scene. A CarModel is immutable, so several threads may
@@ -135,8 +135,9 @@ class CarModel {
   ~CarModel();
 
   [[nodiscard]] const VehicleParams& params() const { return params_; }
-  /// Returns the parameters of the vehicle without its payload. Planners and controllers use these
-  /// parameters. If the scene has no payload, the returned parameters equal params().
+  /// Returns the parameters of the vehicle without its payload. Planners and controllers use the
+  /// parameters without payload. If the scene has no payload, the returned parameters equal
+  /// params().
   [[nodiscard]] const VehicleParams& unladen() const { return unladen_; }
   /// Returns the indices of the parts that every vehicle has.
   [[nodiscard]] const ChassisParts& chassis() const;
@@ -153,7 +154,7 @@ class CarModel {
   /// the order of CarParts or WheelPairParts. The returned geoms do not include the wheels of a
   /// trailer.
   [[nodiscard]] std::span<const int> tyres() const;
-  /// Returns the bodies of the wheels, in the same order as tyres().
+  /// Returns the indices of the wheels' bodies, in the same order as tyres().
   [[nodiscard]] std::span<const int> wheels() const;
   [[nodiscard]] const Scene& scene() const { return scene_; }
   /// Returns the name of the car's file, for use in messages.

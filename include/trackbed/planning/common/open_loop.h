@@ -20,9 +20,9 @@ struct OpenLoopRun {
 
 /// Simulates a kinematic car that steers by `schedule` and drives `stop_distance` [m] from the
 /// start of `path`. Measures the distance between the car's reference point and the path every 0.5
-/// m and at the end. The reference point of the car starts on the path. The car changes direction
-/// at the cusps of the path. The simulated wheels follow the steering schedule exactly, as real
-/// wheels do at feasible speeds.
+/// m and at the end of the run. The reference point of the car starts on the path. The car changes
+/// direction at the cusps of the path. The simulated wheels follow the steering schedule exactly,
+/// as real wheels do at feasible speeds.
 OpenLoopRun SimulateOpenLoop(const VehicleParams& vehicle, const Path& path,
                              const SteeringSchedule& schedule, double stop_distance,
                              ReferencePoint reference = ReferencePoint::kRearAxle);

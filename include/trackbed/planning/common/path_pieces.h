@@ -19,18 +19,18 @@ namespace trackbed {
 /// Curvature of a path at a station.
 struct Bend {
   double curvature = 0.0;  ///< Curvature kappa [1/m].
-  double sharpness = 0.0;  ///< Derivative of kappa by the station [1/m^2].
+  double sharpness = 0.0;  ///< Derivative of the curvature by the station [1/m^2].
 };
 
 /// A short piece of a path, and its curvature.
 struct PathPiece {
   Stations stations;
-  double curvature = 0.0;  ///< Largest curvature |kappa| on the piece [1/m].
-  int direction = 1;       ///< Direction of travel, 1 or -1.
-  /// Curvature at both ends of the piece and, if the curvature has an extremum within the piece,
-  /// also at the extremum.
+  double curvature = 0.0;  ///< Largest curvature |kappa| on the piece of the path [1/m].
+  int direction = 1;       ///< Direction of travel: 1 forwards, -1 backwards.
+  /// Curvatures of the path at both ends of the piece and at an extremum of the curvature within
+  /// the piece, if any.
   std::array<Bend, 3> samples{};
-  std::size_t count = 0;  ///< Number of samples, 2 or 3.
+  std::size_t count = 0;  ///< Number of curvature samples of the piece, 2 or 3.
 
   [[nodiscard]] std::span<const Bend> bends() const { return {samples.data(), count}; }
 };
@@ -39,7 +39,7 @@ struct PathPiece {
 struct PieceSpeed {
   double speed = 0.0;         ///< Magnitude of the speed v [m/s], >= 0.
   double acceleration = 0.0;  ///< Rate of change of the speed v [m/s^2].
-  int direction = 1;          ///< Direction of travel, 1 or -1.
+  int direction = 1;          ///< Direction of travel: 1 forwards, -1 backwards.
   double road = 1.0;          ///< Factor of the road on the tyres' friction [1], > 0.
 };
 
@@ -47,17 +47,17 @@ struct PieceSpeed {
 /// |kappa'|/(1 + (L kappa)^2) [rad/m].
 double SteeringSlope(const VehicleParams& vehicle, const Bend& bend);
 
-/// Returns the largest magnitude of the steering rate |d delta/dt| that the car needs in any of the
-/// `bends` [rad/s], on its tyres or as a kinematic car without slip.
+/// Returns the largest steering rate |d delta/dt| [rad/s] that the car needs in any of the `bends`.
+/// The returned steering rate is the larger one of the rates with and without tyre slip.
 double SteeringRateOn(const VehicleParams& vehicle, std::span<const Bend> bends,
                       const PieceSpeed& speed);
 
 /// Returns a speed of at most `at.speed` with which the car needs at most the steering rate `rate`
 /// [rad/s] in all of the `bends`. Returns infinity if the steering rate that the car needs at
 /// `at.speed` is at most `rate`. For an understeering car, the required steering rate increases
-/// with the speed, so the result is the largest possible speed, to nine digits. The argument `at`
-/// also contains the acceleration of the car and the friction of the road. A `rate` of 0 means that
-/// the steering rate is not limited.
+/// with the speed, so the returned speed is the largest possible one, to nine digits. The argument
+/// `at` also contains the acceleration of the car and the friction of the road. A `rate` of 0 means
+/// that the steering rate is not limited.
 double SpeedForSteeringRate(const VehicleParams& vehicle, std::span<const Bend> bends, double rate,
                             const PieceSpeed& at);
 

@@ -37,8 +37,9 @@ struct TrackLaps {
 struct PlannedLaps {
   std::shared_ptr<const Track> track{};  ///< Track of the plan; null if the plan is not on a track.
   /// Stations at which the plan crosses the start line [m]; there is one more crossing than laps.
-  /// The first crossing has the station 0 if the plan begins on or beyond the start line. In a plan
-  /// made during a run, crossings of the start line behind the car have negative stations.
+  /// The first crossing of the start line has the station 0 if the plan begins on or beyond the
+  /// start line. In a plan made during a run, crossings of the start line behind the car have
+  /// negative stations.
   std::vector<double> lines{};
 };
 
@@ -51,14 +52,15 @@ struct LaneMission {
 
 /// A section of a lane-change course that has cones on either side.
 struct Gate {
-  int section = 0;   ///< Number of the section within the course.
-  OrientedBox lane;  ///< Rectangle between the cones, with its x axis along the course.
+  int section = 0;   ///< Number of the section within the lane-change course.
+  OrientedBox lane;  ///< Rectangle between the cones of the gate, with its x axis along the course.
 };
 
 /// A place at which a plan keeps the car at rest.
 struct PlannedWait {
-  double s = 0.0;         ///< Station of the wait [m]: 0, a cusp of the path or one of Plan::stops.
-  double duration = 0.0;  ///< Time from coming to rest to starting again [s], > 0.
+  /// Station at which the car waits [m]: 0, a cusp of the path or one of Plan::stops.
+  double s = 0.0;
+  double duration = 0.0;  ///< Time of the wait, from coming to rest to starting again [s], > 0.
 };
 
 /// A node of a search tree. The first node of a tree is the start, which is its own parent.
@@ -93,11 +95,11 @@ struct PlanRequest {
   /// `clock`. If `clock` is empty, time limits are ignored.
   std::function<double()> clock{};
   /// Maximum number of random samples that the planner may draw for all search trees together
-  /// (PlanDiagnostics::samples), whatever the planner's options say. The maximum number of samples
-  /// bounds the computing time, which is about 12 us per sample.
+  /// (PlanDiagnostics::samples), regardless of the planner's options. The maximum number of samples
+  /// bounds the computing time of the planner, which is about 12 us per sample.
   long max_samples = kMaxSamples;
   double friction = 1.0;  ///< Friction of the road, as a factor on the tyres' friction coefficient.
-  /// Patches of the road that have a different friction.
+  /// Patches of the road whose friction differs from `friction`.
   std::vector<FrictionPatch> friction_patches{};
   Ground ground{};       ///< Ground under the road; slopes reduce the grip.
   TrackLaps on_track{};  ///< Track and laps to drive, for planners that follow a track.
@@ -105,8 +107,8 @@ struct PlanRequest {
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
   /// Largest allowed distance of the path from each waypoint after the first [m], >= 0; nullopt: no
   /// bound. To stay within `max_waypoint_miss`, planners that round corners use smaller radii, or
-  /// turn around behind the waypoint. MakePlan rejects a plan that passes a waypoint farther away
-  /// (kWaypointMissed), unless the plan is partial.
+  /// turn around beyond the waypoint. MakePlan rejects a plan that passes a waypoint farther away
+  /// than `max_waypoint_miss` (kWaypointMissed), unless the plan is partial.
   std::optional<double> max_waypoint_miss{};
   /// The car's limits, if the planned speeds should be as high as these limits allow. If `limits`
   /// is nullopt, the planned speeds follow the mission's `speed`.
@@ -115,28 +117,29 @@ struct PlanRequest {
 
 /// Conditions of the road that limit a plan, and the policy for plans that exceed the car's limits.
 struct RoadConditions {
-  double friction = 1.0;                          ///< Friction of the road (PlanRequest::friction).
-  std::vector<FrictionPatch> friction_patches{};  ///< Patches of other friction (PlanRequest).
-  Ground ground{};                                ///< Ground under the road (PlanRequest::ground).
+  double friction = 1.0;  ///< Friction of the road (PlanRequest::friction).
+  /// Road patches with a different friction (PlanRequest::friction_patches).
+  std::vector<FrictionPatch> friction_patches{};
+  Ground ground{};  ///< Ground under the road (PlanRequest::ground).
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
   std::optional<SpeedAtLimit> limits{};  ///< The car's limits (PlanRequest::limits).
 };
 
-/// The output of a planner: path, speeds, steering and diagnostics. If the status is not kOk, the
-/// plan has a reason and no path.
+/// The output of a planner: path, speeds, steering and diagnostics. A plan whose status is not kOk
+/// contains the reason of the failure, but no path.
 struct Plan {
   PlanStatus status = PlanStatus::kOk;
   std::string reason;   ///< Reason why planning failed; empty if ok.
   Reference reference;  ///< Path and speeds for closed-loop controllers.
   /// Steering angle as a function of the driven distance, for open-loop runs.
   SteeringSchedule schedule;
-  /// Speeds for open-loop runs; the profile ends at the station at which the run stops.
+  /// Speed profile for open-loop runs, which ends at the station at which the car stops.
   SpeedProfile schedule_speed;
   std::vector<SpeedCap> caps;  ///< Speed limits on sections of the path.
   /// Stations at which the car stops to turn its wheels, in addition to the path's cusps [m].
   std::vector<double> stops;
-  /// Places at which the car waits, in the order of their stations; at all other stops, the car
-  /// starts again as soon as its wheels have turned.
+  /// Places at which the car waits, in the order of their stations; at every other stop of the
+  /// plan, the car starts again as soon as its wheels have turned.
   std::vector<PlannedWait> waits{};
   /// Waypoints of the request, beginning with the start of the route; empty if the mission has no
   /// waypoints.
@@ -144,19 +147,21 @@ struct Plan {
   /// Pose at which the mission ends; the path also ends at this pose unless the path is blocked or
   /// partial.
   Pose2 goal;
-  /// Reason why the path stops before the goal, for example because of an obstacle; else empty.
+  /// Reason why the path stops before the goal, such as an obstacle; empty if the path reaches the
+  /// goal.
   std::string blocked;
   /// Reason why the planner's search ended before the path reached the goal; empty if the path
-  /// reached the goal. Replanning during the run does not extend a partial plan.
+  /// reached the goal. Replanning during the run does not extend a partial plan, which ends before
+  /// the goal.
   std::string partial;
-  std::vector<Gate> gates;          ///< Gates that the path passes through.
+  std::vector<Gate> gates;          ///< Gates of cones that the path passes through.
   std::vector<IsolatedTurn> turns;  ///< Turns whose open-loop error can be predicted.
   /// Remarks for the user, for example that the plan was slowed down.
   std::vector<std::string> notes;
   PlanDiagnostics diagnostics;  ///< Describes how the plan was found, for plan.json.
   /// Whether the path interpolates samples of a motion, at most 0.1 m apart. The steering schedule
-  /// of a sampled path has the steering rate of the motion. Between the samples, the path itself
-  /// may need a higher steering rate.
+  /// of a sampled path has the steering rates of the sampled motion. Between the samples, the
+  /// interpolated path may require a higher steering rate than the motion.
   bool sampled = false;
   PlannedLaps laps;  ///< Laps of a plan on a track.
   /// Roads whose lanes the plan follows; null if the plan does not follow lanes.

@@ -13,7 +13,7 @@ std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stat
                                           double shift);
 
 /// Returns the part of a steering schedule between two driven distances, with a knot at each end.
-/// The distances of the returned knots count from `within.from`.
+/// The driven distances of the returned knots count from `within.from`.
 std::vector<SteeringSchedule::Knot> SteeringBetween(const SteeringSchedule& schedule,
                                                     Stations within);
 
@@ -40,10 +40,10 @@ void Append(std::vector<T>& list, const std::vector<T>& more) {
 std::vector<SpeedCap> CapsOf(const Plan& plan);
 
 /// Returns the part of a plan beyond `station`, for a car that is at `station` with `start_speed`
-/// [m/s]. The stations of the returned plan count from `station`. The diagnostics of turns are
-/// copied to the returned plan unchanged. Speeds that were planned at the car's limit are kept. A
-/// car that is slower than planned first accelerates to the planned speeds with the acceleration in
-/// `speed`.
+/// [m/s]. The stations of the returned plan count from the given `station`. The diagnostics of
+/// turns are copied to the returned plan unchanged. The returned plan keeps speeds that were
+/// planned at the car's limit. A car that is slower than planned first accelerates to the planned
+/// speeds with the acceleration in `speed`.
 Plan RemainingPlan(const Plan& plan, double station, double start_speed, const SpeedLimits& speed);
 
 }  // namespace trackbed

@@ -9,20 +9,23 @@ namespace trackbed {
 /// and slope. If the friction under the two axles differs, the lower friction applies.
 ///
 /// Symbols: theta is the slope of the road; mu_x and mu_y are the tyres' friction coefficients
-/// along and across the path, times the friction factor of the road. The load on the tyres is the
-/// load on a flat road times cos(theta). Gravity reduces three limits: the deceleration downhill,
-/// the acceleration uphill, and the lateral acceleration where gravity pulls toward the outside of
-/// a bend. On a cross slope, gravity also uses a part of the friction ellipse, which reduces the
-/// acceleration and the deceleration on a straight. Gravity never raises any limit of the car.
+/// along and across the path, times the friction factor of the road. On a slope theta, the load on
+/// the tyres is the load on a flat road times cos(theta). Gravity reduces three limits: the
+/// deceleration downhill, the acceleration uphill, and the lateral acceleration where gravity pulls
+/// toward the outside of a bend. On a cross slope, gravity's pull uses a part of the tyres'
+/// friction ellipse, which reduces the acceleration and the deceleration on a straight. Gravity
+/// never raises an acceleration limit of the car.
 class RoadHold {
  public:
-  /// Keeps a reference to the request, and uses its vehicle, friction, friction patches and ground.
+  /// Keeps a reference to the plan request, and uses its vehicle, friction, friction patches and
+  /// ground.
   explicit RoadHold(const PlanRequest& request);
 
   /// Returns the largest lateral acceleration v^2 |kappa| [m/s^2] at a station with the given
-  /// signed curvature [1/m]: mu_y g cos(theta), minus gravity's pull. For curvature 0, returns the
-  /// smaller value of a left and a right bend. Returns 0 if the lateral limit is unknown, or if
-  /// gravity exceeds the grip.
+  /// signed curvature [1/m]. The limit is mu_y g cos(theta) minus gravity's pull, with the lateral
+  /// friction mu_y and the slope theta. For curvature 0, returns the smaller of the limits in a
+  /// left and a right bend. Returns 0 if the lateral limit is unknown, or if gravity's pull exceeds
+  /// the tyres' grip.
   [[nodiscard]] double Lateral(const Path& path, double s, double curvature) const;
 
   /// Returns the largest deceleration of the car at a station [m/s^2]; 0 if the limit is unknown,
@@ -49,28 +52,30 @@ class RoadHold {
 
   /// Returns the largest lateral acceleration v^2 |kappa| [m/s^2] at a station with the given
   /// signed curvature, while the car accelerates with `along` [m/s^2]. The returned acceleration is
-  /// negative if gravity and `along` together exceed the grip, and infinite if the grip is unknown.
+  /// negative if gravity and the acceleration `along` together exceed the tyres' grip, and infinite
+  /// if the grip is unknown.
   [[nodiscard]] double LateralBeside(const Path& path, double s, double curvature,
                                      double along) const;
 
   /// Gravity's pull on the car along the slope, and the largest pull that tyres, brakes and drive
-  /// can hold.
+  /// can resist.
   struct Pull {
     double pull = 0.0;  ///< Pull of gravity on the car [m/s^2], >= 0.
-    double hold = 0.0;  ///< Largest pull that the car can hold [m/s^2]; 0: unknown.
+    double hold = 0.0;  ///< Largest pull of gravity that the car can resist [m/s^2]; 0: unknown.
   };
 
-  /// Returns gravity's pull along the path, across the path or in both directions together,
-  /// whichever is closest to the pull that the car can hold. If gravity's pull exceeds the pull
-  /// that the car can hold, the car slides. On flat ground, returns a pull and a hold of 0.
+  /// Returns gravity's pull along the path, across the path or combined, whichever is closest to
+  /// the largest pull that the car can resist. If gravity's pull exceeds the largest pull that the
+  /// car can resist, the car slides. On flat ground, returns 0 for gravity's pull and 0 for the
+  /// pull that the car can resist.
   [[nodiscard]] Pull Slope(const Path& path, double s) const;
 
   /// Returns the factor on the tyres' friction force at a station: the friction factor of the road
-  /// times cos(theta).
+  /// times the cosine of its slope.
   [[nodiscard]] double FrictionAt(const Path& path, double s) const;
 
   [[nodiscard]] bool flat() const { return flat_; }
-  /// Whether friction and slope of the road are the same everywhere.
+  /// Whether the road is flat and has the same friction everywhere.
   [[nodiscard]] bool uniform() const { return flat_ && request_.friction_patches.empty(); }
 
  private:
@@ -87,14 +92,15 @@ class RoadHold {
     double grip_along = 0.0;
     /// Semi-axis of the friction ellipse across the path [m/s^2]; 0: unknown.
     double grip_across = 0.0;
-    /// Acceleration along the path, increased by gravity's opposing pull [m/s^2].
+    /// Required acceleration along the path, increased by gravity's opposing pull [m/s^2].
     double along = 0.0;
     double pull_across = 0.0;  ///< Gravity's pull toward the outside of the bend [m/s^2], >= 0.
 
     [[nodiscard]] bool is_known() const { return grip_along > 0.0 && grip_across > 0.0; }
   };
 
-  /// Computes grip and required accelerations at a station; `side` has the sign of the curvature.
+  /// Computes the tyres' grip and the required accelerations at a station; `side` has the sign of
+  /// the curvature.
   [[nodiscard]] Demand DemandAt(const Path& path, double s, double along, double side) const;
   /// Limits the acceleration `along` the path [m/s^2] to the part of the friction ellipse that
   /// gravity's pull across the path leaves. The argument `road` is the road's factor on the tyres'
@@ -108,7 +114,8 @@ class RoadHold {
 };
 
 /// The smallest value of each limit of RoadHold over a part of a path, sampled every 0.1 m. The
-/// smallest value of a limit is 0 if the limit is unknown, or if gravity exceeds the grip.
+/// smallest value of an acceleration limit is 0 if the limit is unknown, or if gravity exceeds the
+/// grip.
 struct RoadHoldLimits {
   /// Smallest value of the lateral acceleration limit along the part of the path, for bends to
   /// either side [m/s^2].

@@ -13,7 +13,7 @@ struct IsolatedTurn {
   int waypoint = 0;       ///< Index of the turn's waypoint in the route.
   double from = 0.0;      ///< Station at which the wheels begin to turn [m].
   double middle = 0.0;    ///< Station of the middle of the turn's arc [m].
-  double steering = 0.0;  ///< Steering angle on the arc, positive to the left [rad].
+  double steering = 0.0;  ///< Steering angle on the turn's arc, positive to the left [rad].
   double speed = 0.0;     ///< Speed of the car in the turn [m/s].
 };
 
@@ -30,11 +30,13 @@ struct TurnError {
 TurnError ErrorInTurn(const Path& path, const IsolatedTurn& turn, const Pose2& X_W_from,
                       const Pose2& X_W_middle);
 
-/// Computes the exact deviation of a kinematic car with rate-limited steering at the middle of a
-/// turn. The steering actuator begins to move at the station `turn.from`, and then holds the
-/// steering angle delta of the arc. The wheels follow the steering actuator with a delay of `lag`
-/// [s]. If a steering ramp of the length S = v delta/omega is centered on the start of the arc, the
-/// heading deficit is kappa S/2 - (v/(L omega)) (-ln cos delta) + kappa v lag.
+/// Computes the exact deviation of a kinematic car with rate-limited steering from the path at the
+/// middle of a turn. The steering actuator begins to move at the station `turn.from`, and then
+/// holds the steering angle delta of the arc. The wheels follow the steering actuator with a delay
+/// of `lag` [s]. At the speed v, with the steering rate omega, a steering ramp to the angle delta
+/// has the length S = v delta/omega. If the ramp is centered on the start of an arc of curvature
+/// kappa, the heading deficit is kappa S/2 - (v/(L omega)) (-ln cos delta) + kappa v lag, with the
+/// wheelbase L.
 TurnError PredictTurn(const VehicleParams& vehicle, const Path& path, const IsolatedTurn& turn,
                       double lag);
 

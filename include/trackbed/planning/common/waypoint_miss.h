@@ -10,8 +10,8 @@
 /// Measures how far a path passes from the waypoints of its route.
 ///
 /// The distance of a path from a waypoint is the smallest distance between the waypoint and the
-/// path, which is the path of the rear axle. The order in which the path passes the waypoints does
-/// not matter. The first waypoint is the start of the route, so its distance from the path is not
+/// rear axle's path. The order in which the path passes the waypoints does not affect their
+/// distances. The first waypoint is the start of the route, so its distance from the path is not
 /// measured.
 namespace trackbed {
 
@@ -23,8 +23,8 @@ struct WaypointMiss {
   double station = 0.0;      ///< Station at which the path is nearest to the waypoint [m].
 };
 
-/// Distances that differ by less than this value [m] count as equal, because rounding errors of a
-/// path that is far from the origin may reach this value.
+/// Distances from waypoints that differ by less than kSameMiss [m] count as equal, because rounding
+/// errors of a path far from the origin may reach this value.
 inline constexpr double kSameMiss = 1e-6;
 
 /// Returns the waypoint from which the path is farthest, or the first of several such waypoints

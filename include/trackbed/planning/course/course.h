@@ -15,17 +15,18 @@
 /// planner `course` does not avoid obstacles.
 ///
 /// Symbols: kappa is the curvature [1/m], positive to the left. On a curvature ramp (a clothoid),
-/// kappa is linear in the distance.
+/// the curvature kappa is linear in the distance.
 namespace trackbed {
 
-/// One piece of a course, which has either a constant `curvature`, or a linear ramp from one
-/// curvature to another.
+/// One piece of a course, which has either a constant `curvature`, or a ramp between two curvatures
+/// that is linear in the distance.
 struct CoursePiece {
-  double length = 0.0;              ///< Length of the piece [m], > 0.
+  double length = 0.0;              ///< Length of the course piece [m], > 0.
   std::optional<double> curvature;  ///< Curvature kappa of an arc, or 0 for a straight [1/m].
-  /// Curvature at the start of a ramp [1/m]; none: the curvature at the end of the previous piece.
+  /// Curvature at the start of a curvature ramp [1/m]; none: the curvature at the previous piece's
+  /// end.
   std::optional<double> curvature_from;
-  std::optional<double> curvature_to;  ///< Curvature at the end of a ramp [1/m].
+  std::optional<double> curvature_to;  ///< Curvature at the end of a curvature ramp [1/m].
 };
 void Visit(KeyVisitor& keys, CoursePiece& piece);
 
@@ -37,22 +38,22 @@ struct CourseOptions {
 void Visit(KeyVisitor& keys, CourseOptions& options);
 
 /// Converts the pieces of a course to the segments of a forward path. Throws InternalError unless
-/// every piece has either a constant curvature or a ramp.
+/// every piece of the course has either a constant curvature or a curvature ramp.
 std::vector<Segment> CourseSegments(const CourseOptions& options);
 
 /// Diagnostics of a piece of the planned course.
 struct CourseSegmentFindings {
-  double start = 0.0;           ///< Station at the start of the piece [m].
-  double length = 0.0;          ///< Length of the piece [m].
-  double curvature_from = 0.0;  ///< Curvature at the start of the piece [rad/m].
-  double curvature_to = 0.0;    ///< Curvature at the end of the piece [rad/m].
-  /// Largest lateral acceleration on the piece at the mission's speed [m/s^2].
+  double start = 0.0;           ///< Station at the start of the course piece [m].
+  double length = 0.0;          ///< Length of the course piece [m].
+  double curvature_from = 0.0;  ///< Curvature at the start of the course piece [rad/m].
+  double curvature_to = 0.0;    ///< Curvature at the end of the course piece [rad/m].
+  /// Largest lateral acceleration on the course piece at the mission's speed [m/s^2].
   double lateral_acceleration = 0.0;
 };
 void Visit(DiagnosticsVisitor& out, const CourseSegmentFindings& own);
 
 struct CourseDiagnostics {
-  /// Index of the first piece whose curvature is too large for the car's steering.
+  /// Index of the first course piece whose curvature is too large for the car's steering.
   std::optional<std::size_t> failed_segment;
   std::vector<CourseSegmentFindings> segments;
 };

@@ -45,7 +45,7 @@ struct LaneChangePlannerOptions {
   /// gates longer and less curved, but bring the car nearer to the cones.
   double leave = 0.0;
   double join = 0.0;
-  /// Distance of the car's front behind the beginning of section 1 at which the driver releases the
+  /// Distance of the car's front beyond the beginning of section 1 at which the driver releases the
   /// throttle [m], >= 0. Beyond the release point, the car coasts, and the run ends when the whole
   /// car has passed the last gate. If `release` is nullopt, the car keeps its speed through the
   /// course.
@@ -70,18 +70,19 @@ std::optional<double> ReleaseStation(const LaneChangePlannerOptions& options,
 /// Computes the path from `start` along the middle lines of the gates. The transition to a gate
 /// with the lateral offset h is the curve y = h (10 u^3 - 15 u^4 + 6 u^5), with u from 0 to 1 along
 /// the transition. The curvature of the transition curve is continuous, 0 at both ends and at most
-/// 5.77 h/length^2. The transition is approximated by arcs that are at most 0.1 m long. Between
-/// neighboring arcs, the curvature steps by less than 6 m h/length^3. The path ends at the distance
-/// `lead_out` plus `stop` behind the last gate.
+/// 5.77 h/length^2 for the lateral offset h. The transition curve between gates is approximated by
+/// arcs that are at most 0.1 m long. Between neighboring arcs of the transition, the curvature
+/// steps by less than 6 m h/length^3 for the lateral offset h. The path ends at the distance
+/// `lead_out` plus `stop` beyond the last gate.
 std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
                                     const std::vector<Gate>& gates, const Pose2& start,
                                     double stop);
 
-/// Returns the margin of a drive to each gate [m]. The margin is the smallest distance from a
-/// corner of the car's footprint to an edge of the gate, while the corner was between the gate's
-/// ends. The margin is negative if a corner was outside of the gate, and infinite if no corner
-/// reached the gate. GateMargins assumes that the car moves straight between the given poses of its
-/// rear axle.
+/// Returns the margin of the driven car to each gate [m]. The margin to a gate is the smallest
+/// distance from a corner of the car's footprint to an edge of the gate, while the corner was
+/// between the gate's ends. The margin to a gate is negative if a corner of the car was outside of
+/// the gate, and infinite if no corner reached the gate. GateMargins assumes that the car moves
+/// straight between the given poses of its rear axle.
 std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehicleParams& vehicle,
                                 const std::vector<Pose2>& poses);
 

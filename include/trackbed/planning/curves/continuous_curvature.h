@@ -10,14 +10,14 @@
 ///
 /// Symbols: kappa is the curvature [1/m], positive to the left, at most 1/r in magnitude; sigma the
 /// largest sharpness, the change of curvature per length [1/m^2]. For a car with the wheelbase L
-/// and the steering rate omega at the speed v, sigma = omega/(L v) keeps the steering rate below
-/// omega.
+/// and the steering rate omega at the speed v, the sharpness sigma = omega/(L v) keeps the steering
+/// rate below omega.
 ///
-/// A turn consists of a clothoid from the present curvature to 1/r, an arc of the radius r, and a
-/// clothoid to the curvature 0. All turns to one side from the same state end on one circle of
-/// radius R > r, where the curvature is 0. Turns are joined by straights, or directly where two
-/// circles of radius R touch. A turn that is too short for the curvature 1/r has two clothoids with
-/// a smaller peak curvature.
+/// A turn consists of a clothoid from the present curvature to 1/r, an arc of the smallest radius
+/// r, and a clothoid to the curvature 0. All turns to one side from the same state end, with
+/// curvature 0, on one circle of a radius R larger than the smallest radius r. Turns are joined by
+/// straights, or directly where the end circles (radius R) of two turns touch. A turn that is too
+/// short to reach the curvature 1/r consists of two clothoids with a smaller peak curvature.
 namespace trackbed {
 
 /// A pose of the car and the curvature of its path at this pose.
@@ -29,27 +29,30 @@ struct CurveState {
 /// Limits on a curve of continuous curvature.
 struct CurveLimits {
   double radius = 1.0;     ///< Smallest radius r [m], > 0.
-  double sharpness = 1.0;  ///< Largest sharpness sigma [1/m^2], > 0.
+  double sharpness = 1.0;  ///< Largest sharpness sigma (curvature per length) [1/m^2], > 0.
 };
 
 /// The circle on which all turns to one side end if they begin in the same state of curvature 0.
-/// The lengths of the circle are in units of the smallest radius r.
+/// All lengths in TurnCircle are in units of the smallest radius r.
 struct TurnCircle {
-  double sharpness = 1.0;  ///< Largest sharpness, sigma r^2.
-  double least = 0.0;      ///< Deflection of a clothoid between the curvatures 0 and 1/r [rad].
-  double along = 0.0;      ///< Distance of the center from the start, along the start's heading.
-  double across = 1.0;     ///< Distance of the center from the start, across the start's heading.
+  double sharpness = 1.0;  ///< Largest sharpness in units of 1/r^2, equal to sigma r^2.
+  double least = 0.0;      ///< Heading change on a clothoid between the curvatures 0 and 1/r [rad].
+  /// Distance of the circle's center from the start of the turn, along the start's heading.
+  double along = 0.0;
+  /// Distance of the circle's center from the start of the turn, across the start's heading.
+  double across = 1.0;
 };
 
 /// The curves of continuous curvature between two states, for given limits.
 ///
 /// Guarantees, for distances up to 1e3 r: the curve starts with the pose and curvature of the state
-/// `from`. The curve ends within 1e-9 m and 1e-9 rad of the state `to`. The curvature never exceeds
-/// 1/r, and the sharpness never exceeds sigma, except for rounding errors. For mirrored states, the
-/// result is the mirrored curve. The curves are at least as long as Dubins and Reeds-Shepp curves
-/// of radius r, and approach the lengths of these curves as sigma grows. The curve is the shortest
-/// among the tested families of words, but not always the shortest possible curve of continuous
-/// curvature.
+/// `from`. The curve ends within 1e-9 m and 1e-9 rad of the state `to`. Except for rounding errors,
+/// the curvature never exceeds 1/r for the smallest radius r, and the sharpness never exceeds its
+/// limit sigma. For mirrored states, the result is the mirrored curve. Curves of continuous
+/// curvature are at least as long as Dubins and Reeds-Shepp curves of the same radius. They
+/// approach the lengths of Dubins and Reeds-Shepp curves as the largest sharpness sigma grows. The
+/// returned curve is the shortest among the tested families of words (sequences of turns and
+/// straights), but not always the shortest possible curve of continuous curvature.
 ///
 /// All functions throw PreconditionError if a pose is not finite, or if the magnitude of a
 /// curvature is above 1/r by more than rounding errors.
@@ -58,30 +61,31 @@ class ContinuousCurves {
   /// Throws InternalError unless the radius and the sharpness are positive and finite.
   explicit ContinuousCurves(const CurveLimits& limits);
 
-  /// Returns the shortest word for a car that only drives forwards (CC-Dubins). At least one word
-  /// exists for any two states.
+  /// Returns the shortest curve for a car that only drives forwards (CC-Dubins). At least one
+  /// CC-Dubins curve exists for any two states.
   [[nodiscard]] ShortestCurve Dubins(const CurveState& from, const CurveState& to) const;
 
-  /// Returns the words of a car that only drives forwards, shortest first: the shortest curve of
-  /// each spelling (CurveWord).
+  /// Returns the shortest CC-Dubins curve for each word (sequence of turns such as "L+S+R+",
+  /// CurveWord), shortest curve first.
   [[nodiscard]] std::vector<ShortestCurve> DubinsWords(const CurveState& from,
                                                        const CurveState& to) const;
 
-  /// Returns the shortest word for a car that drives forwards and backwards, with continuous
-  /// curvature also at cusps (CC-Reeds-Shepp). The curve is never longer than the curve that Dubins
-  /// returns.
+  /// Returns the shortest curve for a car that drives forwards and backwards, with continuous
+  /// curvature also at cusps (CC-Reeds-Shepp). The CC-Reeds-Shepp curve is never longer than the
+  /// curve that Dubins returns.
   [[nodiscard]] ShortestCurve ReedsShepp(const CurveState& from, const CurveState& to) const;
   [[nodiscard]] std::vector<ShortestCurve> ReedsSheppWords(const CurveState& from,
                                                            const CurveState& to) const;
 
-  /// Returns the shortest word for a car that drives forwards and backwards, and whose curvature
+  /// Returns the shortest curve for a car that drives forwards and backwards, and whose curvature
   /// may step at a cusp, where the car stands (HC-Reeds-Shepp). If the curve has a cusp right at
-  /// its start or end, and the state there has the full curvature 1/r, the curvature steps at this
-  /// state. The curve is never longer than the curve that ReedsShepp returns. If no word with
-  /// curvature steps is shorter, HybridReedsShepp returns the same curve as ReedsShepp.
+  /// its start or end, and the given state at this end has the full curvature 1/r, the curvature
+  /// steps at this state. The HC-Reeds-Shepp curve is never longer than the curve that ReedsShepp
+  /// returns. If no curve with curvature steps is shorter, HybridReedsShepp returns the same curve
+  /// as ReedsShepp.
   [[nodiscard]] ShortestCurve HybridReedsShepp(const CurveState& from, const CurveState& to) const;
-  /// Returns only the Reeds-Shepp words whose curvature steps at all cusps. ReedsSheppWords returns
-  /// the words without curvature steps.
+  /// Returns only the Reeds-Shepp curves whose curvature steps at all cusps. ReedsSheppWords
+  /// returns the Reeds-Shepp curves without curvature steps.
   [[nodiscard]] std::vector<ShortestCurve> HybridReedsSheppWords(const CurveState& from,
                                                                  const CurveState& to) const;
 

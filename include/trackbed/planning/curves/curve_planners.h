@@ -15,9 +15,10 @@ enum class CurveCurvature {
   /// The curvature is continuous, except at cusps, if the car can drive such a path; otherwise, the
   /// curvature steps. A note of the plan says why the curvature steps.
   kAuto,
-  /// The curvature steps between straights and arcs; the car is slow enough for its steering.
+  /// The curvature steps between straights and arcs, which the car passes slowly enough for its
+  /// steering.
   kSteps,
-  kContinuous,  ///< The curvature is continuous (continuous_curvature.h).
+  kContinuous,  ///< The curvature is continuous, also at cusps (continuous_curvature.h).
   kCuspSteps,   ///< The curvature only steps at cusps, where the car turns its wheels at rest.
 };
 
@@ -37,13 +38,13 @@ struct DubinsOptions {
   double min_speed = 0.3;
   /// How the curvature may change: kAuto, kSteps or kContinuous.
   CurveCurvature curvature = CurveCurvature::kAuto;
-  /// Largest lateral acceleration on curves of continuous curvature [m/s^2], > 0; at most half of
-  /// the tyres' grip applies anyway.
+  /// Largest lateral acceleration on curves of continuous curvature [m/s^2], > 0; half of the
+  /// tyres' grip is another limit.
   double max_lateral_acceleration = 3.0;
   /// Fraction of the car's steering rate that curves of continuous curvature use, in (0, 1].
   double max_steering_rate_fraction = 0.9;
   CurveObjective objective =
-      CurveObjective::kTime;  ///< Quantity that curves of continuous curvature minimize.
+      CurveObjective::kTime;  ///< Quantity to minimize, for curves of continuous curvature.
 };
 void Visit(KeyVisitor& keys, DubinsOptions& options);
 

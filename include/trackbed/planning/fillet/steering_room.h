@@ -5,7 +5,7 @@
 #include "trackbed/vehicle/params.h"
 
 /// Radii of turns that leave room for the steering ramps on their legs (Skackauskas, dissertation,
-/// eqs. (C.34) and (C.40)). The symbols are those of fillet.h.
+/// eqs. (C.34) and (C.40)). The comments use the symbols of fillet.h.
 namespace trackbed {
 
 /// A closed interval of radii [m].
@@ -20,12 +20,14 @@ struct SpeedInterval {
   double high = 0.0;
 };
 
-/// Returns the function g(r) of eq. (C.40) [m], see SteeringRoomRadii.
+/// Returns g(r) [m], which is <= 0 if the radius r leaves room for the steering ramps (eq. (C.40),
+/// see SteeringRoomRadii).
 double SteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
                     double shorter_leg, double neutral, double radius);
 
-/// Returns the radius within `bounds` that minimizes g(r) of eq. (C.40) [m]. The function g
-/// decreases below the returned radius and increases above it.
+/// Returns the radius r within `bounds` that leaves most room for the steering ramps, at the
+/// minimum of g(r) in eq. (C.40) [m]. The function g(r) decreases below the returned radius and
+/// increases above it.
 double RoomiestRadius(const VehicleParams& vehicle, double speed, double interior_angle,
                       double neutral, RadiusInterval bounds);
 
@@ -34,23 +36,24 @@ double RoomiestRadius(const VehicleParams& vehicle, double speed, double interio
 double LeastSteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
                          RadiusInterval bounds);
 
-/// Returns the radii within `bounds` that meet eq. (C.40); nullopt if there are none. Eq. (C.40) is
-/// equivalent to g(r) = r/tan(phi/2) + v/omega_delta |atan(L/r) - n| - q_S/2 <= 0. The argument
-/// `neutral` is n = sgn(h) d_0 [rad], positive toward the turn. With growing r, the function g
-/// first decreases and then increases, so that the returned radii form one interval. The ends of
-/// the returned interval are accurate to the last few bits.
+/// Returns the radii within `bounds` that leave room for the steering ramps (eq. (C.40)); nullopt
+/// if no radius does. Eq. (C.40) is equivalent to g(r) = r/tan(phi/2) + v/omega_delta |atan(L/r) -
+/// n| - q_S/2 <= 0, with the interior angle phi, the steering rate omega_delta and the shorter leg
+/// q_S. The argument `neutral` is the neutral steering angle n = sgn(h) d_0 [rad], positive toward
+/// the turn. With growing radius r, g(r) first decreases and then increases, so that the returned
+/// radii form one interval. The ends of the returned interval are accurate to the last few bits.
 std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, double speed,
                                                 double interior_angle, double shorter_leg,
                                                 RadiusInterval bounds, double neutral = 0.0);
 
-/// Returns the highest speed within `speeds` at which eq. (C.40) allows a radius within `bounds`;
-/// nullopt if there is no such speed.
+/// Returns the highest speed within `speeds` at which a radius within `bounds` leaves room for the
+/// steering ramps (eq. (C.40)); nullopt if there is no such speed.
 std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
                                         double shorter_leg, RadiusInterval bounds,
                                         SpeedInterval speeds, double neutral = 0.0);
 
-/// Returns the radii within `bounds` that meet eq. (C.34), r/tan(phi/2) <= q_S/2; nullopt if there
-/// are none.
+/// Returns the radii r within `bounds` with which turns do not overlap: r/tan(phi/2) <= q_S/2 (eq.
+/// (C.34)), with the interior angle phi and the shorter leg q_S; nullopt if there are none.
 std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter_leg,
                                            RadiusInterval bounds);
 

@@ -24,7 +24,8 @@
 /// candidate motion that the car can drive.
 ///
 /// Symbols: as in path/frenet_frame.h; T is the duration of a motion [s]; S_1 and V_1 are the
-/// desired station [m] and speed [m/s] at its end. The costs are:
+/// desired station [m] and speed [m/s] at its end. The lateral cost C_d, the longitudinal cost C_s
+/// and the total cost C of a motion are:
 ///   C_d = K_dj int d_ttt^2 dt + K_d d(T)^2 + K_dt T
 ///   C_s = K_sj int s_ttt^2 dt + K_s (s(T) - S_1)^2 + K_v (s_t(T) - V_1)^2 + K_st T
 ///   C = K_lat C_d + K_lon C_s
@@ -36,8 +37,9 @@ struct KeepSpeed {
 };
 
 /// The goal to follow a leader, which is assumed to drive at constant speed. The desired station is
-/// S_1(t) = station + speed t - front - gap - time_gap speed, with `front` the distance from the
-/// car's rear axle to its front. The desired speed V_1 is the leader's speed.
+/// S_1(t) = station + speed t - front - gap - time_gap speed, with the leader's `station` and
+/// `speed`, and the distance `front` from the car's rear axle to its front. The desired speed V_1
+/// is the leader's speed.
 struct FollowLeader {
   double station = 0.0;  ///< Present station of the leader's rear end [m].
   double speed = 0.0;    ///< Speed of the leader along the path [m/s], >= 0.
@@ -83,10 +85,11 @@ struct FrenetTarget {
 /// of the motion.
 FrenetTarget TargetAt(const FrenetGoal& goal, const VehicleParams& vehicle, double time);
 
-/// Computes the cost C of one piece of a motion. If d is a function of the station, the integral of
-/// d_ttt^2 over time is approximated by v^5 int d'''^2 ds, with the mean speed v of the piece. For
-/// derivative_order 2, the integral of d_tt^2 is approximated by v^3 int d''^2 ds. At constant
-/// speed, the approximations of both integrals are exact.
+/// Computes the cost C of one piece of a motion. If the offset d is a function of the station, the
+/// integral of d_ttt^2 over time is approximated by v^5 int d'''^2 ds, with the mean speed v of the
+/// piece. With derivative_order 2, the integral of d_tt^2 over time is approximated by v^3 int
+/// d''^2 ds, with the mean speed v. The approximations of the cost integrals by the mean speed are
+/// exact at constant speed.
 FrenetCost PieceCost(const FrenetPiece& piece, const FrenetTarget& target,
                      const FrenetWeights& weights);
 
@@ -150,7 +153,7 @@ struct FrenetPlan {
   /// Number of checks whether the car can drive a candidate motion. PlanLattice may check an edge
   /// more than once.
   int checked = 0;
-  int passed = 0;            ///< Number of checks that a candidate motion passed.
+  int passed = 0;            ///< Number of checks in which a candidate motion proved drivable.
   RejectionCounts rejected;  ///< Number of failed checks of candidates, by reason.
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }

@@ -14,14 +14,18 @@ namespace trackbed {
 /// A piece of a motion, given by the station s(t) and by the offset d as a function of the time or
 /// of the station.
 struct FrenetPiece {
-  double duration = 0.0;  ///< Duration of the piece [s].
-  Polynomial s;  ///< Station s [m] as a function of the time since the start of the piece [s].
-  /// Offset d [m] as a function of the time since the start of the piece [s], or of s - s(0) [m].
+  double duration = 0.0;  ///< Duration of the piece of the motion [s].
+  /// Station s [m] as a function of the time since the start of the motion's piece [s].
+  Polynomial s;
+  /// Offset d [m] as a function of the time since the start of the motion's piece [s], or of the
+  /// station s - s(0) since this start [m].
   Polynomial d;
-  bool over_station = false;  ///< Whether the offset d is a function of s - s(0), not of time.
+  /// Whether the offset d is a function of the station s - s(0), not of time.
+  bool over_station = false;
 
-  /// Returns the state of the car at the time `t` [s] after the start of the piece. If d is a
-  /// function of time, the derivatives d' = d_t/s_t and d'' are not finite while s_t = 0.
+  /// Returns the state of the car at the time `t` [s] after the start of the piece. If the offset d
+  /// is a function of time, the derivatives d' = d_t/s_t and d'' by the station are not finite
+  /// while the car stands (s_t = 0).
   [[nodiscard]] FrenetState At(double t) const;
 
   bool operator==(const FrenetPiece&) const = default;
@@ -59,11 +63,11 @@ std::optional<std::vector<TrajectoryPoint>> SampleMotion(const Path& path,
                                                          double time_step, double spacing);
 
 /// Makes the reference of a controller from the points of a motion. The reference path passes
-/// through the points with their headings and curvatures; the speed profile is a function of the
-/// station on this path. If the points are 0.1 m apart and the motion follows a path with smooth
-/// curvature, the reference path stays within 1e-5 m and 1e-5 rad of the motion. A point closer
-/// than a millimeter to the previous point is left out; such points occur when a car starts or
-/// stops. If the car does not move, the reference path has the length 0. Throws InternalError if
+/// through the motion's points with their headings and curvatures; the speed profile is a function
+/// of the station on this path. If the points are 0.1 m apart and the motion follows a path with
+/// smooth curvature, the reference path stays within 1e-5 m and 1e-5 rad of the motion. A point
+/// closer than a millimeter to the previous point is left out; such points occur when a car starts
+/// or stops. If the car does not move, the reference path has the length 0. Throws InternalError if
 /// `points` is empty.
 Reference ToReference(const std::vector<TrajectoryPoint>& points);
 

@@ -58,9 +58,9 @@ enum class LateralMotion {
   kOverStation,
 };
 
-/// Options of PlanFrenet, including the end states to try. The planner combines each duration with
-/// each offset, and with each speed factor (KeepSpeed) or each station offset (FollowLeader,
-/// StopAt).
+/// Options of PlanFrenet, including the end states to try. For its candidate motions, the planner
+/// combines each duration with each end offset, and with each speed factor (KeepSpeed) or each
+/// station offset (FollowLeader, StopAt).
 struct FrenetOptions {
   FrenetWeights weights;
   FrenetLimits limits;
@@ -69,9 +69,10 @@ struct FrenetOptions {
   /// Offsets d(T) at the end of the candidate motions [m].
   std::vector<double> end_offsets{0.0,  0.5, -0.5, 1.0, -1.0, 1.5, -1.5, 2.0,
                                   -2.0, 2.5, -2.5, 3.0, -3.0, 3.5, -3.5};
-  /// Speeds at the end of the candidate motions, as factors s_t(T)/V_1, >= 0.
+  /// Speeds at the end of the candidate motions, as fractions s_t(T)/V_1 of the desired speed V_1,
+  /// >= 0.
   std::vector<double> speed_factors{1.0, 0.9, 0.75, 0.5, 0.25};
-  /// Station errors s(T) - S_1 at the end of the candidate motions [m].
+  /// Errors s(T) - S_1 from the desired station S_1 at the end of the candidate motions [m].
   std::vector<double> station_offsets{0.0, -0.5, -1.0, -2.0, -4.0};
   LateralMotion lateral = LateralMotion::kAuto;
   /// Speed below which LateralMotion::kAuto makes d a function of the station [m/s].
@@ -94,7 +95,7 @@ struct LatticeOptions {
   std::vector<double> end_offsets{0.0, 0.5,  -0.5, 1.0,  -1.0, 1.5, -1.5,
                                   2.0, -2.0, 2.5,  -2.5, 3.0,  -3.0};
   /// Speeds v_m of the lattice's nodes, as factors on the goal's speed. For the goal StopAt, the
-  /// speeds v_m are factors on the speed limit.
+  /// node speeds v_m are given as factors on the speed limit.
   std::vector<double> speed_factors{1.0, 0.75, 0.5};
   int budget = 100000;  ///< Maximum number of lattice edges to check, >= 0.
 };

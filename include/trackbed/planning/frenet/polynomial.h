@@ -9,10 +9,11 @@ namespace trackbed {
 struct Polynomial {
   std::array<double, 6> coefficients{};
 
-  /// Returns the derivative d^order x/dt^order at t, for an order from 0 to 5. Computing cost: at
-  /// most five multiplications.
+  /// Returns the polynomial's derivative d^order x/dt^order at t, for an order from 0 to 5.
+  /// Computing cost: at most five multiplications.
   [[nodiscard]] double At(double t, std::size_t order = 0) const;
-  /// Returns the integral of (d^order x/dt^order)^2 over [0, duration], in closed form.
+  /// Returns the integral of the polynomial's squared derivative (d^order x/dt^order)^2 over [0,
+  /// duration], in closed form.
   [[nodiscard]] double IntegralOfSquare(std::size_t order, double duration) const;
 
   bool operator==(const Polynomial&) const = default;

@@ -20,13 +20,13 @@ namespace trackbed {
 class RoadEdges {
  public:
   /// The `widths` are the distances of the edges from the path at the stations 0, `spacing`, 2
-  /// `spacing`, ... Where both edges are to the left of the path, the right width is negative;
-  /// where both are to the right, the left width is negative. Throws InternalError if `widths` is
-  /// empty, or if `spacing` is not positive.
+  /// `spacing`, ... Where both edges of the road are to the left of the path, the right width is
+  /// negative; where both edges are to the right, the left width is negative. Throws InternalError
+  /// if `widths` is empty, or if `spacing` is not positive.
   RoadEdges(double spacing, std::vector<RoadWidths> widths);
 
-  /// Returns the widths of the road at a station. The widths are interpolated linearly between the
-  /// given stations, and are constant before the first and beyond the last given station.
+  /// Returns the widths of the road at a station. The road widths are interpolated linearly between
+  /// the given stations, and are constant before the first and beyond the last given station.
   [[nodiscard]] RoadWidths At(double s) const;
 
  private:
@@ -46,13 +46,13 @@ double ReachBeyond(const RoadEdges& edges, const VehicleParams& vehicle, const P
 
 /// Computes the edges of a track relative to a path along the track, for a car whose footprint
 /// keeps `distance` [m] from the edges. Where a car exactly on the path would be closer to an edge
-/// than `distance`, the car may come as close to this edge as it would on the path. A car on the
-/// path is therefore always within the computed edges, even where the path leaves the track. Beyond
-/// the path's end, the edges keep their distance from the path at the end.
+/// than `distance`, the car may come as close to this edge as it would on the path. A car exactly
+/// on the path is always within the computed edges, even where the path leaves the track. Beyond
+/// the path's end, the edges keep the distance that they have from the path at its end.
 ///
-/// Guarantees: at stations at most 0.5 m apart, the result is exact for the polylines of the edges
-/// (Track::left_edge); between these stations, the result is linear. Computing time: 40 us per
-/// meter of path.
+/// Guarantees: at stations at most 0.5 m apart, the computed edges are exact for the polylines of
+/// the track's edges (Track::left_edge); between these stations, the computed edges are linear.
+/// Computing time: 40 us per meter of path.
 RoadEdges EdgesBeside(const Path& path, const Track& track, const VehicleParams& vehicle,
                       double distance);
 

@@ -11,14 +11,15 @@
 /// turning circle.
 ///
 /// Symbols: g(n) is the cost of the best known path to cell n, and h(n) the octile distance from n
-/// to the goal, both in cells. A straight move costs 1, a diagonal move sqrt(2). A diagonal move is
-/// allowed only if the two cells beside the move are free.
+/// to the goal, both in cells. A straight move to a neighboring cell costs 1, a diagonal move
+/// sqrt(2). A diagonal move is allowed only if the two cells beside the move are free.
 namespace trackbed {
 
 /// Returns the octile distance, which is the cost of the cheapest path over `dx` columns and `dy`
 /// rows without obstacles: max(|dx|, |dy|) + (sqrt(2) - 1) min(|dx|, |dy|). The octile distance
-/// never exceeds the true cost (admissible). For neighboring cells m and n with the cost c(m, n) of
-/// a move, h(m) <= c(m, n) + h(n) holds (consistent).
+/// never exceeds the true cost of a path to the goal (admissible). For neighboring cells m and n
+/// with the cost c(m, n) of a move, the octile distance h meets h(m) <= c(m, n) + h(n)
+/// (consistent).
 double OctileDistance(int dx, int dy);
 
 enum class GridStatus {

@@ -18,31 +18,34 @@
 /// cheapest pose for each cell of position and heading, and for each direction of travel.
 ///
 /// Symbols: r is the radius of the sharpest arcs [m]. Each step of the search is an arc of
-/// curvature 0, +-1/(2r) or +-1/r. The cost of a path is its length [m], where reverse stretches
-/// count `reverse_cost` times. Every change of direction adds `switch_cost` to the cost of the
-/// path. Every joint between arcs adds `steering_cost` times the change of curvature divided by
-/// 1/r. The search estimates the cost from a pose to the goal as the larger of two lengths: the
-/// length of the shortest Reeds-Shepp curve, and the length of the shortest grid path around the
-/// obstacles, divided by 1.0824. The divisor 1.0824 is needed because a path on an empty grid is up
-/// to 1.0824 times as long as a straight line.
+/// curvature 0, +-1/(2r) or +-1/r, with the smallest radius r. The cost of a path is its length
+/// [m], where reverse stretches count `reverse_cost` times. Every change of direction adds
+/// `switch_cost` to the cost of the path. Every joint between arcs adds `steering_cost` times the
+/// change of curvature, relative to the largest curvature 1/r, to the cost. The search estimates
+/// the cost from a pose to the goal as the larger of two lengths: the length of the shortest
+/// Reeds-Shepp curve, and the length of the shortest grid path around the obstacles, divided by
+/// 1.0824. The divisor 1.0824 is needed because a path on an empty grid is up to 1.0824 times as
+/// long as a straight line.
 ///
-/// Steps are as long as the larger of 1.5 cells and one heading cell times r, so that no step of
-/// curvature 1/r shares a cell with a straight step. If the search with the requested cells finds
-/// no path, other searches follow with a fixed series of cell sizes, from the start and from the
-/// goal. The series of cell sizes depends only on r and on the problem. A search with finer cells
-/// or headings therefore still finds every path that the series finds.
+/// Steps of the search are as long as the larger of 1.5 cells and an arc of radius r over one
+/// heading cell. With steps of this length, no step of the largest curvature 1/r ends in the same
+/// cell as a straight step. If the search with the requested cells finds no path, other searches
+/// follow with a fixed series of cell sizes, from the start and from the goal. The series of cell
+/// sizes depends only on the smallest radius and on the problem, so that a request for finer cells
+/// or headings never loses a path that the series finds.
 ///
 /// With clothoids (CurveCurvature::kContinuous and kCuspSteps), the curvature of the path is
-/// continuous. The state of the search includes the curvature. Each step of a search with clothoids
-/// is an arc of the present curvature, or a clothoid to the next of the five curvatures 0, +-1/(2r)
-/// and +-1/r. Each clothoid is as long as the steering needs at one of a few speeds, from the speed
-/// v of the mission down to the lowest speed. The last curve, which ends at the goal, is a curve of
-/// continuous curvature (continuous_curvature.h) for one of the clothoids' speeds. Where the car
-/// drives at a speed w below the mission's speed v, the cost is multiplied by v/w. Each change of
-/// speed and each turn of the wheels at rest adds a cost: the distance that the car would drive at
-/// the speed v in the lost time. If the search finds the first path after n expansions, the search
-/// ends after at most n + 1500 further expansions. Because the number of further expansions is
-/// limited, the cost of the path may exceed `weight` times the optimum.
+/// continuous. With clothoids, the state of the search includes the curvature. Each step of a
+/// search with clothoids is an arc of the present curvature, or a clothoid to the next of the five
+/// curvatures 0, +-1/(2r) and +-1/r. Each clothoid is as long as the steering needs at one of a few
+/// speeds, from the speed v of the mission down to the lowest speed. With clothoids, the last curve
+/// of the path, which ends at the goal, is a curve of continuous curvature (continuous_curvature.h)
+/// for one of the clothoids' speeds. Where the car drives at a speed w below the mission's speed v,
+/// the cost of the path is multiplied by v/w. Each change of speed and each turn of the wheels at
+/// rest adds a cost: the distance that the car would drive at the speed v in the lost time. If the
+/// search finds the first path after n expansions, the search ends after at most n + 1500 further
+/// expansions. Because the number of expansions after the first path is limited, the cost of the
+/// path may exceed `weight` times the optimum.
 namespace trackbed {
 
 struct HybridAStarOptions {
@@ -62,11 +65,12 @@ struct HybridAStarOptions {
   double margin = 10.0;    ///< Margin of the search area around start, goal and obstacles [m].
   double min_speed = 0.3;  ///< Lowest speed of the car at a step of curvature [m/s].
   int budget = 200000;     ///< Maximum number of poses that all searches may expand, >= 0.
-  /// How the curvature of the path may change. With kAuto, the planner searches with kCuspSteps,
-  /// and with kSteps if the car cannot drive such a path; SearchHybridAStar searches with kSteps.
+  /// How the curvature of the path may change. With kAuto, the planner searches for a path with
+  /// curvature steps only at cusps (kCuspSteps), and with kSteps if the car cannot drive such a
+  /// path. SearchHybridAStar itself treats kAuto as kSteps.
   CurveCurvature curvature = CurveCurvature::kAuto;
-  /// Largest lateral acceleration on paths of continuous curvature [m/s^2], > 0; at most half of
-  /// the tyres' grip applies anyway.
+  /// Largest lateral acceleration on paths of continuous curvature [m/s^2], > 0; half of the tyres'
+  /// grip is another limit.
   double max_lateral_acceleration = 3.0;
   /// Fraction of the car's steering rate that paths of continuous curvature use, in (0, 1]. The
   /// remaining steering rate is left for the corrections of controllers close to obstacles.
@@ -74,7 +78,7 @@ struct HybridAStarOptions {
 };
 void Visit(KeyVisitor& keys, HybridAStarOptions& options);
 
-/// States how the car drives a path of continuous curvature.
+/// Speeds and limits with which the car drives a path of continuous curvature.
 struct ClothoidDrive {
   double speed = 1.0;                 ///< Speed v of the mission [m/s], > 0.
   double min_speed = 0.3;             ///< Lowest speed on clothoids [m/s], > 0.
@@ -94,17 +98,18 @@ struct HybridAStarProblem {
   std::vector<OrientedBox> obstacles{};
   /// Whether the car rolls forwards at the start, so that the path cannot begin backwards.
   bool rolls = false;
-  /// How the car drives the last curve of the path. If `drive` is set, gentler arcs replace short
-  /// arcs of the last curve (drivable_curve.h). If `drive` is empty, the last curve is a shortest
-  /// curve.
+  /// Speeds and limits with which the car drives the last curve of the path. If `drive` is set,
+  /// gentler arcs replace short arcs of the last curve (drivable_curve.h). If `drive` is empty, the
+  /// last curve is a Reeds-Shepp or Dubins curve.
   std::optional<CurveDrive> drive{};
-  ClothoidDrive clothoids{};  ///< How the car drives a path of continuous curvature.
+  ClothoidDrive clothoids{};  ///< Speeds and limits on a path of continuous curvature.
 };
 
 struct HybridAStarResult {
   PlanStatus status = PlanStatus::kNoPath;
-  std::string reason;             ///< Reason why the search failed; empty if ok.
-  std::vector<Segment> segments;  ///< Segments of the path from the start pose; empty unless ok.
+  std::string reason;  ///< Reason why the search failed; empty if ok.
+  /// Path segments from the start pose; empty if the search failed.
+  std::vector<Segment> segments;
   double cost = std::numeric_limits<double>::infinity();
   int expansions = 0;  ///< Number of poses that all searches expanded.
   int cells = 0;       ///< Number of position cells of the search area.
@@ -115,21 +120,23 @@ struct HybridAStarResult {
 /// Searches for a path by Hybrid A*. Guarantees for the status kOk: the path ends within 1e-9 m and
 /// 1e-9 rad of the goal pose. The last part of the path is a Reeds-Shepp curve, or a Dubins curve
 /// if the car may not drive backwards. If the search from the goal found the path, the Reeds-Shepp
-/// or Dubins curve is the first part of the path instead. If the problem has `drive`, short arcs of
-/// the Reeds-Shepp or Dubins curve are replaced by gentler arcs. The curvature of the path never
-/// exceeds 1/r. With clothoids, the last or first part is a curve of continuous curvature. A path
-/// with clothoids begins with the curvature `start_curvature` and ends with straight wheels. With
-/// kContinuous, the curvature has no steps. With kCuspSteps, the curvature may only step at cusps,
-/// and at the start or goal if the car rests there. On the whole path, the car's footprint is clear
-/// of all obstacles (CollisionChecker). The same input always yields the same result. The path is
-/// not globally optimal, because the search keeps only one pose per cell, and because the path must
-/// contain a Reeds-Shepp or Dubins curve. If the budget is used up, the function returns the best
-/// path found so far. Half of the budget is reserved for the series of resolutions, unless the
-/// search at the requested resolution finds a path with the other half. The status is kNoPath if
-/// obstacles enclose the start or the goal, or if there is no path with steps of 0.016 r. The
-/// searches return kNoPath only after they have expanded all poses around the start or around the
-/// goal. Throws InternalError if an option is out of range. Computing time: about 10 us per
-/// expanded pose, 100 us with clothoids.
+/// or Dubins curve is the first part of the path instead. If the problem has `drive`, gentler arcs
+/// replace those arcs of the Reeds-Shepp or Dubins curve that are too short for the steering. The
+/// curvature of the path never exceeds 1/r, with the radius r of the sharpest arcs. With clothoids,
+/// the last or first part of the path is instead a curve of continuous curvature. A path with
+/// clothoids begins with the curvature `start_curvature` and ends with straight wheels. With
+/// kContinuous, the path's curvature has no steps. With kCuspSteps, the path's curvature may only
+/// step at cusps, and at a start or goal where the car rests. On the whole path, the car's
+/// footprint is clear of all obstacles (CollisionChecker). The same input always yields the same
+/// result. The path is not globally optimal, because the search keeps only one pose per cell, and
+/// because the path must contain a Reeds-Shepp or Dubins curve. If the budget is used up, the
+/// function returns the best path found so far. Half of the budget is reserved for the searches
+/// with other cell sizes, unless the search with the requested cells finds a path with the other
+/// half. The status is kNoPath if obstacles enclose the start or the goal, or if there is no path
+/// even with the shortest steps, 0.016 times the radius r of the sharpest arcs. The searches return
+/// kNoPath only after they have expanded all poses around the start or around the goal. Throws
+/// InternalError if an option is out of range. Computing time: about 10 us per expanded pose, 100
+/// us with clothoids.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 

@@ -24,9 +24,9 @@ void Visit(DiagnosticsVisitor& out, const LaneStretch& stretch);
 void Visit(DiagnosticsVisitor& out, const LaneRouteDiagnostics& own);
 
 /// Returns the planner `lane_route`, which follows PlanRequest::lanes. The planner works in the
-/// plane; the heights of the roads belong to the ground (route_ground.h), and only affect planned
-/// speeds at the car's limit. The plan is rejected if the car starts more than 1 mm or 1 mrad away
-/// from the start of the route. The planner `lane_route` ignores obstacles.
+/// plane; the heights of the roads (route_ground.h) only affect planned speeds at the car's limit.
+/// The plan is rejected if the car starts more than 1 mm or 1 mrad away from the start of the
+/// route. The planner `lane_route` ignores obstacles.
 PlannerEntry LaneRoutePlanner();
 
 }  // namespace trackbed

@@ -35,19 +35,19 @@ struct RouteGround {
 /// for 6 m.
 ///
 /// The terrain considers heights only for the roads of the route, and only at the stations that the
-/// route needs. All other roads are laid on the smooth ground, regardless of their heights. A route
-/// may pass above or below other roads, but not above or below itself.
+/// route needs. Roads that are not part of the route are laid on the smooth ground, regardless of
+/// their heights. A route may pass above or below other roads, but not above or below itself.
 ///
-/// RouteGround::failure states why no ground could be made. MakeRouteGround fails if heights in the
-/// file are of an unsupported kind, or if lanes of two roads lie more than 0.1 m above each other
-/// at one place. MakeRouteGround fails if the ground deviates from the road surface by more than 1
-/// cm. MakeRouteGround fails if roads are steeper than 45 degrees, higher than 10 km, wider than 50
-/// m on either side, or longer than 20 km together. MakeRouteGround also fails if the roads are
-/// spread over more than 8 km along x or y.
+/// RouteGround::failure states why MakeRouteGround could make no ground. MakeRouteGround fails if
+/// heights in the file are of an unsupported kind, or if lanes of two roads lie more than 0.1 m
+/// above each other at one place. MakeRouteGround fails if the ground deviates from the road
+/// surface by more than 1 cm. MakeRouteGround fails if roads are steeper than 45 degrees, higher
+/// than 10 km, wider than 50 m on either side, or longer than 20 km together. MakeRouteGround fails
+/// if the roads are spread over more than 8 km along x or y.
 ///
 /// If FindLaneRoute finds no route, the result has neither a terrain nor a failure. Throws
 /// PreconditionError in the same cases as FindLaneRoute. Cost: about 1 s of computing time and 3 MB
-/// of memory per kilometer.
+/// of memory per kilometer of route.
 RouteGround MakeRouteGround(const RoadNetwork& network, const std::vector<LanePlace>& places);
 
 }  // namespace trackbed

@@ -24,7 +24,7 @@ enum class PathFaultKind {
   kSteeringAngle,  ///< The steering angle exceeds its limit: |delta| > delta_max [rad].
   kSteeringRate,   ///< The steering rate exceeds its limit: v |d delta/ds| > omega_delta [rad/s].
   kFriction,  ///< The lateral acceleration exceeds the tyres' friction: v^2 |kappa| > mu g [m/s^2].
-  kRollOver,  ///< The car tips over: v^2 |kappa| > a_r [m/s^2].
+  kRollOver,  ///< The car tips over: the lateral acceleration v^2 |kappa| exceeds a_r [m/s^2].
   kTopSpeed,  ///< The speed v exceeds the car's top speed [m/s].
 };
 
@@ -55,44 +55,46 @@ struct PathCheckOptions {
   std::optional<double> rollover_acceleration{};
 };
 
-/// Returns the lateral acceleration g T/(2 h) [m/s^2] at which a rigid car lifts its inner wheels.
-/// In g T/(2 h), T is the track width and h the height of the center of gravity [m]. A car with
-/// springs rolls, and therefore lifts its inner wheels at a lateral acceleration that is lower by a
-/// tenth or more.
+/// Returns the lateral acceleration g T/(2 h) [m/s^2] at which a rigid car lifts its inner wheels,
+/// with the track width T and the height h of the center of gravity [m]. A car with springs rolls,
+/// and therefore lifts its inner wheels at a lateral acceleration that is lower than that of a
+/// rigid car by a tenth or more.
 double RollOverAcceleration(double track, double cg_height);
 
 /// Largest steering angle, steering rate and lateral acceleration that a piece of the path
-/// requires. Pieces are at most 0.05 m long, or at most 1/400 000 of the path if the path is longer
-/// than 20 km.
+/// requires. Pieces of the checked path are at most 0.05 m long, or at most 1/400 000 of the path
+/// if the path is longer than 20 km.
 struct PathDemand {
-  double s = 0.0;           ///< Station at the start of the piece [m].
-  Vec2 position{0.0, 0.0};  ///< Position at the start of the piece [m].
-  double curvature = 0.0;   ///< Curvature at the start of the piece, positive to the left [1/m].
-  /// Change of curvature dkappa/ds at the start of the piece [1/m^2].
+  double s = 0.0;           ///< Station at the start of the path piece [m].
+  Vec2 position{0.0, 0.0};  ///< Position at the start of the path piece [m].
+  /// Curvature at the start of the path piece, positive to the left [1/m].
+  double curvature = 0.0;
+  /// Change of curvature dkappa/ds at the start of the path piece [1/m^2].
   double curvature_rate = 0.0;
-  double steering = 0.0;       ///< Largest steering angle |delta| on the piece [rad].
-  double steering_rate = 0.0;  ///< Largest steering rate on the piece at the speed v [rad/s].
-  /// Largest lateral acceleration on the piece at the speed v [m/s^2].
+  double steering = 0.0;       ///< Largest steering angle |delta| on the path piece [rad].
+  double steering_rate = 0.0;  ///< Largest steering rate on the path piece at the speed v [rad/s].
+  /// Largest lateral acceleration on the path piece at the speed v [m/s^2].
   double lateral_acceleration = 0.0;
-  // Maximum speeds that the single limits allow on the piece [m/s]; infinite where a limit does not
-  // apply.
+  // Maximum speeds that the single limits allow on the path piece [m/s]; infinite where a limit
+  // does not apply.
   double speed_by_steering_rate = 0.0;
   double speed_by_friction = 0.0;
   double speed_by_rollover = 0.0;
-  /// Maximum speed that all limits and the car's top speed allow on the piece [m/s]; 0 if the car
-  /// cannot steer the path.
+  /// Maximum speed that all limits and the car's top speed allow on the path piece [m/s]; 0 if the
+  /// car cannot steer the path.
   double speed = 0.0;
 };
 
 struct PathCheck {
   std::vector<PathFault> faults;  ///< Faults along the path; empty if the car can drive the path.
-  /// Demands of all pieces along the path; empty if the path turns back on itself.
+  /// Demands on the car in all pieces of the path; empty if the path turns back on itself.
   std::vector<PathDemand> demands;
   /// Largest constant speed at which the car can drive the whole path [m/s]; 0 if no speed is
   /// possible.
   double max_speed = 0.0;
-  double max_speed_station = 0.0;  ///< Station of the place that limits `max_speed` [m].
-  /// Kind of the limit that determines `max_speed`.
+  /// Station of the place that limits the largest constant speed [m].
+  double max_speed_station = 0.0;
+  /// Kind of the limit that determines the largest constant speed.
   PathFaultKind max_speed_limit = PathFaultKind::kTopSpeed;
   double steering_limit = 0.0;       ///< The car's largest steering angle delta_max [rad].
   double steering_rate_limit = 0.0;  ///< The car's largest steering rate omega_delta [rad/s].

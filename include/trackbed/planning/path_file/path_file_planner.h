@@ -45,14 +45,16 @@ void Visit(KeyVisitor& keys, PathFileOptions& options);
 /// Diagnostics of the fit of a path to the file's points.
 struct PathFileDiagnostics {
   std::size_t points = 0;
-  /// Number of points that were left out because they repeat the previous point.
+  /// Number of points of the file that were left out because they repeat the previous point.
   std::size_t repeated_points = 0;
   PathFit fit = PathFit::kSpline;
   double deviation = 0.0;  ///< Largest deviation of the file's points from the fitted path [m].
-  double deviation_station = 0.0;  ///< Station at which `deviation` occurs [m].
+  /// Station at which the file's points deviate most from the fitted path [m].
+  double deviation_station = 0.0;
   /// Largest distance of the fitted spline from the straight lines between the points [m].
   double bulge = 0.0;
-  /// Approximate station at which the spline has the distance `bulge` [m].
+  /// Approximate station at which the spline is farthest from the straight lines between the points
+  /// [m].
   double bulge_station = 0.0;
   /// Smoothing length of the fitted spline [m]; 0 if no spline was fitted.
   double smoothing_length = 0.0;
@@ -65,12 +67,12 @@ struct PathFileDiagnostics {
 void Visit(DiagnosticsVisitor& out, const PathFileDiagnostics& own);
 PathFileDiagnostics DiagnosticsOf(const FittedPath& fitted);
 
-/// Describes the fit in one line, for example "spline within 0.049 m of 120 points, smoothing
-/// length 3.1 m".
+/// Describes the fit of a path to points in one line, for example "spline within 0.049 m of 120
+/// points, smoothing length 3.1 m".
 std::string Describe(const FittedPath& fitted);
 
-/// Returns the remedy, as the end of a message, if the path turns back on itself
-/// (FittedPath::reversals). The text `noise_key` names the option against noisy points; the remedy
+/// Returns the remedy against a path that turns back on itself (FittedPath::reversals), worded as
+/// the end of a message. The text `noise_key` names the option against noisy points; the remedy
 /// adds a value for that option.
 std::string ReversalRemedy(const FittedPath& fitted, const std::string& noise_key);
 

@@ -11,15 +11,16 @@ namespace trackbed {
 /// A path that was fitted with the car's largest curvature as a bound.
 struct SteerableFit {
   FittedPath path;
-  std::string note;  ///< Note for the user: the curvature of the fit is bounded, and why.
+  /// Note for the user that the curvature of the fit is bounded, with the reason.
+  std::string note;
 };
 
 /// Fits the path again, with bounded curvature, if its curvature exceeds the largest curvature that
 /// the car can steer. For example, FitPath's curve through the points of an arc and a line exceeds
-/// the arc's curvature near the joint. The new fit keeps the pose at the start. Returns nullopt if
-/// the car can steer the given path. Also returns nullopt if the car can steer no path within
-/// PathFitOptions::max_deviation from the points. The planner `path_file` and the verb `check-path`
-/// use the returned path instead of the given path.
+/// the arc's curvature near the joint. The new fit keeps the start pose of the given path. Returns
+/// nullopt if the car can steer the given path. FitWithinSteering also returns nullopt if the car
+/// can steer no path within PathFitOptions::max_deviation from the points. The planner `path_file`
+/// and the verb `check-path` use the returned path instead of the given path.
 std::optional<SteerableFit> FitWithinSteering(const FittedPath& fitted,
                                               const VehicleParams& vehicle);
 

@@ -12,19 +12,19 @@
 ///
 /// Symbols: d(s) is the offset of the line from the track's center line at the station s [m], a
 /// spline with the coefficients c; b is half of the car's width plus the margin [m]; T is the lap
-/// time [s] on the line at the highest possible speeds (LimitSpeedsAround). The line solves this
-/// problem:
+/// time [s] on the line at the highest possible speeds (LimitSpeedsAround). The line of minimum
+/// time, between the track edges right(s) and left(s), solves this problem:
 ///
 ///   minimize T(c)   subject to   right(s) + b <= d(s) <= left(s) - b,   |kappa| <= kappa_max
 ///
 /// The solver is a trust-region method that starts at the line of least curvature. Each step
 /// linearizes three quantities about the last line and its speeds: the curvature of the line, the
 /// length of the line, and the boundary of the g-g-v diagram. Each step then solves a quadratic
-/// program for changes of the coefficients c and of the speeds at all stations. LimitSpeedsAround
-/// computes the speeds of the new line, and the new line is kept only if it is faster. Casanova
-/// 2000 and Christ et al. 2021 solve the same problem, but for vehicle models in place of the point
-/// mass with a g-g-v diagram used here. The speeds are not unknowns of the problem, because
-/// LimitSpeedsAround computes the speeds of any line.
+/// program for changes of the spline coefficients c and of the speeds at all stations.
+/// LimitSpeedsAround computes the speeds of the new line, and the new line is kept only if its lap
+/// time is shorter. Casanova 2000 and Christ et al. 2021 solve the same minimum-time problem, but
+/// with vehicle models in place of a point mass with a g-g-v diagram. The speeds are not unknowns
+/// of the minimum-time problem, because LimitSpeedsAround computes the speeds of any line.
 namespace trackbed {
 
 /// The limits on a car's speed during a lap, on a level road with uniform friction.
@@ -52,7 +52,8 @@ enum class MinimumTimeEnd {
   /// search has also converged if the predicted gain is at most 5e-4 of the lap time, and no
   /// fraction of the step makes the lap faster.
   kConverged,
-  /// No step makes the lap faster, not even a step that changes the line by only a millimeter.
+  /// No step of the search makes the lap faster, not even a step that changes the line by only a
+  /// millimeter.
   kNoGain,
   kIterationLimit,  ///< The search has reached the maximum number of iterations.
   kProgramNotSolved,
@@ -70,9 +71,10 @@ struct MinimumTimeLine {
   /// line of least curvature.
   bool improved = false;
   MinimumTimeEnd end = MinimumTimeEnd::kConverged;
-  int iterations = 0;      ///< Number of quadratic programs that were solved.
+  int iterations = 0;      ///< Number of quadratic programs that the search solved.
   double last_gain = 0.0;  ///< Reduction of the lap time by the last accepted step [s].
-  /// Upper limit of b if the track is too narrow (MinimumCurvatureLine::room) [m]; else 0.
+  /// Upper limit of the line's distance b from the edges if the track is too narrow
+  /// (MinimumCurvatureLine::room) [m]; else 0.
   double room = 0.0;
   /// Largest curvature |kappa| of the gentlest line that was found [1/m], if this curvature is
   /// above kappa_max; else 0.
@@ -80,19 +82,19 @@ struct MinimumTimeLine {
 };
 
 /// Finds the fastest line that stays at least b = `beside` [m] away from the track's edges. The
-/// result contains no line if the track is too narrow, if no line within kappa_max was found, or if
-/// the car cannot keep moving.
+/// result contains no line if the track is too narrow, if no line with at most the curvature
+/// kappa_max was found, or if the car cannot keep moving.
 ///
 /// Guarantees: the lap time on the line (LapTime) is never longer than on the line of least
-/// curvature for the same b. At checked points, two or more per knot, the line keeps the distance b
-/// from the edges, to within 1e-6 m. On one machine, the same arguments always yield a
-/// bit-identical line. The problem is not convex, so that the line is only a local minimum.
-/// FindMinimumTime ignores slopes, banks and changes of friction along the track. Throws RunError
-/// if the program was built without IPOPT. Computing time: 5 to 20 quadratic programs, each 1.4 s
-/// per kilometer of track, for track points 5 m apart. If the line of least curvature is too tight
-/// for the car, about 5 quadratic programs of the size of those in FindMinimumCurvature are solved
-/// first. A track that is too narrow or too tight is refused before any quadratic program for the
-/// lap time is solved.
+/// curvature with the same distance b from the edges. At checked points, two or more per knot, the
+/// line keeps the distance b from the edges, to within 1e-6 m. On one machine, the same arguments
+/// always yield a bit-identical line. The minimization of the lap time is not convex, so that the
+/// line is only a local minimum. FindMinimumTime ignores slopes, banks and changes of friction
+/// along the track. Throws RunError if the program was built without IPOPT. Computing time: 5 to 20
+/// quadratic programs, each 1.4 s per kilometer of track, for track points 5 m apart. If the line
+/// of least curvature is too tight for the car, about 5 quadratic programs of the size of those in
+/// FindMinimumCurvature are solved first. FindMinimumTime refuses a track that is too narrow or too
+/// tight before any quadratic program for the lap time is solved.
 MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimits& limits,
                                 int iterations = 40);
 

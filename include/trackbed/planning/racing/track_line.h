@@ -12,7 +12,7 @@
 /// along such lines.
 ///
 /// Symbols: s is the station along the track's center line [m], and kappa_c(s) the curvature of the
-/// center line. The offset of the line from the center line [m], positive to the left, is d(s).
+/// center line. The offset of a line from the center line [m], positive to the left, is d(s).
 namespace trackbed {
 
 /// The offset d of a line and the derivatives d' and d'' at one station.
@@ -70,15 +70,15 @@ void Visit(DiagnosticsVisitor& out, const TrackPlanDiagnostics& own);
 /// The car may start anywhere on the track, facing along the track. A car that starts up to half a
 /// lap before the start line first drives to the start line. A car that starts on or beyond the
 /// start line begins its first lap at once. From its start, the car approaches the line along a
-/// polynomial of degree 5, which reduces the car's offset from the line to 0. The approach is at
-/// most half a lap long. Up to half a lap, the length of the approach is the largest of three
-/// values: the distance that the car drives in three seconds at the mission's speed, ten times the
-/// offset, and four wheelbases. If a car that starts rolling cannot steer fast enough on the
-/// approach, a longer approach is planned.
+/// polynomial of degree 5, which reduces the car's offset from the line to 0. The car's approach to
+/// the line is at most half a lap long. Up to half a lap, the length of the approach is the largest
+/// of three values: the distance that the car drives in three seconds at the mission's speed, ten
+/// times the offset, and four wheelbases. If a car that starts rolling cannot steer fast enough on
+/// the approach to the line, FollowLine plans a longer approach.
 ///
-/// Guarantees: the curvature of the path is continuous. The planned path ignores obstacles. The
-/// plan is rejected, with a reason, if there is no track, or if the car is off the track or faces
-/// across the track. Computing time: 50 us per meter of path.
+/// Guarantees: the curvature of the planned path is continuous. The planned path ignores obstacles.
+/// The plan is rejected, with a reason, if there is no track, or if the car is off the track or
+/// faces across the track. Computing time: 50 us per meter of path.
 Plan FollowLine(const PlanRequest& request, const TrackLine& line);
 
 /// Returns the curvature [1/m] of a path that begins at the car's pose and keeps the car's offset

@@ -26,7 +26,7 @@ const PlannerEntry& PlannerFor(const PlannerOptions& options);
 /// Returns whether a plan made with the given options may contain reverse segments.
 bool MayGoBackwards(const PlannerOptions& options);
 
-/// Returns whether a plan made with the given options may be partial (Plan::partial).
+/// Returns whether a plan made with the given options may end before the goal (Plan::partial).
 bool MayBePartial(const PlannerOptions& options);
 
 /// Returns the distance that plans with these options keep between car and obstacles, which is the

@@ -12,8 +12,8 @@
 #include "trackbed/planning/frenet/lattice.h"
 #include "trackbed/planning/replan/replan_options.h"
 
-/// Plans the car's next motion along a route, in the route's Frenet frame. If possible, this motion
-/// passes obstacles in the way; otherwise, the car stays behind the obstacles.
+/// Plans the car's next motion along a route, in the route's Frenet frame. If possible, the next
+/// motion passes obstacles in the way; otherwise, the car stays behind the obstacles.
 ///
 /// Symbols: as in planning/frenet/frenet.h; V is the desired speed of the car [m/s].
 namespace trackbed {
@@ -44,9 +44,9 @@ struct RouteFrame {
 };
 
 /// Prepares a route for planning motions. On a track, motions keep the distance `edge_distance` [m]
-/// from the track's edges. Where the route itself is closer to an edge, motions come no closer to
-/// this edge than a car on the route (EdgesBeside). Computing time: 10 us per meter of route, on a
-/// track 50 us. Throws InternalError if the route has cusps.
+/// from the track's edges. Where the route itself is closer to an edge than `edge_distance`,
+/// motions come no closer to this edge than a car on the route (EdgesBeside). Computing time: 10 us
+/// per meter of route, on a track 50 us. Throws InternalError if the route has cusps.
 RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const SpeedLimits& speed,
                           double beyond, double edge_distance = 0.0);
 
@@ -63,7 +63,8 @@ enum class ManeuverType {
   /// Continue along the route, past obstacles in the way if any, up to the end of the route.
   kProceed,
   kFollow,  ///< Follow an obstacle that moves ahead of the car.
-  /// Continue for now, but not past a standing obstacle; the next motion may be kStop.
+  /// Continue along the route for now, but not past a standing obstacle; the next motion may be
+  /// kStop.
   kApproach,
   kStop,  ///< Stop the car behind a standing obstacle.
 };
@@ -105,28 +106,30 @@ struct Leader {
 };
 
 /// Plans the next motion along the route. PlanAlongRoute tries seven motions in a fixed order.
-/// Motion 1 stops at the end of the route, if the end is near. Motion 2 continues at the speed V,
-/// past obstacles in the way. Motion 3 pulls out next to a moving leader that is slower than V. The
-/// speed of motion 3 is lower than V, but at least the leader's speed. Motion 4 follows a moving
-/// leader. Motion 5 continues at a lower speed, if the lower speed lets the car pass the obstacle.
-/// Motion 6 stops behind a standing leader. Motion 7 continues for now, as fast as the free space
-/// allows. PlanAlongRoute tries to pass an obstacle at the speed V first, even if a slower motion
-/// costs less. The reason is that slowing down does not remove a standing obstacle.
+/// Motion 1 stops at the end of the route, if the end is near. Motion 2 continues at the desired
+/// speed V, past obstacles in the way. Motion 3 pulls out next to a moving leader that is slower
+/// than the desired speed V. The speed of motion 3 is lower than V, but at least the leader's
+/// speed. Motion 4 follows a moving leader. Motion 5 continues at a lower speed, if the lower speed
+/// lets the car pass the obstacle. Motion 6 stops behind a standing leader. Motion 7 continues for
+/// now, as fast as the free space allows. PlanAlongRoute tries to pass an obstacle at the desired
+/// speed V first, even if a slower motion costs less, because slowing down does not remove a
+/// standing obstacle.
 ///
-/// The car passes a moving leader only if it could finish passing at the speed V. After passing the
-/// leader, the car must be able to return to the route and brake to a stop before the route's end.
-/// This test extrapolates all obstacles at constant velocity. If the car follows its leader
-/// instead, AlongPlan::why states the reason.
+/// The car passes a moving leader only if it could finish passing at the desired speed V. After
+/// passing the leader, the car must be able to return to the route and brake to a stop before the
+/// route's end. The test of passing a leader extrapolates all obstacles at constant velocity. If
+/// the car follows its leader instead of passing it, AlongPlan::why states the reason.
 ///
 /// Guarantees: the motion has the guarantees of PlanFrenet or PlanLattice. During the braking after
-/// the motion, the car also meets the limits and keeps the safe distance, checked every 0.1 s. On a
-/// track, the car stays within the track's edges while braking: if the last offset of the motion
-/// would lead off the track, the car returns to the route. The motion ends at most 0.05 m beyond
-/// the route's end. The motion ends beside the route only if the car can return to the route before
-/// the route's end, by two opposite turns of the smallest radius. The same input always yields a
-/// bit-identical result. Throws the same exceptions as PlanFrenet or PlanLattice, and InternalError
-/// if there are no speed factors, or if the desired speed or a gap is out of range. Computing time:
-/// a few times the computing time of PlanFrenet or PlanLattice.
+/// the motion, the car meets the same limits as during the motion and keeps the safe distance,
+/// checked every 0.1 s. On a track, the car stays within the track's edges while braking: if the
+/// last offset of the motion would lead off the track, the car returns to the route. The motion
+/// ends at most 0.05 m beyond the route's end. The motion ends beside the route only if the car can
+/// return to the route before the route's end, by two opposite turns of the smallest radius. The
+/// same input always yields a bit-identical result. Throws the same exceptions as PlanFrenet or
+/// PlanLattice, and InternalError if the options contain no speed factors, or if the desired speed
+/// or a gap is out of range. Computing time: a few times the computing time of PlanFrenet or
+/// PlanLattice.
 AlongPlan PlanAlongRoute(const RouteFrame& frame, const AlongRequest& request,
                          const AlongSettings& settings, const AlongOptions& options);
 

@@ -11,7 +11,7 @@
 #include "trackbed/planning/sampling/comparator.h"
 
 /// Plans detours around obstacles with any planner that avoids obstacles. A detour leaves the car's
-/// current plan before the obstacle that blocks the plan, and rejoins the route behind the
+/// current plan before the obstacle that blocks the plan, and rejoins the route beyond the
 /// obstacle.
 namespace trackbed {
 
@@ -19,7 +19,7 @@ struct DetourRequest {
   VehicleParams vehicle;
   SpeedLimits speed;           ///< The mission's limits on speed and acceleration.
   Plan driven;                 ///< Plan that the car is currently driving.
-  double station = 0.0;        ///< Station of the car on `driven` [m].
+  double station = 0.0;        ///< Station of the car on the plan `driven` [m].
   double station_speed = 0.0;  ///< Speed of the car at `station` [m/s].
   /// Plan that leads to the goal: `driven` itself, or the route that `driven` follows.
   Plan route;
@@ -41,7 +41,7 @@ struct Detour {
   PathScore current;  ///< Score of the path that the car is currently driving.
   /// Score of the best alternative path; its total is infinite if there is no alternative.
   PathScore best;
-  int tried = 0;     ///< Number of times that the planner was called.
+  int tried = 0;     ///< Number of times that the planner of detours was called.
   long samples = 0;  ///< Number of random samples that the planner drew in all calls.
   std::string why;   ///< Reason why there is no detour, else empty.
 };
@@ -52,7 +52,7 @@ inline constexpr long kMaxDetourSamples = 200'000;
 /// Diagnostics of a search for a detour, without the resulting plan.
 struct DetourFindings {
   std::string planner;            ///< Name of the planner that searched for detours.
-  int tried = 0;                  ///< Number of times that the planner was called.
+  int tried = 0;                  ///< Number of times that the planner of detours was called.
   PathScore current;              ///< Score of the path that the car is currently driving.
   std::optional<PathScore> best;  ///< Score of the best alternative path.
   /// Stations between which the new route replaces the old route [m]; none if there is no detour.
@@ -61,9 +61,9 @@ struct DetourFindings {
 };
 void Visit(DiagnosticsVisitor& out, const DetourFindings& own);
 
-/// Searches for a detour if a standing obstacle blocks the route; otherwise, there is no detour.
+/// Searches for a detour if a standing obstacle blocks the route; otherwise, returns no detour.
 /// Candidate paths leave the driven path on a straight stretch, as early as the car can. The
-/// candidate paths rejoin the route on straight stretches behind the last obstacle that blocks the
+/// candidate paths rejoin the route on straight stretches beyond the last obstacle that blocks the
 /// route, or at the end of the route. The comparator (comparator.h) chooses the best candidate
 /// path, and keeps the current path unless the best candidate has a lower score.
 ///
@@ -72,7 +72,7 @@ void Visit(DiagnosticsVisitor& out, const DetourFindings& own);
 /// keeps the planner's safe distance from every obstacle. On the new route, the car slows down for
 /// the corners without braking harder than the limits allow. Throws InternalError if the planner
 /// does not avoid obstacles or may plan reverse segments. In each attempt, the planner plans up to
-/// 18 paths. If the first attempt finds no path, there are no other attempts. After
+/// 18 paths. If the first attempt finds no path, PlanDetour makes no other attempts. After
 /// kMaxDetourSamples random samples, the planner plans no further path, and the best candidate so
 /// far is used.
 Detour PlanDetour(const DetourRequest& request, const PlannerOptions& planner,

@@ -21,8 +21,8 @@
 /// new plan begins with the car's actual pose, steering and speed.
 namespace trackbed {
 
-/// The state of a run, which consists of the route, the current plan and the car's stations on
-/// both.
+/// The state of a run, which consists of the route, the current plan and the car's stations on the
+/// route and on the plan.
 struct Driving {
   Plan route;                  ///< Plan that leads to the goal.
   RouteFrame frame;            ///< The route, prepared by MakeRouteFrame for planning motions.
@@ -53,7 +53,7 @@ struct ReplanRequest {
 enum class ReplanKind {
   kKeep,    ///< Keep the current plan.
   kMotion,  ///< Drive a new motion along the route.
-  /// Return to the route, or take a detour; in both cases, the new plan becomes the route.
+  /// Return to the route, or take a detour; the new plan then becomes the route.
   kRoute,
   kStop,  ///< Brake to a stop, before the obstacle if possible.
 };
@@ -82,21 +82,22 @@ struct Replanned {
 
 /// Replans at the present moment of a run. Keeps the current plan if this plan is clear of
 /// obstacles and leads to the goal. If the current plan is not kept, Replan uses the first
-/// available one of six options. Option 1 is the rest of the route, if the route is clear and the
-/// car is back on the route. Option 2 is a motion that passes the obstacle. Option 3 is a detour
-/// that the comparator prefers. Option 4 is a motion that stops or continues for now. Option 5 is
-/// the current plan, if this plan is clear. Option 6 is braking.
+/// available one of six options. Option 1 of replanning is the rest of the route, if the route is
+/// clear and the car is back on the route. Option 2 of replanning is a motion that passes the
+/// obstacle. Option 3 of replanning is a detour that the comparator prefers. Option 4 of replanning
+/// is a motion along the route that stops or continues for now. Option 5 of replanning is the
+/// current plan, if this plan is clear of obstacles. Option 6 of replanning is braking.
 ///
 /// Before a standing obstacle, the car brakes at the deceleration of the speed limits, and stops
 /// half a meter before the predicted conflict. If the distance to a standing obstacle is too short
-/// for the deceleration of the speed limits, the car brakes at once. The car's deceleration is then
-/// constant, as large as the stop requires, but at most `max_deceleration`. Before a moving
-/// obstacle, the car brakes at once, at the smallest deceleration that avoids the obstacle. The
-/// deceleration before a moving obstacle is one of eight values between the deceleration of the
-/// speed limits and the largest possible deceleration. If none of the eight decelerations avoids
-/// the obstacle, the car brakes as hard as possible. The car never brakes harder than
-/// `max_deceleration`, even if `max_deceleration` is less than the deceleration of the speed
-/// limits.
+/// for the deceleration of the speed limits, the car brakes at once. When the car brakes at once
+/// before a standing obstacle, its deceleration is constant and as large as the stop requires, but
+/// at most `max_deceleration`. Before a moving obstacle, the car brakes at once, at the smallest
+/// deceleration that avoids the obstacle. The deceleration before a moving obstacle is one of eight
+/// values between the deceleration of the speed limits and the largest possible deceleration. If
+/// none of the eight decelerations avoids the obstacle, the car brakes as hard as possible. The car
+/// never brakes harder than `max_deceleration`, even if `max_deceleration` is less than the
+/// deceleration of the speed limits.
 ///
 /// MakeFeasible tests every new plan. A new route is slowed down where it exceeds the grip of the
 /// road; a motion that exceeds the grip is not used. A braking plan that MakeFeasible cannot make
@@ -104,11 +105,11 @@ struct Replanned {
 ///
 /// Guarantees: a new plan begins with the steering angle that the old plan has at the point nearest
 /// to the car. If the car has strayed from its plan, the new plan begins with the car's actual
-/// steering angle. Conflicts are predicted over at least the time that the car needs to stop from
-/// the mission's speed, plus two replanning periods. The same input always yields a bit-identical
-/// result. New plans have no reverse segments. Throws InternalError if the options contain no
-/// method for motions. The computing time is the sum of the computing times of the motions and
-/// detours that are tried.
+/// steering angle. Conflicts with obstacles are predicted over at least the time that the car needs
+/// to stop from the mission's speed, plus two replanning periods. The same input always yields a
+/// bit-identical result. New plans have no reverse segments. Throws InternalError if the options
+/// contain no method for motions along the route. The computing time is the sum of the computing
+/// times of the motions and detours that are tried.
 Replanned Replan(const ReplanRequest& request, const Driving& driving,
                  const ReplanOptions& options);
 

@@ -23,7 +23,8 @@ struct AlongSettings {
   double gap = 3.0;  ///< Distance from a standing car's bumper to a standing obstacle ahead [m].
   double time_gap = 1.5;  ///< Additional time gap to a moving obstacle ahead [s].
   /// Time for which a motion and its continuation must be clear of obstacles [s]. If the horizon of
-  /// the method (PlanFrenet or PlanLattice) is longer, the horizon of the method applies.
+  /// the method (PlanFrenet or PlanLattice) is longer than `look_ahead`, the horizon of the method
+  /// applies.
   double look_ahead = 12.0;
 };
 

@@ -40,10 +40,10 @@ struct RrtOptions {
 
 enum class RrtStatus {
   kReached,  ///< The tree has reached the goal, and the path ends at the goal.
-  /// The search has drawn all samples without reaching the goal. The path ends at the node nearest
-  /// to the goal.
+  /// The search has drawn all samples without reaching the goal. The path ends at the tree's node
+  /// nearest to the goal.
   kIterations,
-  /// The caller ended the search by `stop`. The path ends at the node nearest to the goal.
+  /// The caller ended the search by `stop`. The path ends at the tree's node nearest to the goal.
   kStopped,
   /// The start is too near to an obstacle, so that there is no path.
   kStartBlocked,
@@ -72,13 +72,13 @@ struct RrtResult {
 };
 
 /// Plans a path by RRT. Guarantees: every edge of the tree, including the last edge to the goal, is
-/// over its whole length farther than `inflation` from every obstacle. No edge is longer than
-/// `expand_distance`. The same problem, options and seed always yield the same tree. With more
-/// iterations, the search extends the tree of a search with fewer iterations. The result is the
-/// first path found, not the shortest path (see PlanRrtStar). The path has corners, and its
-/// direction at start and goal is arbitrary. Throws InternalError if start or goal are outside the
-/// box, or if an option is out of range. Computing time per iteration: O(log n + obstacles) for n
-/// nodes, about 1 us plus 20 ns per obstacle.
+/// over its whole length farther than `inflation` from every obstacle. No edge of the tree is
+/// longer than `expand_distance`. The same problem, options and seed always yield the same tree.
+/// With more iterations, the RRT search extends the tree of a search with fewer iterations. PlanRrt
+/// returns the first path found, not the shortest path (see PlanRrtStar). The RRT path has corners,
+/// and its direction at start and goal is arbitrary. Throws InternalError if start or goal are
+/// outside the box, or if an option is out of range. Computing time per iteration: O(log n +
+/// obstacles) for n nodes, about 1 us plus 20 ns per obstacle.
 RrtResult PlanRrt(const RrtProblem& problem, const RrtOptions& options, std::uint64_t seed);
 
 }  // namespace trackbed

@@ -15,11 +15,11 @@ namespace trackbed {
 /// Diagnostics of the tree that grows from one waypoint toward the next.
 struct RrtLeg {
   RrtStatus status = RrtStatus::kReached;
-  int iterations = 0;      ///< Number of random samples.
+  int iterations = 0;      ///< Number of random samples that the search drew.
   std::size_t nodes = 0;   ///< Number of nodes of the tree.
   double length = 0.0;     ///< Length of the path in the tree [m].
   std::vector<Vec2> path;  ///< Points of the path in the tree [m].
-  /// Number of sweeps of the smoothing; none if there was nothing to smooth.
+  /// Number of smoothing sweeps over the path; none if there was nothing to smooth.
   std::optional<int> sweeps;
   std::vector<Vec2> smooth;  ///< Points of the smoothed path [m].
 };
@@ -36,7 +36,7 @@ struct RrtTreeFindings {
 void Visit(DiagnosticsVisitor& out, const RrtTreeFindings& own);
 
 struct RrtDiagnostics {
-  std::vector<RrtLeg> legs;            ///< Diagnostics of the chosen tree, for each leg.
+  std::vector<RrtLeg> legs;  ///< Diagnostics of the chosen search tree, for each leg of the route.
   std::vector<RrtTreeFindings> trees;  ///< Status and score of each tree, in order of planning.
   int chosen = 0;                      ///< Index in `trees` of the tree that the planner chose.
   /// Diagnostics of a partial plan: the waypoint that was not reached, the distance from the end of

@@ -70,12 +70,12 @@ struct RrtStarResult {
 /// `inflation` from every obstacle. The cost of every node is the length of the tree's path from
 /// the start to this node. A search with more iterations continues a search with fewer iterations,
 /// so that more iterations never yield a longer path. The same problem, options and seed always
-/// yield the same tree. The neighbors of a new node are the 1.1 x 12 e ln n nodes nearest to it,
-/// where n is the number of nodes. To converge to the optimum, k-nearest RRT* needs more than
-/// 2^(d+1) e (1 + 1/d) ln n neighbors, which is 12 e ln n in d = 2 dimensions. The path is not
-/// smoothed, and ignores headings and curvature. Throws InternalError if start or goal are outside
-/// the box, or if an option is out of range. Computing time per iteration: O(neighbors), plus
-/// O(neighbors x obstacles) for testing edges, about 10 us in total.
+/// yield the same tree. The neighbors of a new node are the 1.1 x 12 e ln n nodes nearest to the
+/// new node, where n is the number of the tree's nodes. To converge to the optimum, k-nearest RRT*
+/// needs more than 2^(d+1) e (1 + 1/d) ln n neighbors, which is 12 e ln n in d = 2 dimensions. The
+/// path is not smoothed, and ignores headings and curvature. Throws InternalError if start or goal
+/// are outside the box, or if an option is out of range. Computing time per iteration:
+/// O(neighbors), plus O(neighbors x obstacles) for testing edges, about 10 us in total.
 RrtStarResult PlanRrtStar(const RrtStarProblem& problem, const RrtStarOptions& options,
                           std::uint64_t seed);
 

@@ -14,7 +14,7 @@ namespace trackbed {
 /// Options of the planner `rrt_star`. The planner `rrt_star` grows trees from waypoint to waypoint
 /// by RRT* (rrt_star.h), takes shortcuts that do not worsen the path, and rounds or rejects corners
 /// (corners.h). Where the straight line to the next waypoint is free, the path follows this line,
-/// and no tree is grown. The result is the path of the first tree whose path the car can drive.
+/// and no tree is grown. The planned path is that of the first tree whose path the car can drive.
 /// More iterations never lengthen the path of a tree, but may lengthen or shorten the path with
 /// rounded corners. The planner `rrt_star` ignores wind and the headings of waypoints.
 struct RrtStarPlannerOptions {
@@ -28,7 +28,7 @@ struct RrtStarPlannerOptions {
   /// Maximum length of a straight start of the path [m], >= 0; 0: no straight start.
   double lead_in = 4.0;
   double min_speed = 0.5;  ///< Lowest speed of the car in a rounded corner [m/s].
-  int trees = 3;           ///< Maximum number of trees that the planner grows, > 0.
+  int trees = 3;           ///< Maximum number of search trees that the planner grows, > 0.
   int iterations = 5000;   ///< Number of random samples for each leg of each tree, >= 0.
   /// Maximum length of a new edge of a tree [m], > 0; none: a fifth of the sampled area's diagonal.
   std::optional<double> expand_distance{};
@@ -57,8 +57,8 @@ struct RrtStarTreeFindings {
 void Visit(DiagnosticsVisitor& out, const RrtStarTreeFindings& own);
 
 struct RrtStarPlanDiagnostics {
-  /// Diagnostics of the last tree, for each leg; if a tree was chosen, the last tree is the chosen
-  /// one.
+  /// Diagnostics of the last search tree, for each leg of the route; if a tree was chosen, the last
+  /// tree is the chosen one.
   std::vector<RrtStarLeg> legs;
   std::vector<RrtStarTreeFindings> trees;  ///< Status of each tree, in order of planning.
 };

@@ -12,8 +12,8 @@
 /// does not move if an obstacle is in the way or if the wind score would decrease.
 ///
 /// Symbols: x_i are the original points and y_i the smoothed points. The first and the last point
-/// are fixed. The weight of the original points is alpha, and the weight of smoothness is beta. The
-/// wind is w [m/s], and the airspeed V [m/s].
+/// of the path are fixed. The weight of the original points is alpha, and the weight of smoothness
+/// is beta. The wind is w [m/s], and the airspeed V [m/s].
 namespace trackbed {
 
 /// Describes how the wind contributes to the score of a path.
@@ -25,16 +25,16 @@ struct WindScoring {
 };
 
 /// Returns the wind score W [m] of a path: W = k_w sum(w . dx)/V over the segments dx of the path,
-/// with the wind w at the middle of each segment. In a tailwind, the wind score is positive. To
-/// first order, the wind score is the path length that the wind saves for a vehicle with the
-/// airspeed V. In uniform wind, the wind score depends only on the two ends of the path. For a path
-/// of fewer than two points, the wind score is 0.
+/// with the wind's weight k_w, the airspeed V and the wind w at the middle of each segment. In a
+/// tailwind, the wind score is positive. To first order, the wind score is the path length that the
+/// wind saves for a vehicle with the airspeed V. In uniform wind, the wind score depends only on
+/// the two ends of the path. For a path of fewer than two points, the wind score is 0.
 double WindScore(const std::vector<Vec2>& path, const WindScoring& scoring);
 
 struct SmoothingOptions {
   double data = 0.5;  ///< Weight alpha of the original points, >= 0.
-  /// Weight beta of smoothness, >= 0. With 0 < alpha + 2 beta < 1, the smoothing converges without
-  /// overshoot.
+  /// Weight beta of smoothness, >= 0. With 0 < alpha + 2 beta < 1 for the weight alpha of the
+  /// original points, the smoothing converges without overshoot.
   double smoothness = 0.1;
   /// Smoothing ends after a sweep in which the changes of all coordinates add up to less than
   /// `tolerance` [m], > 0.
@@ -49,16 +49,17 @@ struct SmoothingResult {
 };
 
 /// Smooths a path, point by point and coordinate by coordinate: y_i <- y_i + alpha (x_i - y_i) +
-/// beta (y_{i-1} + y_{i+1} - 2 y_i). SmoothPath only moves a point if both edges at the point stay
-/// farther than `inflation` [m] from every obstacle. The move must also not decrease the wind score
-/// of the two edges.
+/// beta (y_{i-1} + y_{i+1} - 2 y_i), with the original points x_i, the smoothed points y_i and the
+/// weights alpha and beta. SmoothPath only moves a point if both edges at the point stay farther
+/// than `inflation` [m] from every obstacle. The move of a point must also not decrease the wind
+/// score of its two edges.
 ///
 /// Guarantees: the two ends of the path do not move, and a path that is free of obstacles stays
-/// free. Without obstacles and wind, the smoothed points converge to the solution of (alpha + 2
-/// beta) y_i - beta (y_{i-1} + y_{i+1}) = alpha x_i. An obstacle may block the motion of a point
-/// along x but not along y, or vice versa. The resulting path is a polyline, whose corners are not
-/// rounded. Throws InternalError if an option is out of range. Computing time: O(sweeps x points x
-/// obstacles).
+/// free. Without obstacles and wind, the smoothed points y_i converge to the solution of (alpha + 2
+/// beta) y_i - beta (y_{i-1} + y_{i+1}) = alpha x_i, with the original points x_i. An obstacle may
+/// block the motion of a point along x but not along y, or vice versa. The resulting path is a
+/// polyline, whose corners are not rounded. Throws InternalError if an option is out of range.
+/// Computing time of the smoothing: O(sweeps x points x obstacles).
 SmoothingResult SmoothPath(const std::vector<Vec2>& path, const std::vector<OrientedBox>& obstacles,
                            const Inflation& inflation, const WindScoring& wind,
                            const SmoothingOptions& options);
