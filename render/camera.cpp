@@ -9,7 +9,7 @@
 #include "trackbed/core/spelling.h"
 
 // Computes the poses of the cameras of films: chase, side, driver, orbit and top.
-// 1. Each camera is a function of the recording and the time. Headings are averaged from 0.8 s
+// 1. Each camera pose is a function of the recording and the time. Headings are averaged from 0.8 s
 //    before to 0.8 s after the frame's time, with triangular weights, so that cameras turn
 //    smoothly.
 // 2. The camera's distance and height are multiples of the size of the car, and include a trailer.
@@ -54,7 +54,7 @@ CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   // changes to reverse gear, the camera swings to the front along the car's right side.
   const double heading = subject.SmoothHeading(time) + kPi * subject.SmoothReverse(time);
   // The camera aims at a point ahead of the rear axle, so that the road ahead fills the frame. The
-  // camera is close enough to keep the car above the strip and the caption.
+  // camera is close enough to keep the car above the frame's chart strip and caption.
   const double size = subject.box().scale();
   const double ahead = 1.0 * size;
   CameraPose pose;
@@ -88,7 +88,7 @@ CameraPose Side(const CameraSubject& subject, double time, double aspect) {
   pose.target_z = 0.7 * size;
   pose.paint_scale = size;
   pose.view_angle = kViewAngle;
-  // Limits the aspect ratio, so that frames in portrait format also show the whole car.
+  // The limited aspect ratio keeps the whole car visible in frames in portrait format.
   pose.distance = 0.5 * width / (std::tan(0.5 * kViewAngle) * std::clamp(aspect, 0.2, 16.0 / 9.0));
   // The camera looks from the car's right side. Seen from the right side, the sun is not behind the
   // camera, so that shadows are visible.

@@ -9,9 +9,8 @@
 #include "trackbed/core/error.h"
 
 // Draws anti-aliased shapes: a pixel's coverage is estimated from the signed distance between its
-// center and the shape's edge, with a transition one pixel wide. The coverage by arrows is computed
-// from 4 by 4 samples per pixel. Glyphs are large bitmaps that are averaged down to the wanted
-// size.
+// center and the shape's edge, with a transition one pixel wide. A pixel's coverage by an arrow is
+// computed from 4 by 4 samples. Glyphs are large bitmaps that are averaged down to the wanted size.
 namespace trackbed::render {
 namespace {
 
@@ -182,7 +181,8 @@ Canvas::Box Canvas::BoxAround(const std::vector<CanvasPoint>& points, double rea
 
 void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color color,
                     double alpha) {
-  const double reach = 0.5 * width + 0.5;  // half a pixel more, because the edge of a line fades
+  // Half the line's width, plus half a pixel because the edge of a line fades.
+  const double reach = 0.5 * width + 0.5;
   const Box all = BoxAround(points, reach);
   if (points.size() < 2 || all.right <= all.left || all.bottom <= all.top) {
     return;

@@ -17,8 +17,8 @@ class Font {
   static constexpr char kFirst = ' ';
   static constexpr char kLast = '~';
 
-  /// `glyphs` has an image for each character from kFirst to kLast, white on black, all of equal
-  /// height.
+  /// The argument `glyphs` has an image for each character from kFirst to kLast, white on black,
+  /// all of equal height.
   explicit Font(std::vector<Image> glyphs);
 
   /// Returns the width [px] of a line of text whose glyph cells are `size` px high. A character

@@ -15,7 +15,8 @@ struct CarBox {
   double towed = 0.0;  ///< length of hitch and trailer behind the box; 0 without a trailer
 
   /// Returns the size of the car relative to a full-size car; films scale cameras, marks and
-  /// shadows by the relative size. The relative size is 1 for cars that are 4 m long or longer.
+  /// shadows by the relative size. The relative size of the car is 1 for cars that are 4 m long or
+  /// longer.
   [[nodiscard]] double scale() const { return std::min(1.0, half_length / 2.0); }
 };
 

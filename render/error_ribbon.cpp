@@ -74,8 +74,8 @@ bool HasErrorScale(const Recording& recording) {
 
 std::vector<double> ErrorFractions(const Recording& recording) {
   constexpr double kSteps = 16.0;
-  // the color changes when the error deviates from the present color's value by this fraction of a
-  // color step; values above 0.5 cause hysteresis
+  // the trail's color changes when the error deviates from the value of the present color by this
+  // fraction of a color step; values above 0.5 cause hysteresis
   constexpr double kHysteresis = 0.6;
   const PlantRecording& car = recording.plants.front();
   std::vector<double> fractions;

@@ -24,12 +24,12 @@ bool HasErrorScale(const Recording& recording);
 
 /// Returns the car's cross-track error at each recorded state, as a fraction of Scales::error. The
 /// returned fractions are quantized in coarse steps, so that long stretches have one color. The
-/// quantization has hysteresis, so small oscillations between two steps do not change the color.
-/// HasErrorScale must be true for the recording.
+/// quantization of the error fractions has hysteresis, so small oscillations between two steps do
+/// not change the color. HasErrorScale must be true for the recording.
 std::vector<double> ErrorFractions(const Recording& recording);
 
 /// Returns the overlay that draws the car's trail in the colors of its cross-track error. Without a
-/// planned path, the overlay draws nothing.
+/// planned path, the overlay of the error ribbon draws nothing.
 OverlayEntry ErrorOverlay();
 
 }  // namespace trackbed::render

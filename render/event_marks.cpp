@@ -132,7 +132,7 @@ class EventMarks : public Overlay {
     const double c = std::cos(heading);
     const double s = std::sin(heading);
     const auto square = [&](double side, double height, const Color& color) {
-      // compensates that AddRibbonPiece lengthens a piece by 0.15 of its width
+      // half the mark's side, reduced because AddRibbonPiece lengthens a piece by 0.15 of its width
       const double half = 0.5 * side / 1.15;
       AddPiece(context, recording_.world, Beside(event.place, -half * c, -half * s),
                Beside(event.place, half * c, half * s), {color, side, height});

@@ -101,9 +101,9 @@ void AddCollision(const Recording& recording, std::vector<RunEvent>& events) {
 }
 
 void AddRollOver(const Recording& recording, std::vector<RunEvent>& events) {
-  // Cosine of the lean at which a run ends with the status rolled_over, 60 degrees.
+  // Cosine of the lean angle at which a run ends with the status rolled_over, 60 degrees.
   constexpr double kRolledOverCosine = 0.5;
-  // Cosine of the lean at which a roll-over event begins, 30 degrees.
+  // Cosine of the lean angle at which a roll-over event begins, 30 degrees.
   constexpr double kLeaningCosine = 0.87;
   const PlantRecording& car = recording.plants.front();
   const std::vector<double>& times = car.times();
@@ -113,8 +113,8 @@ void AddRollOver(const Recording& recording, std::vector<RunEvent>& events) {
     return;
   }
   const double over = recording.roll_over_time.value_or(first == times.end() ? 0.0 : *first);
-  // The last recorded state may be earlier than `over`, because states are recorded less often than
-  // rows of the log.
+  // The last recorded state may be earlier than the roll-over time `over`, because states are
+  // recorded less often than rows of the log.
   auto from = std::upper_bound(times.begin(), times.end(), over);
   while (from != times.begin() && car.Upright(*(from - 1)) < kLeaningCosine) {
     --from;

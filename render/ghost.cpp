@@ -21,10 +21,10 @@ constexpr float kGhostTint = 0.7F;
 // Small parts such as spokes and lamps are not recognizable in a ghost, and drawing them would
 // triple the rendering time.
 constexpr float kGhostDetail = 0.125F;
-// Distance by which a ghost is drawn farther from the camera than its true position [m]. A ghost
-// that coincides with the car is therefore hidden by the car and does not flicker on the car's
-// surface. Differences between car and ghost below kGhostBehind are visible only by the ghost's
-// footprint and trail.
+// Distance by which a ghost is drawn farther from the camera than its true position [m]. Drawing a
+// ghost farther away lets the car hide a coinciding ghost, which would otherwise flicker on the
+// car's surface. Differences between car and ghost below kGhostBehind are visible only by the
+// ghost's footprint and trail.
 constexpr double kGhostBehind = 0.10;
 constexpr double kFootprintWidth = 0.06;  // Width of the lines of a ghost's footprint [m].
 // Maximum number of pieces in the outline of a footprint; enough for pieces of 0.25 m around a car

@@ -19,7 +19,7 @@ std::string Lowered(std::string text) {
   return text;
 }
 
-/// Returns the OpenGL library that the option requests; nullopt for "auto".
+/// Returns the OpenGL library that the option `gl` requests; nullopt for "auto".
 std::optional<GlLibrary> RequestedLibrary(const std::string& gl, const std::string& mujoco_gl) {
   if (gl == "egl" || gl == "osmesa") {
     return gl == "egl" ? GlLibrary::kEgl : GlLibrary::kOsmesa;

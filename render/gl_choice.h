@@ -13,8 +13,8 @@ namespace trackbed::render {
 struct GlSurroundings {
   std::string mujoco_gl{};  ///< Value of the environment variable MUJOCO_GL; empty if unset.
   /// Library whose OpenGL functions MuJoCo uses in this process. MuJoCo looks for the functions of
-  /// EGL first, then for those of OSMesa, and loads the functions only once. The library is nullopt
-  /// if the process has the symbols of neither EGL nor OSMesa.
+  /// EGL first, then for those of OSMesa, and loads the functions only once. The loaded OpenGL
+  /// library is nullopt if the process has the symbols of neither EGL nor OSMesa.
   std::optional<GlLibrary> in_process{};
 };
 

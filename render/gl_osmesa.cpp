@@ -8,7 +8,7 @@
 namespace trackbed::render {
 namespace {
 
-// Mesa 25.1 removed OSMesa and its header <GL/osmesa.h>. The declarations of this header are
+// Mesa 25.1 removed OSMesa and its header <GL/osmesa.h>. The declarations of <GL/osmesa.h> are
 // repeated here, so that the same build works with and without OSMesa.
 struct OsmesaState;
 using OsmesaCreate = OsmesaState*(unsigned format, int depth_bits, int stencil_bits, int accum_bits,

@@ -9,7 +9,8 @@
 namespace trackbed::render {
 namespace {
 
-/// Maps each side of a cell to the neighboring sides to which pieces of a contour line connect it.
+/// Maps each side of a cell to the neighboring sides to which pieces of a contour line connect the
+/// cell side.
 using Neighbors = std::map<int, std::vector<int>>;
 
 void Join(Neighbors& neighbors, int a, int b) {
@@ -88,7 +89,8 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
         Join(neighbors, sides[cut[0]], sides[cut[1]]);
       } else if (cut.size() == 4) {
         // A piece of a contour line separates each corner above the level from the rest of the
-        // cell. A piece around a corner crosses the two sides of the cell that meet at the corner.
+        // cell. A contour piece around a corner crosses the two sides of the cell that meet at the
+        // corner.
         for (std::size_t i = 0; i < 4; ++i) {
           if (above[i]) {
             Join(neighbors, sides[(i + 3) % 4], sides[i]);

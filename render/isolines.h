@@ -13,9 +13,9 @@ namespace trackbed::render {
 /// The constructor evaluates the function `value` once at each corner of a cell. Square cells with
 /// sides of length `step` [m] cover the rectangle from `low` to `high`. A contour line is either
 /// closed or ends at the rectangle's sides; the last point of a closed line repeats the first. If
-/// two opposite corners of a cell are above the level and the other two below, the middle of the
-/// cell is treated as below the level. The run time is proportional to the number of cells times
-/// the number of levels.
+/// two opposite corners of a cell are above the contour level and the other two below, the middle
+/// of the cell is treated as below the level. The run time for the contour lines is proportional to
+/// the number of cells times the number of levels.
 class IsolineGrid {
  public:
   IsolineGrid(const Vec2& low, const Vec2& high, double step,

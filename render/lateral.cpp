@@ -32,7 +32,7 @@ std::optional<AlongPath> FindAlongPath(const TimedTable& log) {
   return station && left ? std::optional(AlongPath{*station, *left}) : std::nullopt;
 }
 
-/// Returns the height of letters in an inset with this height [px]. The height of an inset is at
+/// Returns the height of letters in an inset that is `height` px high. The height of an inset is at
 /// most 0.3 times that of the frame.
 double LetterSize(int height) {
   return std::clamp(std::round(0.085 * height), 11.0, 23.0);

@@ -15,14 +15,14 @@ class LateralView {
  public:
   static constexpr double kMagnification = 10.0;
 
-  /// The recording must outlive the view.
+  /// The recording must outlive the lateral view.
   explicit LateralView(const Recording& recording) : recording_(recording) {}
 
   /// Draws the lateral view at `time` [s] over the whole image.
   void Draw(Image& image, Font& font, double time) const;
 
   /// Returns the pixel position of a point at station `station` [m] and at a distance `left` to the
-  /// left of the path [m]. `car` is the station of the car [m].
+  /// left of the path [m]. The argument `car` is the station of the car [m].
   [[nodiscard]] CanvasPoint Place(int width, int height, double car, double station,
                                   double left) const;
 

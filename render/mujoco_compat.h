@@ -4,8 +4,8 @@
 
 #include <concepts>
 
-/// Hides the API differences between MuJoCo versions from the drawing functions. The differences in
-/// the simulation functions are handled in src/sim/mujoco_compat.h.
+/// Hides the API differences between MuJoCo versions from the drawing functions. The API
+/// differences that concern the simulation are handled in src/sim/mujoco_compat.h.
 namespace trackbed::render::mj {
 
 /// Returns the index of a material's color texture; -1 if the material has no color texture. Since

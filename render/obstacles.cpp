@@ -19,8 +19,8 @@
 namespace trackbed::render {
 namespace {
 
-/// Returns the distance that an obstacle drives through its poses in the direction `yaw`, relative
-/// to its heading [m]; negative against this direction.
+/// Returns how far an obstacle moves through its poses in the direction of its heading plus `yaw`
+/// [m]; negative: against this direction.
 double DrivenAlong(const Obstacle& obstacle, double yaw) {
   double sum = 0.0;
   for (std::size_t i = 1; i < obstacle.motion.size(); ++i) {
@@ -134,8 +134,8 @@ class CarParts {
 
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
 
-  /// Draws the car, stretched to the size of the obstacle's box. `forward` is the car's direction
-  /// along the longer side of the box, 1 or -1.
+  /// Draws the car, stretched to the size of the obstacle's box. The argument `forward` is the
+  /// car's direction along the longer side of the box, 1 or -1.
   void Add(mjvScene& scene, const Block& block, double forward, const Color& paint) const {
     // The car is turned so that its length is along the longer side of the box.
     RowMajorMatrix3 turn = RowMajorMatrix3::Identity() * forward;
@@ -181,9 +181,9 @@ class CarParts {
   std::vector<Part> parts_;
 };
 
-/// Fills the obstacle's box with a stack of cylinders or boxes of equal height. `layers` has the
-/// horizontal size relative to the box and the color of each piece of the stack, from bottom to
-/// top.
+/// Fills the obstacle's box with a stack of cylinders or boxes of equal height. The argument
+/// `layers` has the horizontal size relative to the box and the color of each piece of the stack,
+/// from bottom to top.
 void AddStack(mjvScene& scene, const Block& block, mjtGeom type,
               const std::vector<std::pair<double, Color>>& layers) {
   const double tall = 1.0 / static_cast<double>(layers.size());

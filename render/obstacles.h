@@ -17,7 +17,7 @@ enum class ObstacleLook {
 /// 2.3 m wide and 1.2 to 2.2 m high are drawn as cars. Walls are at most 1 m wide and at least four
 /// times as long as wide. Cones and posts are at most 0.6 m long and wide; cones are at most 1 m
 /// high. Obstacles that are neither cars, walls, cones nor posts by their size are drawn as crates.
-/// `length` may be the shorter horizontal side of the obstacle.
+/// The argument `length` may be the shorter horizontal side of the obstacle.
 ObstacleLook ChooseLook(double length, double width, double height);
 
 /// Returns the overlay that draws each obstacle of the world with its ObstacleLook. An obstacle

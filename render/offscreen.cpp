@@ -23,7 +23,7 @@ void CopyFlipped(const std::vector<std::uint8_t>& from, Image& to) {
 }
 
 /// Averages each square of `side` by `side` samples into one pixel, and reverses the order of the
-/// rows. `side` must be a power of two.
+/// rows. The argument `side` must be a power of two.
 void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) {
   const auto step = static_cast<std::size_t>(side);
   const auto width = static_cast<std::size_t>(to.width);

@@ -18,8 +18,8 @@ namespace trackbed::render {
 class Offscreen {
  public:
   /// Allocates buffers for images of the given size [px]. Each pixel of an image is the mean of a
-  /// square of `supersampling` by `supersampling` samples. The constructor sets the buffer sizes in
-  /// `model.vis`. Throws RunError if MuJoCo cannot draw in the OpenGL context.
+  /// square of `supersampling` by `supersampling` samples. The constructor of Offscreen sets the
+  /// buffer sizes in `model.vis`. Throws RunError if MuJoCo cannot draw in the OpenGL context.
   Offscreen(mjModel& model, int width, int height, int supersampling,
             std::unique_ptr<GlContext> gl = MakeGlContext("auto"));
   ~Offscreen();

@@ -32,9 +32,9 @@ class FilmOutput {
 };
 
 /// Writes frames to another output in a separate thread, while the next frame is drawn. At most two
-/// frames wait in the queue; if the queue is full, Add() blocks. The next call rethrows an
-/// exception of the writing thread, and no more frames are written. If an exception in the drawing
-/// thread destroys the BackgroundOutput, the frames in the queue are still written.
+/// frames wait in the queue; if the queue is full, Add() blocks. The next call of Add() or Finish()
+/// rethrows an exception of the writing thread, and no more frames are written. If an exception in
+/// the drawing thread destroys the BackgroundOutput, the frames in the queue are still written.
 class BackgroundOutput : public FilmOutput {
  public:
   explicit BackgroundOutput(std::unique_ptr<FilmOutput> output);
@@ -49,7 +49,7 @@ class BackgroundOutput : public FilmOutput {
   void Rethrow();
 
   std::unique_ptr<FilmOutput> output_;
-  // protects all members declared below it, except the thread, against concurrent access
+  // the mutex protects all members declared below it, except the thread, against concurrent access
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Image> waiting_;

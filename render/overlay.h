@@ -75,7 +75,7 @@ class Overlay {
   /// Returns the maximum number of shapes that this overlay adds to a scene in AddShapes.
   [[nodiscard]] virtual std::size_t max_shapes() const { return 0; }
   /// Adds shapes to the 3D scene, where other objects such as the car can hide and shade these
-  /// shapes. The inset of the frame also shows these 3D shapes.
+  /// shapes. The inset of the frame also shows the 3D shapes of overlays.
   virtual void AddShapes(SceneContext& /*context*/) {}
   /// Draws two-dimensional shapes over the frame, but not over its inset.
   virtual void Draw(PictureContext& /*context*/) {}

@@ -29,9 +29,9 @@ class Painter {
  public:
   /// A painter keeps references to the recordings and changes the visual settings of their models.
   /// At least one recording is required, and all recordings must have the same model. The
-  /// recordings are shown side by side in parts of the frame, from left to right. `options`
-  /// determines the size, cameras, quality and overlays of the film. Throws InputError for unknown
-  /// names in `options`, and RunError if there is no off-screen OpenGL.
+  /// recordings are shown side by side in parts of the frame, from left to right. The argument
+  /// `options` determines the size, cameras, quality and overlays of the film. Throws InputError
+  /// for unknown names in `options`, and RunError if there is no off-screen OpenGL.
   Painter(std::span<Recording> recordings, const FilmOptions& options);
   ~Painter();
   Painter(const Painter&) = delete;

@@ -22,8 +22,8 @@ constexpr float kAbandonedShare = 0.35F;
 // lines.
 constexpr double kBrief = 1.0;
 
-/// Returns the style of the line that shows a plan. `newer` is the number of plans that the car
-/// adopted later.
+/// Returns the style of the line that shows a plan. The argument `newer` is the number of plans
+/// that the car adopted later.
 RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
   if (newer == 0) {
     return {color, kPlanWidth * scale, kPlanHeight};

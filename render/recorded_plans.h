@@ -6,8 +6,8 @@
 
 #include "trackbed/core/table.h"
 
-/// Reads the plans of a run from the files in the run folder. The functions return an empty result
-/// if a file is missing, and throw InputError naming the file if a file is invalid.
+/// Reads the plans of a run from the files in the run folder. The functions that read plans return
+/// an empty result if a file is missing, and throw InputError naming the file if a file is invalid.
 namespace trackbed::render {
 
 /// A point on the ground [m]; z is 0 where the height is not needed.
@@ -41,8 +41,8 @@ std::vector<Point> ReadPlan(const std::filesystem::path& file);
 std::vector<NewPlan> ReadNewPlans(const std::filesystem::path& file);
 
 /// Reads the curvature of each plan over the station, from `plan.csv` or `<plant>.plan.csv`. Plans
-/// whose files have no curvature are omitted. `begin` is the time at which the car adopts the plan
-/// in `plan.csv` [s].
+/// whose files have no curvature are omitted. The argument `begin` is the time at which the car
+/// adopts the plan in `plan.csv` [s].
 std::vector<CurvatureProfile> ReadCurvatures(const std::filesystem::path& file, double begin);
 
 /// Reads the cones of each gate from `plan.json`. The cones of a gate are listed in pairs, left and

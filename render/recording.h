@@ -55,9 +55,9 @@ struct Readings {
 /// The recorded motion of one plant's car.
 class PlantRecording {
  public:
-  /// Reads `<plant>.state.csv` and `<plant>.csv` in `folder`. The constructor throws InputError if
-  /// the state file lacks the column of a joint of `model`. The argument `index` is the plant's
-  /// index among the plants of the run, which determines the plant's color.
+  /// Reads `<plant>.state.csv` and `<plant>.csv` in `folder`. The constructor of PlantRecording
+  /// throws InputError if the state file lacks the column of a joint of `model`. The argument
+  /// `index` is the plant's index among the plants of the run, which determines the plant's color.
   PlantRecording(const std::filesystem::path& folder, const std::string& plant,
                  const mjModel& model, std::size_t index = 0);
 

@@ -65,7 +65,7 @@ std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance
     return {};
   }
   std::vector<std::size_t> kept = ThinOnce(points, tolerance);
-  // After doubling 30 times, the tolerance is larger than any road.
+  // After doubling 30 times, the tolerance of thinning is larger than any road.
   for (int doublings = 0; kept.size() > max_pieces + 1 && doublings < 30; ++doublings) {
     tolerance *= 2.0;
     kept = ThinOnce(points, tolerance);
@@ -80,11 +80,11 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   if (length < 1e-6) {
     return;
   }
-  // Neighboring pieces of a line overlap and therefore lie alternately at two heights. At equal
-  // heights, a lamp with shadows would light the overlap of two pieces twice.
+  // Neighboring pieces of a line overlap, so they lie alternately at two heights to avoid
+  // flickering. At equal heights, a lamp with shadows would light the overlap of two pieces twice.
   constexpr double kStagger = 0.0005;
-  // The angle between neighboring pieces of a line is at most about 15 degrees. An overlap of the
-  // pieces by tan(15/2 degrees) times half the width therefore closes the outer corner.
+  // The angle between neighboring pieces of a line is at most about 15 degrees. Overlapping the
+  // pieces by tan(15/2 degrees) times half the line's width closes the gap at the outer corner.
   const double overlap = 0.15 * 0.5 * style.width;
   RowMajorMatrix3 rotation;
   rotation.col(0) = along / length;
@@ -98,7 +98,7 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   // map, and a plane has no back face. A thin box would cast speckled shadows on its own upper
   // face, because the shadow map's depth is too coarse.
   if (mjvGeom* piece = AddDecor(scene, mjGEOM_PLANE, size, center, rotation, rgba)) {
-    piece->emission = 0.08F;  // keeps paint brighter than the road in the shade
+    piece->emission = 0.08F;  // emission that keeps paint brighter than the road in the shade
   }
 }
 

@@ -25,15 +25,17 @@ struct RibbonStyle {
 ///
 /// The distance between an omitted point and the piece that replaces it is at most the tolerance.
 /// The vertical distance between an omitted point and the piece that replaces it is at most a fifth
-/// of the tolerance. Paint therefore does not sink into the ground. The tolerance starts at
-/// `tolerance` [m] and is doubled until at most `max_pieces` pieces are left. The run time is
-/// proportional to the number of points of a road, since a piece never spans more than 512 points.
+/// of the tolerance. The small vertical tolerance keeps paint from sinking into the ground. The
+/// tolerance of the thinning starts at `tolerance` [m] and is doubled until at most `max_pieces`
+/// pieces are left. The run time of Thin is proportional to the number of points, since a piece
+/// never spans more than 512 points.
 std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance,
                               std::size_t max_pieces);
 
 /// Appends one straight piece of a line to the scene. The piece extends slightly beyond `a` and
-/// `b`, so that there are no gaps between pieces at corners. `normal` is the ground's normal
-/// between `a` and `b`. AddRibbonPiece does nothing if the points coincide or the scene is full.
+/// `b`, so that there are no gaps between pieces at corners. The argument `normal` is the ground's
+/// normal between `a` and `b`. AddRibbonPiece does nothing if the points coincide or the scene is
+/// full.
 void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const RibbonStyle& style,
                     const Eigen::Vector3d& normal = Eigen::Vector3d::UnitZ());
 

@@ -81,7 +81,7 @@ Roadway AlongPlan(const std::vector<Point>& plan, double width, double step) {
   return way;
 }
 
-/// Returns the whole lap of a track, which ends at the track's start.
+/// Returns the road along a whole lap of the track, which ends at the track's start.
 Roadway AlongTrack(const Track& track) {
   Roadway way;
   const std::size_t count = track.left_edge().size();
@@ -199,7 +199,7 @@ class RoadRibbons : public Overlay {
     for (const PavedBand& band : recording_.roads.bands) {
       for (std::size_t i = 1; i < band.left.size(); ++i) {
         // Each tile of asphalt extends across the road, from border to border. Neighboring tiles of
-        // asphalt overlap and therefore lie alternately at two heights.
+        // asphalt overlap, so they lie alternately at two heights to avoid flickering.
         const Vec2 from = 0.5 * (band.left[i - 1] + band.right[i - 1]);
         const Vec2 to = 0.5 * (band.left[i] + band.right[i]);
         const Vec2 along = to - from;
@@ -294,7 +294,8 @@ class RoadRibbons : public Overlay {
       const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
                             along.norm() + 2.0 * overlap,
                             width};
-      // Neighboring pieces of asphalt overlap and therefore lie alternately at two heights.
+      // Neighboring pieces of asphalt overlap, so they lie alternately at two heights to avoid
+      // flickering.
       const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
       const std::vector<Tile> tiles =
           CutToGround(recording_.world.ground, box, like, above, kTolerance);
@@ -313,7 +314,7 @@ class RoadRibbons : public Overlay {
   static void AddPost(SceneContext& context, const Point& post) {
     const double away =
         std::hypot(post.x - context.camera.target_x, post.y - context.camera.target_y);
-    // Omits posts next to the camera, because these posts would hide the car.
+    // Omits road posts next to the camera, because these posts would hide the car.
     const bool near = NearTheCamera(context.camera, post);
     if (away < kPostRange && !near) {
       const std::array<mjtNum, 3> size{0.06, 0.06, 0.5 * kPostHeight};

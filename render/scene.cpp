@@ -42,8 +42,8 @@ std::int64_t MaxGeoms(const Recording& recording, const std::vector<Tile>& patch
   for (const auto& overlay : overlays) {
     count += overlay->max_shapes();
   }
-  // The number of geoms allows for the model's geoms, the shapes that MuJoCo adds, and the shapes
-  // of overlays.
+  // The maximum number of geoms in the scene allows for the model's geoms, the shapes that MuJoCo
+  // adds, and the shapes of overlays.
   return 2 * recording.model->ngeom + 200 + static_cast<std::int64_t>(count);
 }
 
@@ -59,8 +59,8 @@ bool SeesSky(const mjModel& model, const World& world, const CameraPose& camera)
   return !endless || camera.elevation + 0.5 * camera.view_angle > horizon - kHaze;
 }
 
-/// Lowers all height fields slightly. Where a height field had the height of the ground plane, the
-/// two surfaces would flicker.
+/// Lowers all height fields slightly. SinkHeightFields prevents flicker where a height field has
+/// the height of the ground plane.
 void SinkHeightFields(mjvScene& scene) {
   for (int i = 0; i < scene.ngeom; ++i) {
     if (scene.geoms[i].type == mjGEOM_HFIELD) {

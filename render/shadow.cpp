@@ -19,8 +19,8 @@ constexpr int kShadowMapSide = 4096;
 double ShadowReach(const CameraPose& camera) {
   const double half_height = camera.distance * std::tan(0.5 * camera.view_angle);
   // If the shadow map reaches 3.5 half heights of the frame to each side, the side of the shadow
-  // map is 7 half heights. The shadow map's 4096 texels then yield 1.6 texels per pixel of a frame
-  // with 720 rows.
+  // map is 7 half heights. With a side of 7 half heights of the frame, the shadow map's 4096 texels
+  // yield 1.6 texels per pixel of a frame with 720 rows.
   constexpr double kMaxHalfHeights = 3.5;
   // Half the diagonal of a frame with an aspect ratio of up to 21:9, in half heights of the frame;
   // used for a camera that looks down.

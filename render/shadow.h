@@ -12,9 +12,9 @@ namespace trackbed::render {
 
 /// Returns half the side of the shadow map [m]. For a camera that looks down from above, the shadow
 /// map covers everything visible. For a camera that sees the horizon, the size of the shadow map is
-/// limited. At the limit of the size, a pixel at the camera's target has 1.6 texels of the shadow
-/// map, in a frame with 720 rows. Half the side of the shadow map is 18 m for the chase camera and
-/// 9 m for the side camera.
+/// limited. At its largest size, the shadow map has 1.6 texels per pixel at the camera's target, in
+/// a frame with 720 rows. Half the side of the shadow map is 18 m for the chase camera and 9 m for
+/// the side camera.
 double ShadowReach(const CameraPose& camera);
 
 /// Sets the size of the shadow map for a camera whose distance and lens do not change during the

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMaxRunDuration = 1e6;  // maximum time limit of a drive [s]
+constexpr double kMaxRunDuration = 1e6;  // maximum time limit of a run [s]
 
 [[noreturn]] void RejectTable(const fs::path& file, std::string key, std::string message) {
   throw InputError(

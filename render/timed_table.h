@@ -30,7 +30,7 @@ class TimedTable {
   [[nodiscard]] std::optional<std::size_t> Find(const std::string& column) const;
 
   /// Position of a time between two rows of the table. The interpolated value of a column is (1 -
-  /// part) * row + part * next.
+  /// part) times the value in row `row` plus `part` times the value in row `next`.
   struct Place {
     std::size_t row = 0;
     std::size_t next = 0;

@@ -18,8 +18,8 @@ namespace {
 // Dimensions of the tyre dials, in units of the height of letters.
 constexpr double kRadius = 1.15;   // Radius of a tyre dial.
 constexpr double kBetween = 0.35;  // Gap between two tyre dials.
-// Maximum length of the hand relative to the dial's radius; some tyre laws yield forces slightly
-// above friction times load.
+// Maximum length of a dial's hand relative to the dial's radius; some tyre laws yield forces
+// slightly above friction times load.
 constexpr double kOverflow = 1.12;
 
 /// Returns the model's tyre coefficient for an axle or, if missing, the coefficient for both axles;

@@ -18,15 +18,15 @@ struct WheelForce {
   Eigen::Vector3d place;    ///< Point on the ground under the wheel's hub.
   Eigen::Vector3d forward;  ///< Unit vector along the ground in the rolling direction of the wheel.
   Eigen::Vector3d left;     ///< Unit vector along the ground to the left of the wheel.
-  Vec2 force;               ///< Tyre force along `forward` and `left` [N].
+  Vec2 force;  ///< Tyre force in the rolling direction and to the left of the wheel [N].
   /// Half axes of the friction ellipse [N]: friction times load, along and across the rolling
   /// direction.
   Vec2 most;
   int body = -1;          ///< Index of the wheel's body in the model.
   std::size_t wheel = 0;  ///< Index of the wheel in kWheels of car_model.h.
 
-  /// Returns the used fraction of the available friction, which is 1 on the friction ellipse. For
-  /// some tyre laws, the used fraction may slightly exceed 1.
+  /// Returns the used fraction of the tyre's available friction, which is 1 on the friction
+  /// ellipse. For some tyre laws, the used fraction may slightly exceed 1.
   [[nodiscard]] double Use() const;
 };
 
@@ -39,8 +39,8 @@ class TyreForces {
 
   /// Whether the car's log contains tyre forces and the model has the corresponding wheels.
   [[nodiscard]] bool known() const { return !wheels_.empty(); }
-  /// Returns the tyre force of each wheel that carries a load. `data` must have the car's pose at
-  /// `time` [s].
+  /// Returns the tyre force of each wheel that carries a load. The argument `data` must have the
+  /// car's pose at `time` [s].
   [[nodiscard]] std::vector<WheelForce> At(double time, const mjData& data) const;
 
  private:
@@ -69,9 +69,10 @@ inline constexpr double kSkidUse = 0.9;
 
 /// Draws the used fraction of a tyre's grip as a hand from the center of a dial. The hand of the
 /// dial points up for a forward force, and left for a force to the left. At the friction limit, the
-/// hand ends on the rim of the dial, at `radius` [px]. Beyond the friction limit, the hand extends
-/// past the rim by at most an eighth of the radius. If `tyre` is null, the wheel carries no load
-/// and an empty dial is drawn. `hairline` is the thickness of the dial's rim [px].
+/// dial's hand ends on the rim of the dial, at `radius` [px]. Beyond the friction limit, the dial's
+/// hand extends past the rim by at most an eighth of the radius. If `tyre` is null, the wheel
+/// carries no load and an empty dial is drawn. The argument `hairline` is the thickness of the
+/// dial's rim [px].
 void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius, const WheelForce* tyre,
                   double hairline);
 

@@ -52,9 +52,9 @@ struct LibavFunctions {
   decltype(&::sws_setColorspaceDetails) sws_setColorspaceDetails;
 };
 
-/// Returns the pointers to the FFmpeg functions. The first call of this function loads FFmpeg's
-/// libraries, in the versions whose headers were used at compile time. Throws RunError if FFmpeg's
-/// libraries are missing.
+/// Returns the pointers to the FFmpeg functions. The first call of Libav loads FFmpeg's libraries,
+/// in the versions whose headers were used at compile time. Throws RunError if FFmpeg's libraries
+/// are missing.
 const LibavFunctions& Libav();
 
 }  // namespace trackbed::render

@@ -9,8 +9,8 @@
 namespace trackbed {
 namespace {
 
-/// Returns the time of the control periods at whose start `acts` is true [s]; none if the car lacks
-/// the aid, for which `acts` returns nullopt.
+/// Returns the time for which a driver aid acts, judged by `acts` at the start of each control
+/// period [s]; nullopt if the car lacks the aid.
 template <typename Acts>
 std::optional<MetricReading> TimeOfAid(const MetricInput& input, const Acts& acts) {
   const auto& rows = input.log.rows;

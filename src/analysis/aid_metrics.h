@@ -10,15 +10,15 @@
 /// Measures the interventions of the driver aids (AidState).
 namespace trackbed {
 
-/// Returns the time for which anti-lock control limits the brake torque of a wheel [s]; none if the
-/// car has no anti-lock brakes.
+/// Returns the time for which anti-lock control limits the brake torque of a wheel [s]; nullopt if
+/// the car has no anti-lock brakes.
 std::optional<MetricReading> TimeOfAbs(const MetricInput& input);
 
-/// Returns the time for which stability control brakes a wheel [s]; none if the car has no
+/// Returns the time for which stability control brakes a wheel [s]; nullopt if the car has no
 /// stability control.
 std::optional<MetricReading> TimeOfEsc(const MetricInput& input);
 
-/// Returns the largest brake torque that stability control applies to a wheel [N m]; none if the
+/// Returns the largest brake torque that stability control applies to a wheel [N m]; nullopt if the
 /// car has no stability control.
 std::optional<MetricReading> LargestEscTorque(const MetricInput& input);
 

@@ -48,7 +48,7 @@ Bisection Bisect(double from, double to, double tolerance,
   while (fails - bisection.value > tolerance) {
     const double middle = std::midpoint(bisection.value, fails);
     if (middle <= bisection.value || middle >= fails) {
-      break;  // stop, because no double lies between the two bounds
+      break;  // stop the bisection, because no double lies between the two bounds
     }
     const std::optional<bool> passed = attempt(middle);
     if (!passed) {

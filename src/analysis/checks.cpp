@@ -16,8 +16,8 @@
 // 2. The check of a metric that the run does not have fails; its message has the reason or the most
 //    similar metric name.
 // 3. FailureMessage describes a failed Check: plant, value, bound, and the station and time of the
-//    value. The message shows value and bound with as many digits as are needed to distinguish the
-//    two numbers.
+//    value. The failure message shows value and bound with as many digits as are needed to
+//    distinguish the two numbers.
 namespace trackbed {
 namespace {
 
@@ -58,8 +58,8 @@ std::optional<double> NumberIn(const MetricValue& value) {
   return number != nullptr ? std::optional(*number) : std::nullopt;
 }
 
-/// Converts a bound to JSON. A bound whose text is valid JSON, such as "true" or "3", becomes that
-/// JSON value; any other text becomes a JSON string.
+/// Converts the bound of a check to JSON. A bound whose text is valid JSON, such as "true" or "3",
+/// becomes that JSON value; any other text becomes a JSON string.
 ordered_json ParsedBound(const MetricValue& bound) {
   const auto* text = std::get_if<std::string>(&bound);
   const ordered_json parsed =

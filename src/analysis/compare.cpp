@@ -19,10 +19,10 @@
 
 // Compares two runs at equal stations. Both traces are interpolated linearly at every station where
 // either run has a log row, within the stations that both runs cover. Stations in gaps of the logs
-// of recorded runs are not compared. A difference is the value of the second run minus the value of
-// the first run. The rms difference comes from the exact integral of the squared, piecewise linear
-// difference over arc length. The maximum difference is the largest magnitude among the compared
-// stations.
+// of recorded runs are not compared. A difference between two runs is the value of the second run
+// minus the value of the first run. The rms difference comes from the exact integral of the
+// squared, piecewise linear difference over arc length. The maximum difference between two runs is
+// the largest magnitude among the compared stations.
 namespace trackbed {
 namespace {
 
@@ -132,7 +132,8 @@ Difference ComputeDifference(const std::vector<RowDifference>& rows, const Of& o
     }
     if (i > 0 && !rows[i].after_gap) {
       length += rows[i].s - rows[i - 1].s;
-      // The mean square of a quantity that varies linearly from a to b is (a.a + a.b + b.b)/3.
+      // The mean square of a vector that varies linearly from a to b is (a.a + a.b + b.b)/3, with
+      // the dot products a.a, a.b and b.b.
       const Vec2 before = of(rows[i - 1]);
       integral += (rows[i].s - rows[i - 1].s) *
                   (before.squaredNorm() + before.dot(here) + here.squaredNorm()) / 3.0;

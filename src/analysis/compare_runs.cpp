@@ -18,8 +18,8 @@
 // (compare.cpp). Within one run, each plant is compared with every other plant. Between two runs,
 // plants with equal names are compared, unless the user names the two plants to compare. Bounds on
 // the differences come from the given tolerances and, for plants of one run, from expect.between;
-// the tightest bound applies. The verdict also notes if the runs end with different statuses, have
-// different plans, or have different plants.
+// the tightest bound applies. The verdict of a comparison also notes if the runs end with different
+// statuses, have different plans, or have different plants.
 namespace trackbed {
 namespace {
 

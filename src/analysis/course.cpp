@@ -17,15 +17,16 @@ class ConstantCurvatureCourse {
  public:
   ConstantCurvatureCourse(const VehicleParams& vehicle, const VehicleState& state, double length)
       : start_yaw_(state.pose.yaw), curvature_(MeasuredCurvature(state)) {
-    // The rear axle may slip sideways, so the course starts in the axle's direction of motion, not
-    // in the car's heading.
+    // The rear axle may slip sideways, so the reference course starts in the axle's direction of
+    // motion, not in the car's heading.
     const double lateral = state.lateral_speed - state.yaw_rate * vehicle.cg_to_rear;
     const double course = state.pose.yaw + std::atan2(lateral, state.speed);
     path_ = Path({state.pose.x, state.pose.y, course}, {{length, curvature_}});
   }
 
   /// Projects the car's pose onto the reference course. The returned heading error is the change of
-  /// the car's heading since the start of the course, minus the change of the course's heading.
+  /// the car's heading since the start of the reference course, minus the change of the course's
+  /// heading.
   [[nodiscard]] Projection At(const VehicleState& state) {
     // Maximum distance that the car drives between two log rows [m].
     constexpr double kMaxRowDistance = 5.0;
@@ -36,7 +37,7 @@ class ConstantCurvatureCourse {
     return at;
   }
 
-  /// Returns the yaw rate of a car that follows the course [rad/s].
+  /// Returns the yaw rate of a car that follows the reference course [rad/s].
   [[nodiscard]] double YawRate(const VehicleState& state) const { return curvature_ * state.speed; }
 
  private:
@@ -112,7 +113,8 @@ void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
   metrics.begin = start.time;
   const double initial_speed = TotalSpeed(rows[onset]);
   metrics.values.emplace_back("initial_speed", initial_speed);
-  // The forward speed of a spinning car is zero while the car slides sideways.
+  // The minimum search uses the total speed, because the forward speed of a spinning car is zero
+  // while the car slides sideways.
   const auto slowness = [](const LogRow& row) { return -TotalSpeed(row); };
   const std::vector<double> driven = DrivenOf(input.log, input.vehicle);
   const auto driven_at = [&](const LogRow& row) {

@@ -37,8 +37,9 @@ double SlidingShare(const RunLog& log) {
          static_cast<double>(log.rows.size());
 }
 
-/// Adds a note to the verdict if the tyres slid on MuJoCo's contacts. MuJoCo's friction cone lifts
-/// sliding contacts, so the wheel loads of a run with sliding contacts are not realistic.
+/// Adds a note to the verdict if tyres slid that were simulated by MuJoCo's contacts. MuJoCo's
+/// friction cone lifts sliding contacts, so the wheel loads of a run with sliding contacts are not
+/// realistic.
 void NoteSlidingContacts(RunResult& result, const CarModel& car) {
   constexpr double kNotedFraction = 0.01;
   for (const RunLog& log : result.logs) {
@@ -59,7 +60,8 @@ void NoteSlidingContacts(RunResult& result, const CarModel& car) {
 /// and the reason for not passing that held longest.
 void NoteFollowing(RunResult& result) {
   for (const RunLog& log : result.logs) {
-    std::map<std::string, double> times;  // Time for which each reason for not passing held [s].
+    // Time for which each reason for not passing a slower obstacle held [s].
+    std::map<std::string, double> times;
     double total = 0.0;
     for (std::size_t i = 0; i < log.changes.size(); ++i) {
       const auto* found = log.changes[i].plan.diagnostics.replan.GetIf<ReplanDiagnostics>();

@@ -15,16 +15,16 @@
 // 1. ParseJson limits the size and the depth of a file, and converts errors of nlohmann::json to an
 //    InputError with file, line and column.
 // 2. JsonValue refers to a value in the document and knows its path, such as plants[0].end.
-// 3. Each getter checks the type of the value, and otherwise throws an InputError that names the
-//    file and the path.
+// 3. Each getter of JsonValue checks the type of the value, and otherwise throws an InputError that
+//    names the file and the path.
 namespace trackbed {
 
 using nlohmann::ordered_json;
 
 namespace {
 
-/// Converts the position of a byte in a text to a line and a column. The numbers of the byte, the
-/// line and the column start at 1.
+/// Converts the position of a byte in a text to a line and a column. Position counts bytes, lines
+/// and columns from 1.
 std::pair<int, int> Position(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, byte == 0 ? 0 : byte - 1);
   // For a byte in the first line of the text, rfind returns npos, so that `line_begin` becomes npos
@@ -34,9 +34,9 @@ std::pair<int, int> Position(std::string_view text, std::size_t byte) {
           1 + static_cast<int>(before.size() - line_begin)};
 }
 
-/// Returns the part of an nlohmann::json error message after `mark`. After() removes the error
-/// number and the position from a message such as "[json.exception.parse_error.101] parse error at
-/// line 1, column 2: unexpected end of input".
+/// Returns the part of an nlohmann::json error message that follows the text `mark`. After()
+/// removes the error number and the position from a message such as
+/// "[json.exception.parse_error.101] parse error at line 1, column 2: unexpected end of input".
 std::string_view After(std::string_view mark, std::string_view said) {
   const std::size_t place = said.find(mark);
   return place == std::string_view::npos ? said : said.substr(place + mark.size());

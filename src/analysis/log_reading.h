@@ -5,12 +5,13 @@
 
 #include "trackbed/drive/run_log.h"
 
-/// Functions that interpolate a quantity of a log. The argument `of` of these functions is a
-/// function that returns the quantity of one log row.
+/// Functions that interpolate a quantity of a log. The argument `of` of the interpolating functions
+/// is a function that returns the quantity of one log row.
 namespace trackbed {
 
-/// Interpolates the quantity linearly between log rows at `time` [s]. Times before the first row
-/// yield the value of the first row, and times after the last row yield the value of the last row.
+/// Interpolates a quantity of a log linearly between log rows at `time` [s]. Times before the first
+/// row yield the value of the first row, and times after the last row yield the value of the last
+/// row.
 template <typename Of>
 double ValueAt(const RunLog& log, double time, const Of& of) {
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
@@ -24,8 +25,8 @@ double ValueAt(const RunLog& log, double time, const Of& of) {
   return of(log.rows.back());
 }
 
-/// Returns the first time at or after row `from` at which the quantity is at least `level` [s].
-/// Returns none if the quantity never reaches `level`.
+/// Returns the first time [s] at or after row `from` at which the quantity of the log is at least
+/// `level`. Returns nullopt if the quantity never reaches `level`.
 template <typename Of>
 std::optional<double> TimeOfReaching(const RunLog& log, std::size_t from, double level,
                                      const Of& of) {

@@ -49,8 +49,8 @@ struct Manifest {
   [[nodiscard]] std::string ToJson() const;
 };
 
-/// Reads the manifest of a folder. Returns none if the folder has no manifest. ReadManifest throws
-/// InputError naming the file if the manifest is invalid.
+/// Reads the manifest of a folder. Returns nullopt if the folder has no manifest. ReadManifest
+/// throws InputError naming the file if the manifest is invalid.
 std::optional<Manifest> ReadManifest(const std::filesystem::path& folder);
 
 /// Throws InputError naming `file` if the file differs from its entry in the manifest of its

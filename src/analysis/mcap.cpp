@@ -115,7 +115,7 @@ json PosesMessage(const Path& path, double time) {
   return {{"timestamp", Time(time)}, {"frame_id", "world"}, {"poses", poses}};
 }
 
-/// Returns the transform of a frame in the world.
+/// Returns the Foxglove message with the pose of the coordinate frame `frame` in the world.
 json Transform(double time, const std::string& frame, const Pose2& pose) {
   return {{"timestamp", Time(time)},
           {"parent_frame_id", "world"},

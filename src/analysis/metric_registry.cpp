@@ -46,7 +46,7 @@ std::vector<std::string> EntryPaths(const MetricEntry& entry) {
 }
 
 bool IsPath(std::string_view path) {
-  bool begins = true;  // whether a new word of the path must begin at this character
+  bool begins = true;  // whether a new word of the metric path must begin at this character
   for (const char c : path) {
     const bool letter = c >= 'a' && c <= 'z';
     const bool inside = (c >= '0' && c <= '9') || c == '_' || c == '.';

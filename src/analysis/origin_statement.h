@@ -12,7 +12,7 @@
 #include "trackbed/scenario/log_columns.h"
 #include "trackbed/scenario/scenario.h"
 
-/// States the local origin of a run in its results (docs/conventions.md).
+/// Writes the local origin of a run into the run's results (docs/conventions.md).
 namespace trackbed {
 
 /// Returns the table with two more columns for the local origin of its positions. Returns the table

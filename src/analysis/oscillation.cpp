@@ -8,13 +8,12 @@
 // Finds limit cycles of a control loop in the steering command.
 //
 // 1. A least-squares fit removes the part of the command that the inputs of the loop explain. The
-//    inputs of the loop are the feed-forward steering angle of the path (with any lead, lag and
-//    gain) and the noise of the measured pose.
-// 2. The unexplained remainder of the command is searched for sustained oscillations, period by
-//    period. The autocorrelation of a linear loop that noise excites has the shape of its free
-//    decay (the random decrement of Cole 1973). In a loop with the damping ratio z, an oscillation
-//    decays to the fraction exp(-2 pi z M) of its amplitude within M cycles; a limit cycle keeps
-//    its whole amplitude.
+//    inputs of the control loop are the feed-forward steering angle of the path (with any lead, lag
+//    and gain) and the noise of the measured pose. 2. The unexplained remainder of the steering
+//    command is searched for sustained oscillations, period by period. The autocorrelation of a
+//    linear loop that noise excites has the shape of its free decay (the random decrement of Cole
+//    1973). In a loop with the damping ratio z, an oscillation decays to the fraction exp(-2 pi z
+//    M) of its amplitude within M cycles; a limit cycle keeps its whole amplitude.
 namespace trackbed {
 namespace {
 
@@ -24,10 +23,12 @@ using Series = std::vector<double>;
 /// of an oscillation has half of the first half's amplitude, the damping ratio is ln 2/(2 pi
 /// kCycles) = 0.028.
 constexpr int kCycles = 4;
-constexpr double kShortestHalf = 2.0;    ///< Minimum duration of each half [s].
-constexpr double kHalves = 0.9;          ///< Minimum correlation of the two halves of a wave.
-constexpr double kNeighbors = 0.9;       ///< Minimum correlation of neighboring cycles.
-constexpr double kLeastRemainder = 0.5;  ///< Minimum amplitude ratio of second to first half.
+constexpr double kShortestHalf = 2.0;  ///< Minimum duration of each half of an oscillation [s].
+constexpr double kHalves = 0.9;        ///< Minimum correlation of the two halves of an oscillation.
+/// Minimum correlation of neighboring cycles of an oscillation.
+constexpr double kNeighbors = 0.9;
+/// Minimum ratio of the amplitude in the second half of an oscillation to that in the first half.
+constexpr double kLeastRemainder = 0.5;
 constexpr double kLeastShare =
     0.5;  ///< Minimum ratio of the wave's amplitude in the command to that in the unexplained part.
 constexpr double kPeriodStep =
@@ -154,8 +155,8 @@ class Stretch {
   [[nodiscard]] bool Repeats() const {
     // The second half of a wave has two sign changes per cycle; one sign change may be missing at
     // the ends of the half. A wave with a neighboring period would have an eighth more or fewer
-    // sign changes. Cycles of few samples are not compared, because the period is not a whole
-    // number of samples.
+    // sign changes. Cycles of few samples are not compared, because the period of a wave is not a
+    // whole number of samples.
     constexpr std::size_t kFewSamples = 8;
     const bool compared = random_ && cycle_ >= kFewSamples;
     const double expected = 2.0 * cycles_;
@@ -189,7 +190,8 @@ class Stretch {
 };
 
 /// Finds the largest wave of the unexplained command `x` that repeats after `lag` samples, with
-/// `cycles` cycles in each half. The indices in the returned wave are sample numbers of `x`.
+/// `cycles` cycles in each half. The indices in the returned wave are sample numbers of the
+/// unexplained command `x`.
 std::optional<Wave> LargestWave(const Series& x, const Series& y, std::size_t lag, int cycles,
                                 bool random) {
   std::optional<Wave> largest;
@@ -258,7 +260,7 @@ std::vector<double> UnexplainedCommand(const LoopSignals& signals) {
   Eigen::Index used = 0;
   for (const Series& input : inputs) {
     const Eigen::VectorXd values = centered(input);
-    constexpr double kNothing = 1e-9;  // Norm below which an input is constant.
+    constexpr double kNothing = 1e-9;  // Norm below which an input of the loop counts as constant.
     if (const double norm = values.norm(); norm > kNothing) {
       filters.col(used++) = values / norm;
     }
@@ -276,7 +278,8 @@ std::vector<double> UnexplainedCommand(const LoopSignals& signals) {
 
 std::vector<Wave> FindWaves(const std::vector<double>& unexplained,
                             const std::vector<double>& command, double period, bool random) {
-  constexpr std::size_t kSamplesPerCycle = 16;  // Minimum number of samples per cycle.
+  // Minimum number of samples per cycle of an oscillation.
+  constexpr std::size_t kSamplesPerCycle = 16;
   std::vector<Wave> waves;
   const double longest = static_cast<double>(unexplained.size()) / (2.0 * kCycles);
   for (double cycle = 2.0; cycle <= longest; cycle *= kPeriodStep) {
@@ -287,7 +290,8 @@ std::vector<Wave> FindWaves(const std::vector<double>& unexplained,
     const int cycles =
         std::max(kCycles, static_cast<int>(std::ceil(kShortestHalf / (cycle * period))));
     const double lag = cycles * cycle / static_cast<double>(stride);
-    const double halfway = std::sqrt(kPeriodStep);  // periods tried: cycle/halfway to cycle*halfway
+    // The tried periods range from cycle/halfway to cycle*halfway.
+    const double halfway = std::sqrt(kPeriodStep);
     const auto most = std::min(x.size() / 2, static_cast<std::size_t>(std::ceil(lag * halfway)));
     std::optional<Wave> best;
     for (auto own = static_cast<std::size_t>(lag / halfway); own <= most; ++own) {

@@ -38,8 +38,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names of two files in a hidden folder. The file kObsolete lists the files to remove, as JSON. The
-// file kWritten lists the files whose writing has begun, one name per line.
+// Names of two bookkeeping files in the hidden folder of a result. The file kObsolete lists the
+// files to remove, as JSON. The file kWritten lists the files whose writing has begun, one name per
+// line.
 constexpr const char* kObsolete = ".obsolete";
 constexpr const char* kWritten = ".written";
 
@@ -88,8 +89,8 @@ bool IsFolder(const fs::path& path) {
   return fs::is_directory(fs::symlink_status(path, ignored));
 }
 
-/// Reads the names of the files that a committed result removes. ObsoleteNames returns nothing if
-/// the result has no list of files to remove.
+/// Reads the names of the files that a committed result removes. ObsoleteNames returns an empty
+/// list if the result has no list of files to remove.
 std::vector<std::string> ObsoleteNames(const fs::path& complete) {
   std::error_code ignored;
   const fs::path file = complete / kObsolete;

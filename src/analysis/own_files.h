@@ -17,15 +17,15 @@ std::filesystem::file_status StatusOf(const std::filesystem::path& path);
 /// Returns the kind of a file for messages: "a link", "a folder", "a file".
 const char* KindOf(const std::filesystem::file_status& status);
 
-/// Returns the sorted names of the files in a folder; nothing if the folder cannot be read.
+/// Returns the sorted names of the files in a folder; an empty list if the folder cannot be read.
 std::vector<std::string> NamesIn(const std::filesystem::path& folder);
 
 /// Removes a file or an empty folder. Throws RunError if the removal fails.
 void Remove(const std::filesystem::path& file);
 
 /// Returns true if the folder contains no file with this name, or if the file with this name is a
-/// regular file that Trackbed has written. A file counts as written by Trackbed if the manifest
-/// (null: none) lists the file, or if the file carries a mark (HasMark). A file that contains the
+/// regular file that Trackbed has written. A file counts as written by Trackbed if `manifest` is
+/// not null and lists the file, or if the file carries a mark (HasMark). A file that contains the
 /// records of a study also counts as written by Trackbed.
 bool IsOwnOrAbsent(const std::filesystem::path& folder, const std::string& name,
                    const Manifest* manifest);

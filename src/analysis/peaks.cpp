@@ -48,8 +48,9 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
 
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin,
                          double end) {
-  // Fraction of a limit above which the actuator counts as being at the limit. The margin of a
-  // thousandth covers rounding errors and the tolerances of controllers that solve for a command.
+  // Fraction of a steering limit above which the actuator counts as being at the limit. The margin
+  // of a thousandth covers rounding errors and the tolerances of controllers that solve for a
+  // command.
   constexpr double kAtLimit = 0.999;
   const auto reaches = [](double value, double limit) {
     return limit > 0.0 && value >= kAtLimit * limit;

@@ -9,12 +9,13 @@ namespace {
 /// Largest distance between two consecutive points in plan.csv [m].
 constexpr double kPlanSpacing = 0.1;
 
-/// Times at which a car that follows a speed profile reaches stations, which must not decrease.
+/// Computes the times at which a car that follows a speed profile reaches given stations, in
+/// ascending order.
 class ProfileClock {
  public:
   explicit ProfileClock(const SpeedProfile& profile) : profile_(profile) {}
 
-  /// Returns the time from the start of the profile [s].
+  /// Returns the time at which the car reaches the station `s`, from the start of the profile [s].
   double TimeAt(double s) {
     const std::vector<SpeedProfile::Knot>& knots = profile_.knots();
     for (; next_ < knots.size() && knots[next_].s <= s; ++next_) {
@@ -26,7 +27,8 @@ class ProfileClock {
 
  private:
   /// Advances to the station `s`, which the car reaches at `speed` with constant acceleration. A
-  /// piece at whose two ends the car rests takes no time; only rounding errors make such pieces.
+  /// piece of the path at whose both ends the car rests takes no time; such pieces result only from
+  /// rounding errors.
   void Pass(double s, double speed) {
     if (s > s_ && speed + speed_ > 0.0) {
       time_ += 2.0 * (s - s_) / (speed + speed_);
@@ -72,7 +74,7 @@ Table PlanTable(const Plan& plan) {
   double waited = 0.0;  // [s]
   auto wait = plan.waits.begin();
   // Sample each piece of the path separately, so that plan.csv contains every cusp and stop. Where
-  // two pieces of the path meet, keep only the point of the earlier piece.
+  // two pieces of the path meet, plan.csv gets only the point of the earlier piece.
   for (const Stations& piece : PiecesBetweenStops(plan)) {
     const Reference part = Excerpt(reference, piece);
     for (const PathPoint& point : part.path.Sample(kPlanSpacing)) {

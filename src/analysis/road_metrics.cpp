@@ -11,17 +11,17 @@
 namespace trackbed {
 namespace {
 
-constexpr double kSpacing = 0.5;  // spacing of stations and outline points [m]
-constexpr double kBin = 8.0;      // side of a square bin [m]
+constexpr double kSpacing = 0.5;  // Spacing of stations and outline points [m].
+constexpr double kBin = 8.0;      // Side of a square bin [m].
 
 Vec2 PointAt(const Road& road, double s, double t) {
   const RoadPosition place = PositionAt(road, s, t);
   return {place.x, place.y};
 }
 
-/// Returns the signed distance from the line between two points, positive to the left [m]. The
-/// distance is infinite if the two points of the line coincide, as where a road turns about a point
-/// of its border.
+/// Returns the signed distance of a point from the line between two other points, positive to the
+/// left of the line [m]. LeftOf returns infinity if the two points of the line coincide, as where a
+/// road turns about a point of its border.
 double LeftOf(const std::pair<Vec2, Vec2>& line, const Vec2& point) {
   const Vec2 along = line.second - line.first;
   const double length = along.norm();

@@ -14,17 +14,17 @@ namespace trackbed {
 /// (0.5 m)^2/(8 r).
 class RoadBands {
  public:
-  /// Distance beside a band up to which Inside finds the band [m].
+  /// Largest distance outside the band of a road at which Inside finds the band [m].
   static constexpr double kReach = 10.0;
 
   /// Makes the bands of those roads that pass the rectangle between two corners, or pass at a
   /// distance of at most kReach from the rectangle.
   RoadBands(const RoadNetwork& network, const Vec2& low, const Vec2& high);
 
-  /// Returns the distance from a point to the nearer border of a band, negative outside the band
-  /// [m]. Where the bands of several roads overlap, Inside returns the largest distance. Returns
-  /// nullopt if the point is not abeam of the band of any road, for example before the beginning of
-  /// a road.
+  /// Returns the distance from a point to the nearer border of a road's band, negative outside the
+  /// band [m]. Where the bands of several roads overlap, Inside returns the largest distance.
+  /// Returns nullopt if the point is not abeam of the band of any road, for example before the
+  /// beginning of a road.
   [[nodiscard]] std::optional<double> Inside(const Vec2& point) const;
 
  private:
@@ -46,8 +46,9 @@ class RoadBands {
 };
 
 /// Returns the smallest distance of the footprint from the edges of the roads in a run; negative if
-/// the car leaves the roads. The distance is measured at points of the footprint's outline at most
-/// half a meter apart. Returns nullopt for a plan that does not follow the lanes of roads.
+/// the car leaves the roads. SmallestRoadMargin measures the distance at points of the footprint's
+/// outline at most half a meter apart. Returns nullopt for a plan that does not follow the lanes of
+/// roads.
 std::optional<MetricReading> SmallestRoadMargin(const MetricInput& input);
 
 }  // namespace trackbed

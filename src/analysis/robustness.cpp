@@ -20,7 +20,7 @@ std::optional<double> NumberOf(const MetricValue& value) {
   return number != nullptr && std::isfinite(*number) ? std::optional(*number) : std::nullopt;
 }
 
-/// Returns the margin of a check; none if the check is met but has no numeric margin.
+/// Returns the margin of a check; nullopt if the check is met but has no numeric margin.
 std::optional<double> ExtentOf(const Check& check) {
   const std::optional<double> bound = NumberOf(check.bound);
   const std::optional<double> value = NumberOf(check.value);
@@ -34,8 +34,8 @@ std::optional<double> ExtentOf(const Check& check) {
   const double left = check.relation == Relation::kAtMost ? *bound - *value : *value - *bound;
   const double margin = *bound == 0.0 ? left : left / std::abs(*bound);
   // The margin of a violated check must be negative, but a strict requirement such as `x < y` is
-  // violated at margin 0. The margin of a violated strict requirement therefore becomes the
-  // negative number nearest to 0.
+  // violated at margin 0. For a violated strict requirement, the margin becomes the negative number
+  // nearest to 0.
   return check.met ? margin : std::min(margin, -std::numeric_limits<double>::min());
 }
 

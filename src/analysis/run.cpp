@@ -31,7 +31,8 @@
 // Plans and runs a scenario, then writes its run folder. PlanRun computes the plan. SimulateRun
 // simulates all plants (simulate_plants.cpp), then measures, compares and judges them
 // (evaluate_run.cpp). WriteRunFolder writes the results together with all inputs: resolved
-// scenario, model, map, track and recordings. A run can therefore be repeated from its folder.
+// scenario, model, map, track and recordings. Because the run folder contains all inputs, the run
+// can be repeated from its folder.
 namespace trackbed {
 namespace {
 
@@ -305,7 +306,7 @@ void WritePlan(const RunResult& planned, const OutputFolder& folder) {
 namespace {
 
 /// Returns the model of the car without trailer, payload and world if the scenario names its own
-/// model file; none for a car shipped with Trackbed.
+/// model file; nullopt for a car shipped with Trackbed.
 std::optional<Scene> OwnVehicle(const RunResult& result) {
   const Scenario& scenario = result.scenario;
   if (!HasOwnVehicle(scenario.vehicle)) {
@@ -346,7 +347,8 @@ void AddRunFolder(const RunResult& result, ResultWriter& writer, const RunFolder
     AddLog(log, writer);
   }
   writer.Add(run_folder::kTimingJson, JsonText(TimingJson(result)));
-  // A long MCAP file takes many seconds, and Ctrl-C has to end the program soon.
+  // Skip the MCAP file after Ctrl-C, which must end the program soon, because writing a long MCAP
+  // file takes many seconds.
   if (options.mcap && !result.logs.empty() && !result.interrupted) {
     writer.Add(run_folder::kMcap, ToMcap(result));
   }

@@ -49,8 +49,8 @@ SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
   return simulated;
 }
 
-/// On destruction, calls the caller's hook for the end of a plant. The hook is therefore called
-/// even if the simulation of the plant throws.
+/// On destruction, calls the caller's hook for the end of a plant. The hook runs in the destructor,
+/// so that it is called even if the simulation of the plant throws.
 class PlantEndNotifier {
  public:
   PlantEndNotifier(const RunHooks& hooks, const std::string& plant)

@@ -9,8 +9,9 @@ namespace trackbed {
 struct SimulatedPlant {
   RunLog log;
   DriveTiming timing;
-  std::vector<WindowErrors> windows;  // Errors of the prediction windows; empty without a record.
-  bool interrupted = false;           // Whether the simulation or its windows were interrupted.
+  // Errors of the prediction windows; empty for a scenario without a recorded drive.
+  std::vector<WindowErrors> windows;
+  bool interrupted = false;  // Whether the simulation or its windows were interrupted.
 };
 
 /// Simulates the plants of a planned run, one after another or in parallel, as the hooks request.

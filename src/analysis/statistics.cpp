@@ -41,10 +41,9 @@ double MeanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Computes epsilon squared of an output whose mean is near 0. For n rows that are divided into B
-/// classes, epsilon squared is 1 - (W / (n - B)) / (T / (n - 1)). In this formula, W is the sum of
-/// squared deviations from the class means, and T is the sum of squared deviations from the total
-/// mean.
+/// Computes epsilon squared of an output whose mean is near 0. For n rows in B classes, epsilon
+/// squared is 1 - (W / (n - B)) / (T / (n - 1)), where W and T are the sums of squared deviations
+/// from the class means and from the total mean.
 class VarianceShare {
  public:
   explicit VarianceShare(std::size_t classes) : counts_(classes), sums_(classes) {}
@@ -254,7 +253,7 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
 namespace {
 
 /// Returns the ranks of the values, counted from 0. Equal values get the mean of their ranks.
-/// RanksOf returns none if all values are equal.
+/// RanksOf returns nullopt if all values are equal.
 std::optional<std::vector<double>> RanksOf(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -307,7 +306,8 @@ std::optional<RankCorrelation> CorrelateRanks(const std::vector<double>& a,
   }
   const double rho = std::clamp(products / std::sqrt(squares_a * squares_b), -1.0, 1.0);
   const double half = z * std::sqrt((1.0 + 0.5 * rho * rho) / static_cast<double>(a.size() - 3));
-  const double center = std::atanh(rho);  // Fisher transform; infinite for rho = -1 and rho = 1
+  // Fisher transform of the rank correlation rho; infinite for rho = -1 and rho = 1.
+  const double center = std::atanh(rho);
   return RankCorrelation{rho, {std::tanh(center - half), std::tanh(center + half)}};
 }
 

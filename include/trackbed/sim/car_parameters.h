@@ -33,7 +33,7 @@ inline constexpr const char* kSteeringOffset = "steering_offset";
 struct CarParameter {
   std::string name;
   double value = 0.0;
-  /// Comment that is written next to the parameter in the model; no comment if empty.
+  /// Comment that is written next to the changed parameter in the MJCF model; empty: no comment.
   std::string origin{};
 };
 
@@ -50,9 +50,9 @@ double CarParameterValue(const CarModel& car, const std::string& name);
 /// `p_ky1_front`, is added to the model.
 ///
 /// Errors: throws InputError if a name is unknown, if the chassis has no <inertial>, or if the
-/// values leave the chassis without mass or inertia. Other invalid values are only detected when
-/// the scene is compiled to a CarModel. Cost: less than 1 ms, for parsing and printing the MJCF
-/// model.
+/// values leave the chassis without mass or inertia. Invalid parameter values that
+/// WithCarParameters accepts are detected only when the scene is compiled to a CarModel.
+/// WithCarParameters takes less than 1 ms, for parsing and printing the MJCF model.
 Scene WithCarParameters(const CarModel& car, const std::vector<CarParameter>& parameters);
 
 }  // namespace trackbed

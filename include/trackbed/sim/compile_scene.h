@@ -11,8 +11,8 @@ namespace trackbed {
 enum class Looks {
   kKept,
   /// For simulation only: geoms and meshes that have neither contacts nor mass are omitted. If
-  /// MuJoCo would discard mass together with visual geoms, all geoms are kept. The masses, inertias
-  /// and centers of mass of all bodies are therefore the same as with kKept.
+  /// MuJoCo would discard mass together with visual geoms, all geoms are kept. With kDiscarded, the
+  /// masses, inertias and centers of mass of all bodies are the same as with kKept.
   kDiscarded,
 };
 
@@ -28,9 +28,9 @@ enum class Looks {
 /// Errors: throws InputError, naming the line in the car's file, if the scene does not compile.
 /// Throws InputError if MuJoCo crashes or does not finish, or if the model would need more than 1
 /// GB of memory. Throws RunError if the separate process cannot be started. Threads: only one
-/// thread compiles a scene at a time, and other threads wait. Cost: 5 to 200 ms for MuJoCo's
-/// compiler, and another 5 to 20 ms for a separate process; twice as much with kDiscarded if a body
-/// has no <inertial> element.
+/// thread compiles a scene at a time, and other threads wait. CompileScene takes 5 to 200 ms in
+/// MuJoCo's compiler, and another 5 to 20 ms for a separate process. These times double with
+/// kDiscarded if a body has no <inertial> element.
 MujocoModel CompileScene(const Scene& scene, const std::string& name, Looks looks);
 
 }  // namespace trackbed

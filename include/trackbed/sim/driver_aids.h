@@ -9,9 +9,10 @@ namespace trackbed {
 
 /// Distribution of the drive torque between the two wheels of a driven axle.
 enum class Differential {
-  kOpen,         ///< Open: both wheels get the same torque at any speed difference.
-  kLocked,       ///< Locked: both wheels of the axle turn at the same speed.
-  kLimitedSlip,  ///< A clutch transmits torque from the axle's faster to its slower wheel.
+  kOpen,    ///< Open: both wheels get the same torque at any speed difference.
+  kLocked,  ///< Locked: both wheels of the axle turn at the same speed.
+  /// Limited slip: a clutch transmits torque from the axle's faster to its slower wheel.
+  kLimitedSlip,
 };
 
 /// The driver aids of a car. All driver aids are off by default.
@@ -47,7 +48,7 @@ struct AidState {
   std::optional<std::array<bool, 4>> abs_active{};
   std::optional<EscState> esc{};
   /// Torque that a locked or limited-slip differential transmits from the right to the left wheel
-  /// of the driven axle [N m]; the sum over both axles if both are driven.
+  /// of the driven axle [N m]. If both axles are driven, this torque is the sum over both axles.
   std::optional<double> differential_torque{};
 };
 

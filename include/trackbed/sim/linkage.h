@@ -9,7 +9,8 @@ namespace trackbed {
 /// Approximates a steering linkage in MJCF by polynomials that compute the angles of the front
 /// wheels from the rack angle:
 ///   <joint joint1="steer_fl" joint2="rack" polycoef="c_0 c_1 c_2 c_3 c_4"/>.
-/// Only MuJoCo's viewer uses these polynomials; Trackbed's plant uses the exact Ackermann angles.
+/// Only MuJoCo's viewer uses the polynomials of the linkage; Trackbed's plant uses the exact
+/// Ackermann angles.
 struct LinkagePolynomials {
   /// Polynomial coefficients c_0 to c_4 for the left wheel, with c_0 = 0 and c_1 = 1.
   std::array<double, 5> left{};

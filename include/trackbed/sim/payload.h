@@ -11,7 +11,7 @@ namespace trackbed {
 /// `chassis`, and a keyframe `laden` contains the equilibrium position of the car with payload.
 /// The argument `car` must not have a payload yet, and its scene must have flat ground and no
 /// obstacles. Throws InputError naming the car's file if the car does not come to rest on its four
-/// wheels. Cost: a simulation in MuJoCo of at most one second of simulated time.
+/// wheels. WithPayload simulates the car in MuJoCo for at most one second of simulated time.
 Scene WithPayload(const CarModel& car, const Payload& payload);
 
 }  // namespace trackbed

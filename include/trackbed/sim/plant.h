@@ -29,7 +29,7 @@ class Plant {
   virtual void Step(const Command& command) = 0;
 
   /// Displaces the car instantaneously by `left` [m] to its left, and puts the car on the ground at
-  /// the new position. The displacement does not change the velocities of the car.
+  /// the new position. ApplyLateralOffset does not change the velocities of the car.
   virtual void ApplyLateralOffset(double left) = 0;
 
   /// Applies a horizontal force to the left [N] at the car's center of gravity during the next
@@ -46,8 +46,8 @@ class Plant {
   /// Returns the state of the trailer; nullopt for a car without a trailer, as by default.
   [[nodiscard]] virtual std::optional<TrailerState> trailer() const { return std::nullopt; }
 
-  /// Return only the pose and only the obstacle force of Observe(); unlike Observe(), these
-  /// functions are fast enough to be called in every physics step.
+  /// pose() and obstacle_force() return single members of Observe(), fast enough for a call in
+  /// every physics step.
   [[nodiscard]] virtual Pose2 pose() const = 0;
   [[nodiscard]] virtual double obstacle_force() const { return 0.0; }
 
@@ -112,8 +112,9 @@ inline constexpr const char* kRecordedPlant = "recorded";
 /// the obstacles, friction, grades and wind of the world. In `single_track`, a tyre has a constant
 /// cornering stiffness, which does not depend on the road's friction. The plant `single_track`
 /// requires a car with tyre coefficients; if coefficients are missing, making the plant throws
-/// InputError with the car's file and the missing coefficients. An unstable car on `single_track`
-/// spins ever faster, and counts as diverged when a coordinate exceeds 1e10 m or rad.
+/// InputError with the car's file and the missing coefficients. An unstable car in the plant
+/// `single_track` spins ever faster, and counts as diverged when a coordinate exceeds 1e10 m or
+/// rad.
 ///
 /// A run starts without slip unless the start state has a lateral speed or a yaw rate. The plant
 /// `kinematic` ignores the lateral speed and the yaw rate of the start state. In the MuJoCo plant,
@@ -133,9 +134,10 @@ inline constexpr const char* kRecordedPlant = "recorded";
 /// the steering actuator is updated in every physics step, and changes at most at the model's rate
 /// limit.
 ///
-/// Driver aids (PlantSetup::aids) act in the MuJoCo plant on Magic Formula tyres. `kinematic` and
-/// `single_track` ignore driver aids, because their wheels neither lock nor spin. MakePlant throws
-/// InputError for driver aids of a car on contact tyres, and of a vehicle with differential drive.
+/// Driver aids (PlantSetup::aids) act in the MuJoCo plant on Magic Formula tyres. The plants
+/// `kinematic` and `single_track` ignore driver aids, because their wheels neither lock nor spin.
+/// MakePlant throws InputError for driver aids of a car on contact tyres, and of a vehicle with
+/// differential drive.
 ///
 /// A trailer (CarModel::trailer) is simulated by the plants `kinematic` and `mujoco`. In
 /// `kinematic`, the wheels of the trailer do not slip, and the trailer has no effect on the car. In
@@ -148,15 +150,15 @@ inline constexpr const char* kRecordedPlant = "recorded";
 /// a vehicle with differential drive, the MuJoCo plant integrates the commanded acceleration to a
 /// speed command, and a torque-limited servo controls the speed of each wheel. The measured
 /// steering angle of a differential drive is atan((v_R - v_L)/v), where v_L and v_R are the speeds
-/// of the wheels and v is their mean. At speeds v below 0.1 m/s, the measured angle blends into the
-/// actuator's angle: the difference between the tangents of the two angles is weighted by (v/0.1
-/// m/s)^2.
+/// of the wheels and v is their mean. At speeds v below 0.1 m/s, the measured steering angle of a
+/// differential drive blends into the actuator's angle. The difference between the tangents of the
+/// measured angle and the actuator's angle is weighted by (v/0.1 m/s)^2, with the speed v.
 const std::vector<PlantEntry>& Plants();
 
 /// Adds a plant to the registry, so that scenarios, `trackbed list`, messages and reports can use
 /// its name. Call RegisterPlant at the start of main, because RegisterPlant is not thread-safe and
-/// invalidates references to registry entries. Throws PreconditionError if the name is already in
-/// use or is kRecordedPlant.
+/// invalidates references to registry entries. Throws PreconditionError if the plant's name is
+/// already in use or is kRecordedPlant.
 void RegisterPlant(PlantEntry entry);
 
 /// Makes the plant with the given name. If the registry has no plant of this name, throws

@@ -15,7 +15,7 @@ struct StartState {
   /// [rad].
   double steering = 0.0;
   /// Initial lateral speed of the rear axle, positive to the left [m/s]; nullopt: no slip. Plants
-  /// that do not simulate slip ignore the lateral speed.
+  /// that do not simulate slip ignore the initial lateral speed.
   std::optional<double> lateral_speed{};
   /// Initial yaw rate [rad/s]; nullopt: the yaw rate of a car without slip.
   std::optional<double> yaw_rate{};

@@ -36,8 +36,8 @@ struct Scene {
   std::string xml;
   std::vector<SceneAsset> assets;
   /// Line in the car's file from which each element of `xml` originates, in document order; 0 for
-  /// an element that is not from the car's file. The list is empty if the lines of the elements are
-  /// unknown.
+  /// an element that is not from the car's file. The list `lines` is empty if the lines of the XML
+  /// elements are unknown.
   std::vector<int> lines;
   /// Shape of the ground that the geom `ground` and the height fields in the model represent.
   Ground ground{};
@@ -48,7 +48,8 @@ struct Scene {
 
 /// Returns the path of a car's MJCF file. The argument `model` is either a name in the models
 /// folder ("prius" stands for models/prius/prius.xml) or a path, which is absolute or relative to
-/// `base`. If no such file exists, throws InputError, which lists the known names.
+/// `base`. If the model's file does not exist, throws InputError, which lists the known model
+/// names.
 std::filesystem::path FindModel(const std::string& model, const std::filesystem::path& base);
 
 /// Whether FindModel interprets `model` as a path and not as the name of a model.
@@ -61,12 +62,12 @@ inline constexpr const char* kVehicleXml = "vehicle.xml";
 /// Returns the names of all models that FindModel knows, sorted.
 std::vector<std::string> ModelNames();
 
-/// Returns the folder that contains models/ and scenarios/. The data folder is the first of the
-/// following that applies: (1) the folder in the environment variable TRACKBED_DATA; (2)
-/// ../share/trackbed relative to the program's folder, if that folder contains models; (3) the data
-/// of the installed package, for a program that links the package; (4) the source tree, for
-/// programs in Trackbed's build. A program that was linked to the installed static libraries
-/// without CMake finds only the data folder of TRACKBED_DATA or ../share/trackbed. Throws
+/// Returns the folder that contains models/ and scenarios/. The folder in the environment variable
+/// TRACKBED_DATA has priority. Without this variable, the data folder is ../share/trackbed relative
+/// to the program's folder, if that folder contains models. Without TRACKBED_DATA and such a
+/// folder, a program that links the package uses the data of the installed package, and a program
+/// in Trackbed's build uses the source tree. A program that was linked to the installed static
+/// libraries without CMake finds only the data folder of TRACKBED_DATA or ../share/trackbed. Throws
 /// InputError if the program finds no data folder.
 std::filesystem::path DataFolder();
 

@@ -9,9 +9,9 @@
 /// Reads the visual shape of a vehicle from its scene, for viewers that do not use MuJoCo.
 namespace trackbed {
 
-/// A joint of a body of the vehicle. The free joint of a vehicle has neither an axis nor a channel.
-/// The coordinates of the free joint are in the columns x_m, y_m, z_m, qw, qx, qy, qz of a state
-/// log.
+/// A joint of a body of the vehicle. The free joint of a vehicle has neither an `axis` nor a
+/// `channel` (log column). The coordinates of the free joint are in the columns x_m, y_m, z_m, qw,
+/// qx, qy, qz of a state log.
 struct ShapeJoint {
   enum class Type { kFree, kSlide, kHinge };
   Type type = Type::kFree;
@@ -62,7 +62,7 @@ struct VehicleShape {
 /// Reads the bodies of the vehicle in a scene, and those geoms of the vehicle that MuJoCo's viewer
 /// draws. MuJoCo's viewer draws the geoms of groups 0 to 2 that are not completely transparent, in
 /// the colors of their materials. Obstacles are omitted. A mesh with more than 20 000 triangles is
-/// replaced by its bounding box. Messages use `name` as the name of the scene.
+/// replaced by its bounding box. Error messages use `name` as the name of the scene.
 ///
 /// ReadVehicleShape throws the same errors and has the same cost as CompileScene.
 VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name);

@@ -25,15 +25,16 @@ class ClosedSplineBasis {
     std::array<std::array<double, kSupport>, 3> weight{};
   };
 
-  /// Makes a basis. Throws PreconditionError unless `period` is positive and finite, and `count` is
-  /// at least kMinFunctions.
+  /// Makes a basis. Throws PreconditionError unless `period` is positive and finite, and the number
+  /// of basis functions `count` is at least kMinFunctions.
   ClosedSplineBasis(double period, std::size_t count);
 
   [[nodiscard]] double period() const { return period_; }
   [[nodiscard]] std::size_t count() const { return count_; }
 
   /// Evaluates the basis functions at the parameter `t`, which may be any finite number and is
-  /// wrapped to one period. If `order` is set, evaluates only the derivative of that order.
+  /// wrapped to one period. If `order` is set, evaluates only the derivative of that order of the
+  /// basis functions.
   [[nodiscard]] Local At(double t, std::optional<std::size_t> order = {}) const;
 
  private:
@@ -55,13 +56,14 @@ struct SplineSamples {
   Eigen::MatrixXd values;  ///< Value of each sample, as one row.
 };
 
-/// Fits a spline to samples: computes the coefficients that minimize
+/// Fits a spline P(t) to samples p_i with parameters t_i and weights w_i: computes the coefficients
+/// that minimize
 ///   sum of w_i |P(t_i) - p_i|^2 + (wavelength/(2 pi))^6 integral of |P'''|^2 dt,
 /// where the integral is approximated by third differences of the coefficients (P-splines, Eilers
 /// and Marx 1996). A wave of length l along the curve is attenuated by the factor 1/(1 +
-/// (wavelength/l)^6). The attenuation factor is 50 % at `wavelength`, 98 % at twice `wavelength`,
-/// and 1.5 % at half of `wavelength`. Cost O(count). Throws PreconditionError unless all samples
-/// have a parameter, a weight and a value, and the wavelength is positive.
+/// (wavelength/l)^6). FitClosedSpline attenuates a wave to 50 % at `wavelength`, to 98 % at twice
+/// `wavelength`, and to 1.5 % at half of `wavelength`. Cost O(count). Throws PreconditionError
+/// unless all samples have a parameter, a weight and a value, and the wavelength is positive.
 Eigen::MatrixXd FitClosedSpline(const ClosedSplineBasis& basis, const SplineSamples& samples,
                                 double wavelength);
 

@@ -12,8 +12,8 @@
 /// A closed race track: a center line with the distances to the edges of the track.
 ///
 /// Symbols: s is the station along the center line [m], which is 0 at the start line and grows in
-/// the direction of driving. The lateral offset from the center line [m], positive to the left, is
-/// d.
+/// the direction of driving. The symbol d is the lateral offset from the center line [m], positive
+/// to the left.
 namespace trackbed {
 
 /// A surveyed point on the center line of a track.
@@ -38,8 +38,8 @@ struct TrackPlace {
   double offset = 0.0;  ///< Offset d [m].
 };
 
-/// A closed edge line of a track: the last point connects to the first point. The points are evenly
-/// spaced in the station of the center line.
+/// A closed edge line of a track: the last point connects to the first point. The points of an edge
+/// line are evenly spaced in the station of the center line.
 using TrackEdgeLine = std::vector<Vec2>;
 
 struct TrackFold;
@@ -48,8 +48,9 @@ struct TrackFold;
 ///
 /// The center line is a closed B-spline of degree 5 fitted to the points (closed_spline.h). Bends
 /// shorter than the wavelength of the smoothing are smoothed out, because the second derivative of
-/// surveyed points is mostly noise. `deviation_max` is the largest distance by which the smoothing
-/// moves a point. The edges are not smoothed: widths are measured from the surveyed points.
+/// surveyed points is mostly noise. The member `deviation_max` is the largest distance by which the
+/// smoothing moves a point. The edges are not smoothed: widths are measured from the surveyed
+/// points.
 ///
 /// Guarantees: curvature and curvature rate of the center line are continuous, even across the
 /// start line. The gap between the end and the start of the center line is at most 1e-4 times the
@@ -63,8 +64,8 @@ class Track {
   /// start line and is not repeated at the end. The argument `smoothing` is the wavelength of the
   /// smoothing [m], > 0; by default, four times the mean distance between neighboring points.
   /// Throws PreconditionError if there are too few or too many points, a number is not finite, a
-  /// width is not positive, or two neighboring points coincide. The constructor takes 5 us per
-  /// point.
+  /// width is not positive, or two neighboring points coincide. The constructor of Track takes 5 us
+  /// per surveyed point.
   explicit Track(std::vector<TrackPoint> points, std::optional<double> smoothing = {});
 
   [[nodiscard]] const std::vector<TrackPoint>& points() const { return points_; }
@@ -85,16 +86,16 @@ class Track {
   [[nodiscard]] double StationOf(std::size_t point) const { return stations_[point]; }
 
   /// Returns the track coordinates of a point, relative to the nearest part of the center line. If
-  /// `near` [m] is set, searches only at stations within 30 m of `near`, or within a tenth of the
-  /// lap if that is less. The station of the returned place is in [0, length). The run time is that
-  /// of Path::Project over the searched part of the center line.
+  /// `near` [m] is set, Locate searches only at stations within 30 m of `near`, or within a tenth
+  /// of the lap if that is less. The station of the returned place is in [0, length). The run time
+  /// of Locate is that of Path::Project over the searched part of the center line.
   [[nodiscard]] TrackPlace Locate(const Vec2& point, std::optional<double> near = {}) const;
 
   /// Returns a car's state in the Frenet frame of the center line, at the nearest part of the
   /// center line whose direction is within pi/2 of the car's heading. Where the track crosses
   /// itself, Locate may choose another part of the center line. Returns nullopt if no part of the
   /// center line has a direction within pi/2 of the heading, or if the frame is undefined, as in
-  /// trackbed::ToFrenet. A call takes 0.2 us per meter of the track.
+  /// trackbed::ToFrenet. ToFrenet takes 0.2 us per meter of the track.
   [[nodiscard]] std::optional<FrenetState> ToFrenet(const MotionState& motion) const;
 
   /// Returns the left edge as points whose stations are at most kEdgeSpacing apart.
@@ -112,7 +113,8 @@ class Track {
   void PlaceEdges(const CenterLine& line);
   [[nodiscard]] TrackPlace LocateWithin(const Vec2& point, double near, double reach) const;
   [[nodiscard]] TrackPlace PlaceOf(const Projection& found) const;
-  /// Returns the range of stations of path_ that contains the part of the center line for ToFrenet.
+  /// Returns the stations of path_ between which ToFrenet searches for the point nearest to the
+  /// car.
   [[nodiscard]] std::optional<Stations> StretchAlong(const Pose2& pose) const;
 
   std::vector<TrackPoint> points_;
@@ -135,7 +137,8 @@ struct TrackFold {
   std::size_t point = 0;  ///< Index of the surveyed point before the tightest place of the bend.
   double radius = 0.0;    ///< Radius of the center line at the tightest place of the bend [m].
   /// Distance from the center line to the inner edge at the tightest place of the bend [m]. The
-  /// distance `width` exceeds 95 % of the radius in every fold for which `turn` is not set.
+  /// distance `width` from the center line to the inner edge exceeds 95 % of the radius in every
+  /// fold for which `turn` is not set.
   double width = 0.0;
   /// Lower bound on the angle by which the center line turns within a quarter of the mean distance
   /// between neighboring points [rad]. Only FindFold(points, smoothing) sets the member `turn`.
@@ -149,8 +152,8 @@ std::optional<TrackFold> FindFold(const Track& track);
 /// fold is clear if the inner edge of the track is beyond the bend's center of curvature. A fold is
 /// also clear if the center line turns by more than half a circle within a quarter of the mean
 /// distance between neighboring points. A single wrong number in a file can cause a clear fold, and
-/// computing a Track from such points would take a long time. Throws the same errors as the
-/// constructor of Track. FindFold takes 5 us per point.
+/// computing a Track from such points would take a long time. FindFold throws the same errors as
+/// the constructor of Track. FindFold takes 5 us per point.
 std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
                                   std::optional<double> smoothing);
 

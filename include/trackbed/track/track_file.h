@@ -22,9 +22,9 @@ struct TrackFile {
   /// Differences from the file, with line numbers: narrowed edges, a repeated first point, and the
   /// columns if their names are not those of TUM.
   std::vector<std::string> notes;
-  /// Wavelength with which the same track can be read again from the points of `track` [m]. The
-  /// wavelength is set if the reader has chosen a wavelength or has narrowed an edge of the track;
-  /// nullopt: TrackReading::smoothing applies.
+  /// Wavelength with which the same track can be read again from the points of `track` [m].
+  /// The member `chosen_smoothing` is set if the reader has chosen a wavelength or has narrowed an
+  /// edge of the track; nullopt: TrackReading::smoothing applies.
   std::optional<double> chosen_smoothing{};
 };
 
@@ -33,10 +33,10 @@ struct TrackFile {
 /// The file is read as by ReadCsvTable: cells are separated by commas, semicolons or tabs, the
 /// header may begin with '#', and there may be comments. Columns may have any order and several
 /// usual names, and other columns are ignored. In a file without column names, four columns are x,
-/// y, and the widths to the right and to the left; two columns are x and y. The rows are points in
-/// the order of driving, from the start line on. The track is closed; if the last row repeats the
-/// first point, this row is dropped. If there are no columns of widths, `reading.width` is the
-/// width of the track.
+/// y, and the widths to the right and to the left; two columns are x and y. The rows of a track
+/// file are points in the order of driving, from the start line on. The track is closed; if the
+/// last row repeats the first point, this row is dropped. If there are no columns of widths,
+/// `reading.width` is the width of the track.
 ///
 /// Without `reading.smoothing`, the wavelength of the smoothing is the default of Track, multiplied
 /// by the power of 2 nearest to 1 (1/64 to 64) that gives an acceptable wavelength, if one exists.
@@ -66,11 +66,11 @@ struct TrackFilePoints {
   bool is_log = false;  ///< Whether the track file has no columns of widths.
 };
 
-/// Reads the points of a track file whose line may be open. Throws the same errors as ReadTrackFile
-/// about single rows and the size of the file, but does not check the shape of the line. A track
-/// file without columns of widths may be the log of a drive. In a log, rows nearer than
-/// `log_spacing` [m] to the previous point are skipped, and the road is 2 `log_half_width` [m]
-/// wide.
+/// Reads the points of a track file whose center line may be open instead of a closed lap. Throws
+/// the same errors as ReadTrackFile about single rows and the size of the file, but does not check
+/// the shape of the center line. A track file without columns of widths may be the log of a drive.
+/// In a log, rows nearer than `log_spacing` [m] to the previous point are skipped, and the road is
+/// 2 `log_half_width` [m] wide.
 TrackFilePoints ReadTrackPoints(const std::filesystem::path& file, double log_spacing,
                                 double log_half_width);
 

@@ -17,7 +17,8 @@
 /// On a level road, the car's acceleration is a_x = f_x - D/m and a_y = f_y, where D is the drag.
 ///
 /// Tyre forces are computed at the load of a level road, f_n = g, and scaled in proportion to f_n.
-/// The scaling by f_n is exact if the tyres' friction coefficient does not depend on the load.
+/// Scaling the tyre forces in proportion to the load f_n is exact if the tyres' friction
+/// coefficient does not depend on the load.
 namespace trackbed {
 
 /// The limits of the longitudinal force f_x as a function of the lateral force f_y, at one speed
@@ -27,8 +28,9 @@ struct GgvSection {
   double road = 1.0;     ///< Friction factor f of the road [1], > 0.
   double lateral = 0.0;  ///< Largest lateral force f_y [m/s^2], > 0.
   /// The largest (`driving`) and the smallest (`braking`) longitudinal force f_x [m/s^2] at the
-  /// lateral forces f_y = lateral cos(q). The angle q increases in equal steps from 0 (largest f_y)
-  /// to pi/2 (straight ahead). Between two values of q, f_x is interpolated linearly in sin(q),
+  /// lateral forces f_y = `lateral` cos(q), for several angles q. The angle q that defines the
+  /// lateral force increases in equal steps from 0 (largest f_y) to pi/2 (straight ahead). Between
+  /// two values of the angle q, the longitudinal force f_x is interpolated linearly in sin(q),
   /// which is exact for an ellipse.
   std::vector<double> driving;
   std::vector<double> braking;
@@ -37,7 +39,8 @@ struct GgvSection {
 /// The longitudinal forces of a car, except the forces of its tyres.
 struct LongitudinalForces {
   double mass = 0.0;  ///< Mass m of the car [kg], > 0.
-  /// Effective mass [kg]: m plus the wheels' moment of inertia divided by the squared wheel radius.
+  /// Effective mass for accelerations [kg]: the car's mass plus the wheels' moment of inertia
+  /// divided by the squared wheel radius.
   double rolling_mass = 0.0;
   double drive_force = 0.0;  ///< Largest force of the motor at the wheels [N]; 0: no limit.
   double drive_power = 0.0;  ///< Largest power of the motor [W]; 0: no limit.
@@ -53,7 +56,7 @@ struct GgvPoint {
   double speed = 0.0;    ///< Speed v of the car [m/s].
   double road = 1.0;     ///< Friction factor f of the road [1].
   double load = 1.0;     ///< Load on the road relative to a level road, f_n/g [1].
-  double lateral = 0.0;  ///< Lateral force f_y, divided by the mass [m/s^2].
+  double lateral = 0.0;  ///< Lateral tyre force f_y, divided by the car's mass [m/s^2].
 };
 
 /// A range of the longitudinal tyre force f_x, divided by the car's mass [m/s^2].
@@ -68,21 +71,22 @@ struct AccelerationRange {
   double largest = 0.0;
 };
 
-/// A g-g-v diagram. Immutable. Between the sections, the forces are interpolated linearly in v^2
-/// and in the road's friction factor. For speeds beyond the range of the sections, the forces are
-/// those of the nearest section. For friction factors beyond the range of the sections, the forces
-/// are proportional to the friction factor.
+/// A g-g-v diagram. Immutable. Between the sections of a g-g-v diagram, the force limits are
+/// interpolated linearly in the squared speed and in the road's friction factor. For speeds beyond
+/// the range of the sections, the force limits are those of the nearest section. For friction
+/// factors beyond the range of the sections, the force limits are proportional to the friction
+/// factor.
 class GgvDiagram {
  public:
   /// Throws InternalError unless `sections` has one section for every combination of its speeds and
   /// friction factors. All sections must have the same number of force limits, at least two. All
-  /// force limits must be finite, with braking <= driving. Throws InternalError unless all masses
-  /// are positive and all forces are nonnegative.
+  /// force limits of the sections must be finite, with braking <= driving. Throws InternalError
+  /// unless all masses are positive and all forces are nonnegative.
   GgvDiagram(const LongitudinalForces& forces, std::vector<GgvSection> sections);
 
   [[nodiscard]] const LongitudinalForces& forces() const { return forces_; }
-  /// Returns the sections, sorted by increasing friction factor of the road, then by increasing
-  /// speed.
+  /// Returns the sections of the diagram, sorted by increasing friction factor of the road, then by
+  /// increasing speed.
   [[nodiscard]] const std::vector<GgvSection>& sections() const { return sections_; }
 
   /// Returns the largest lateral force f_y [m/s^2] at the speed, friction factor and load of
@@ -117,14 +121,14 @@ class GgvDiagram {
   LongitudinalForces forces_;
   std::vector<double> speeds_;
   std::vector<double> roads_;
-  // Sections in order of the road's friction factor, then in order of speed.
+  // Sections of the diagram in order of the road's friction factor, then in order of speed.
   std::vector<GgvSection> sections_;
 };
 
 /// Makes an elliptic section of a g-g-v diagram with the half axes `driving` (positive f_x),
-/// `braking` (negative f_x) and `lateral` (f_y) [m/s^2], all > 0. The section is for the speed 0
-/// and the road friction factor 1. Two values for driving and two values for braking represent the
-/// ellipse exactly.
+/// `braking` (negative f_x) and `lateral` (f_y) [m/s^2], all > 0. The elliptic section is for the
+/// speed 0 and the road friction factor 1. Two limits of f_x for driving and two for braking
+/// represent the ellipse exactly, because GgvSection interpolates along ellipses.
 GgvSection EllipticSection(double driving, double braking, double lateral);
 
 }  // namespace trackbed

@@ -27,10 +27,11 @@ struct KinematicState {
 
 /// The kinematic car. Guarantees: a step at a constant steering angle is exact except for rounding
 /// errors, for any duration and acceleration. While the steering angle changes, the position error
-/// is that of a fourth-order integrator: below 1e-10 m for steps up to 20 ms at 3 m/s. A step is
-/// split at the time when the steering reaches its target, and at the time when the car comes to
-/// rest. Because steps are split at these times, the result does not depend on the step size. The
-/// kinematic car has no slip, roll or forces, and its acceleration follows the command exactly.
+/// is that of a fourth-order integrator: below 1e-10 m for steps up to 20 ms at 3 m/s. A simulation
+/// step is split at the time when the steering reaches its target, and at the time when the car
+/// comes to rest. Because each step is split when the steering reaches its target or the car comes
+/// to rest, the result does not depend on the step size. The kinematic car has no slip, roll or
+/// forces, and its acceleration follows the command exactly.
 class KinematicCar {
  public:
   KinematicCar(const VehicleParams& params, ReferencePoint reference, const KinematicState& start);

@@ -17,25 +17,29 @@
 ///   F_y0 = D_y sin f(B_y (alpha + S_hy)) + S_vy     K_y = p_ky1 F_z, or with load sensitivity
 ///                                                   K_y = p_ky1 F_z0 sin(2 atan(F_z/(p_ky2 F_z0)))
 /// The forces in combined slip are F_x = G_x(alpha) F_x0 and F_y = G_y(kappa) F_y0 + S_vyk. Each
-/// factor G is a cosine function of the slip in the other direction, with the coefficients r_*.
+/// combined-slip factor G (G_x or G_y) is a cosine function of the slip in the other direction,
+/// with the coefficients r_*.
 ///
-/// A friction factor `road` of the road multiplies mu_x, mu_y, S_vx and S_vy. For the factors G and
-/// S_vyk, the slips kappa + S_hx and alpha + S_hy are divided by `road`. The slips are divided by
-/// more than `road` if kappa or alpha would otherwise exceed full sliding, |kappa| = 1 or |alpha| =
-/// pi/2. Up to full sliding,
+/// The road's friction factor `road` multiplies the friction coefficients mu_x and mu_y and the
+/// vertical shifts S_vx and S_vy. In the factors G and the shift S_vyk, the slips kappa + S_hx and
+/// alpha + S_hy are divided by the road's friction factor `road`. The slips in G and S_vyk are
+/// divided by more than `road` if kappa or alpha would otherwise exceed full sliding, |kappa| = 1
+/// or |alpha| = pi/2. Up to full sliding, the tyre force satisfies
 ///   F(road, kappa, alpha) = road F(1, (kappa + S_hx)/road - S_hx, (alpha + S_hy)/road - S_hy),
-/// as in the similarity method (Pacejka 2012, section 4.2). A tyre therefore uses the same fraction
-/// of the friction ellipse on every road.
+/// as in the similarity method (Pacejka 2012, section 4.2). If the slip is scaled with the road's
+/// friction factor, a tyre uses the same fraction of the friction ellipse on every road.
 namespace trackbed {
 
 /// The coefficients of the Magic Formula, under their standard names. A coefficient that a car's
 /// file does not specify is 0 and has no effect.
 struct MagicFormula {
   /// The equations to which the coefficients belong: 0 for CommonRoad's, 5.2 for PAC2002 and MF5.2,
-  /// 6.1 for MF6.1. In version 0, p_hy1 and p_vy1 have the sign of the camber. In versions 5.2 and
-  /// 6.1, p_hy1 and p_vy1 are constant. The coefficients assume that gamma is positive if the top
-  /// of the wheel leans to the right, as in ISO 8855; EvaluateTyreForce reverses the sign of gamma.
-  /// In version 6.1, tan(alpha) and sin(gamma) replace alpha and gamma in F_y and G.
+  /// 6.1 for MF6.1. In version 0, the shift coefficients p_hy1 and p_vy1 have the sign of the
+  /// camber. In versions 5.2 and 6.1, the shift coefficients p_hy1 and p_vy1 are constant. The
+  /// coefficients assume that the camber gamma is positive if the top of the wheel leans to the
+  /// right, as in ISO 8855; EvaluateTyreForce reverses the sign of gamma. In version 6.1,
+  /// tan(alpha) and sin(gamma) replace the slip angle alpha and the camber gamma in the lateral
+  /// force F_y and in the combined-slip factors G.
   double version = 0.0;
   double p_cx1 = 0.0;  ///< Shape factor C of the formula, > 0.
   double p_dx1 = 0.0;  ///< Longitudinal friction coefficient mu_x at nominal load, > 0.
@@ -72,8 +76,10 @@ struct MagicFormula {
   /// Load at which the cornering stiffness is largest, divided by F_z0. If p_ky2 is 0, the
   /// cornering stiffness is proportional to the load.
   double p_ky2 = 0.0;
-  double p_ky3 = 0.0;  ///< Change of the cornering stiffness with |gamma|.
-  double p_ky4 = 2.0;  ///< Factor that replaces the 2 in the formula of K_y, > 0.
+  /// Change of the cornering stiffness with the magnitude |gamma| of the camber.
+  double p_ky3 = 0.0;
+  /// Factor that replaces the 2 in the formula of the cornering stiffness K_y, > 0.
+  double p_ky4 = 2.0;
   double p_ky5 = 0.0;  ///< Change of p_ky2 with the square of the camber.
   double p_ky6 = 0.0;  ///< Camber stiffness divided by the load, in version 6.1.
   double p_ky7 = 0.0;  ///< Change of the camber stiffness with the load.
@@ -103,8 +109,8 @@ struct MagicFormula {
   /// Nominal tyre load F_z0 [N]; required if a coefficient of the load change or p_ky2 is used.
   double f_z0 = 0.0;
   /// Largest camber in the formula [rad], > 0; larger cambers are clamped. Tyre measurements extend
-  /// up to about 6 degrees. Without the clamp, the squared camber in the formula would increase the
-  /// grip of a car more and more while the car rolls over.
+  /// up to a camber of about 6 degrees. Without the clamp of the camber, the squared camber in the
+  /// formula would increase the grip of a car more and more while the car rolls over.
   double camber_max = 0.1;
   /// Relaxation length sigma of the tyre [m], > 0: after a sudden change of slip, the rolling
   /// distance over which the tyre's slip reaches 63 % of the change.
@@ -129,8 +135,9 @@ struct TyreSlip {
   double ratio = 0.0;   ///< Slip ratio kappa.
   double angle = 0.0;   ///< Slip angle alpha [rad].
   double camber = 0.0;  ///< Camber gamma of the wheel [rad], clamped to +-camber_max.
-  /// Factor on the horizontal and vertical shifts, from -1 to 1. This factor makes the shifts
-  /// change sign with the rolling direction and vanish at standstill.
+  /// Factor on the horizontal and vertical shifts of the tyre force curves, from -1 to 1. With this
+  /// factor, the shifts of the tyre force curves change sign with the rolling direction and vanish
+  /// at standstill.
   double shift = 1.0;
 };
 
@@ -140,24 +147,26 @@ struct TyreForce {
 };
 
 /// Computes the force of a tyre with constant slip. The argument `road`, > 0, is the friction
-/// factor of the road, by which both friction coefficients are multiplied. The friction factor does
-/// not affect the stiffnesses.
+/// factor of the road, by which the tyre's longitudinal and lateral friction coefficients are
+/// multiplied. The road's friction factor does not affect the tyre's stiffnesses.
 ///
 /// Guarantees: the tyre force is 0 if the tyre has no load (F_z <= 0). The lateral force F_y is an
-/// odd function of (alpha, gamma), except for the r_* shifts, which represent the asymmetry of a
-/// tyre. With r_* coefficients, the combined force may exceed the friction ellipse, for example by
-/// 12 % for an upright tyre of CommonRoad's BMW, at every friction factor. The excess over the
-/// friction ellipse is a property of the r_* coefficients. For a tyre without r_* coefficients, a
-/// force outside the friction ellipse is scaled back onto the ellipse. The shifts depend on the
-/// sign of gamma; this dependence is smoothed over half a mrad, because a jump would be unphysical.
-/// The aligning moment and turn slip are not modeled. Cost: about 0.2 us.
+/// odd function of slip angle and camber, except for the r_* shifts, which represent the asymmetry
+/// of a tyre. With r_* coefficients, the combined force may exceed the friction ellipse, for
+/// example by 12 % for an upright tyre of CommonRoad's BMW, at every friction factor. The excess of
+/// the combined force over the friction ellipse is a property of the r_* coefficients. For a tyre
+/// without r_* coefficients, a force outside the friction ellipse is scaled back onto the ellipse.
+/// The shifts of the tyre force depend on the sign of the camber gamma; this dependence is smoothed
+/// over half a mrad, because a jump would be unphysical. The aligning moment and turn slip are not
+/// modeled. Cost: about 0.2 us.
 TyreForce EvaluateTyreForce(const MagicFormula& tyre, double load, double road,
                             const TyreSlip& slip);
 
 /// Returns the fraction of the friction ellipse that `force` uses, hypot(F_x/D_x, F_y/D_y) with D =
 /// mu F_z. The friction factor of the road is `road` > 0, and the camber is `camber` [rad]. The
-/// used fraction is 0 for a tyre without load (F_z <= 0). For a sliding tyre, the used fraction is
-/// about 1. The used fraction of a tyre with r_* coefficients may exceed 1 (EvaluateTyreForce).
+/// used fraction of the friction ellipse is 0 for a tyre without load (F_z <= 0). For a sliding
+/// tyre, the used fraction of the friction ellipse is about 1. The used fraction of a tyre with r_*
+/// coefficients may exceed 1 (EvaluateTyreForce).
 double FrictionUse(const MagicFormula& tyre, double load, double road, double camber,
                    const TyreForce& force);
 
@@ -168,8 +177,9 @@ struct TyreFriction {
   double lateral = 0.0;
 };
 
-/// Returns the peak friction D/F_z for pure slip at `load`, without camber and shifts. If the shape
-/// factor C is below 1, the peak force is D sin(C pi/2) instead of D.
+/// Returns the peak friction for pure slip at `load`, without camber and shifts: the peak force D
+/// divided by the load F_z. If the shape factor C is below 1, the largest force of the tyre is D
+/// sin(C pi/2) instead of the peak factor D.
 TyreFriction PeakFriction(const MagicFormula& tyre, double load);
 
 /// Returns the cornering stiffness C_alpha = -dF_y/dalpha at zero slip [N/rad], > 0.

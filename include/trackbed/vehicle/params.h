@@ -19,16 +19,18 @@ enum class VehicleKind {
 /// The forces on one axle of a vehicle with the acceleration or deceleration `a` on a flat road. A
 /// fixed fraction of the brake force or motor force acts on the axle. At the acceleration a, the
 /// axle exerts the force m `force` a on the road (corrected for the inertia of its wheels), where m
-/// is the vehicle's mass. At the acceleration a, the axle carries the load m (g `weight` +
-/// `transfer` a). The axle slides when its force exceeds the friction coefficient mu times its
+/// is the vehicle's mass. At the acceleration a, the axle of a vehicle with the mass m carries the
+/// load m (g `weight` + `transfer` a), with the weight fraction `weight` and the load transfer
+/// factor `transfer`. The axle slides when its force exceeds the friction coefficient mu times its
 /// load:
-///   a > mu g weight/(force - mu transfer), or never if the denominator is not positive.
+///   a > mu g weight/(force - mu transfer) in terms of AxleGrip's members, or never if the
+///   denominator is not positive.
 struct AxleGrip {
   double weight = 0.0;  ///< Fraction of the vehicle's weight that the axle carries at rest [1].
   /// Fraction of the vehicle's braking or driving force that acts on the axle, >= 0 [1].
   double force = 0.0;
-  /// Load transfer factor: height of the center of gravity divided by the wheelbase, with the sign
-  /// + or - [1].
+  /// Load transfer factor: height of the center of gravity divided by the wheelbase; positive if
+  /// the acceleration `a` increases the axle's load [1].
   double transfer = 0.0;
 };
 
@@ -48,22 +50,22 @@ struct AccelerationLimit {
   [[nodiscard]] double At(double friction) const;
 };
 
-/// The parameters of a vehicle that planners and controllers use. The parameters are read from the
-/// compiled MJCF (sim/car_model.h) and are not stored elsewhere. Tests may set the parameters
-/// directly.
+/// The parameters of a vehicle that planners and controllers use. The vehicle parameters are read
+/// from the compiled MJCF (sim/car_model.h) and are not stored elsewhere. Tests may set the
+/// parameters directly.
 ///
 /// The vehicle frame V has its origin on the ground under the center of the rear axle; with
-/// differential drive, under the center of the axle of the driven wheels. The axes of V are x
-/// forward, y left, z up.
+/// differential drive, under the center of the axle of the driven wheels. The axes of the vehicle
+/// frame V are x forward, y left, z up.
 ///
 /// Steering angles are angles of the front wheel of the bicycle model, which is at the middle of
 /// the front axle. With differential drive, the steering angle delta represents a ratio of wheel
 /// speeds. With differential drive, L is the track b of the driven wheels, so that kappa =
 /// tan(delta)/L means
 ///   tan(delta) = (v_R - v_L)/v,  v = (v_R + v_L)/2.
-/// A vehicle with differential drive is thus a unicycle with the yaw rate (v_R - v_L)/b. All code
-/// that uses the steering angle of the bicycle model works for cars and for vehicles with
-/// differential drive.
+/// A vehicle with differential drive moves as a unicycle with the yaw rate (v_R - v_L)/b, where v_R
+/// and v_L are the wheel speeds and b is the track. All code that uses the steering angle of the
+/// bicycle model works for cars and for vehicles with differential drive.
 struct VehicleParams {
   std::string name;
   VehicleKind kind = VehicleKind::kSteered;
@@ -96,13 +98,14 @@ struct VehicleParams {
   /// Distance from the rear axle to the rear end of the footprint [m].
   double rear_overhang = 0.0;
 
-  // The following limits are for driving straight ahead on a flat road with the friction factor 1.
-  // A limit of 0 is unknown, or the vehicle has no such limit.
+  // The limits of friction, acceleration and speed below are for driving straight ahead on a flat
+  // road with the friction factor 1. A limit of 0 means that the limit is unknown, or that the
+  // vehicle has no such limit.
 
   /// Friction coefficient mu: the largest force of a tyre divided by its load. The friction
   /// coefficient is the minimum over all tyres at their static loads. A car with tyre coefficients
-  /// has two tyre models, contacts and Magic Formula. The smaller one of their friction
-  /// coefficients is used, because a plan must suit both tyre models.
+  /// has two tyre models, contacts and Magic Formula. The smaller friction coefficient of the two
+  /// tyre models is used, because a plan must suit both tyre models.
   double friction_longitudinal = 0.0;  ///< Longitudinal friction coefficient mu_x [1].
   double friction_lateral = 0.0;       ///< Lateral friction coefficient mu_y [1].
   /// Limit of the car's deceleration by braking, without the help of drag and rolling resistance.
@@ -182,7 +185,7 @@ struct AxleSpeeds {
 };
 
 /// Returns the speeds of the wheels if they do not slip: v_L = v - kappa v b/2 and v_R = v + kappa
-/// v b/2, with b the track of the axle.
+/// v b/2, with the speed v, the path curvature kappa, and the track b of the axle.
 AxleSpeeds AxleSpeedsFor(const VehicleParams& params, double speed, double steering);
 
 }  // namespace trackbed

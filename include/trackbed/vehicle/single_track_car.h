@@ -15,13 +15,14 @@
 ///   m (v' + u r) = F_f + F_r         F_f = C_f (u tan(delta) - v - l_f r)/|u|
 ///   I r' = l_f F_f - l_r F_r         F_r = -C_r (v - l_r r)/|u|.
 /// Slip angles are assumed to be small: tan(alpha) is replaced by alpha, and the front force F_f
-/// acts entirely along y. The steering angle need not be small, because the equations contain
-/// tan(delta); a car without slip thus moves as the kinematic car. The lateral forces oppose the
-/// lateral motion of the axles, whether the car rolls forwards or backwards.
+/// acts entirely along y. Because the equations contain tan(delta), the steering angle need not be
+/// small, and a car without slip moves as the kinematic car. The lateral forces oppose the lateral
+/// motion of the axles, whether the car rolls forwards or backwards.
 ///
-/// In the steady state, r = u tan(delta)/(L + K u |u|) with K = m (l_r/C_f - l_f/C_r)/L [s^2/m].
-/// Above the speed sqrt(L/|K|), the car is unstable when driving forwards if K < 0, and when
-/// driving backwards if K > 0.
+/// In the steady state, the yaw rate is r = u tan(delta)/(L + K u |u|) with K = m (l_r/C_f -
+/// l_f/C_r)/L [s^2/m]. Above the speed sqrt(L/|K|), with the understeer gradient K and the
+/// wheelbase L, the car is unstable when driving forwards if K < 0, and when driving backwards if K
+/// > 0.
 namespace trackbed {
 
 struct SingleTrackState {
@@ -39,18 +40,20 @@ SingleTrackState RollingWithoutSlip(const VehicleParams& params, const Kinematic
 
 /// Simulates a linear single-track car with prescribed speed. Guarantees: steering and speed are
 /// exactly the same as in KinematicCar, including the rules for standstill and gears. The ratios
-/// v/u and r/u are integrated by the Radau IIA method of fifth order, in substeps of at most 2 ms.
-/// When the speed u passes through zero, v and r decay infinitely fast, but the ratios v/u and r/u
-/// have a finite limit. Because v/u and r/u have a limit, the model needs no blending or switching
-/// at low speed. At a low speed u, the single-track car moves as the kinematic car, with errors of
-/// the order u^2 and of the order of the acceleration u'. A step is split at the time when the
-/// steering reaches its target, and at the time when the car comes to rest. Changing the step size
-/// changes the result by less than 1e-9 m and 1e-9 rad over seconds of driving. The model is not
-/// meant for braking that is much harder than tyres allow (about 50 m/s^2). The single-track model
-/// has linear tyres without a friction limit, and no wheel loads, roll, wind or grades.
+/// v/u and r/u of lateral speed and yaw rate to the speed are integrated by the Radau IIA method of
+/// fifth order, in substeps of at most 2 ms. When the speed u passes through zero, the lateral
+/// speed v and the yaw rate r decay infinitely fast. The ratios v/u and r/u have a finite limit at
+/// zero speed. Because the ratios v/u and r/u have a limit at standstill, the model needs no
+/// blending or switching at low speed. At a low speed u, the single-track car moves as the
+/// kinematic car, with errors of the order u^2 and of the order of the acceleration u'. A
+/// simulation step is split at the time when the steering reaches its target, and at the time when
+/// the car comes to rest. Changing the step size changes the result by less than 1e-9 m and 1e-9
+/// rad over seconds of driving. The single-track model is not meant for braking that is much harder
+/// than tyres allow (about 50 m/s^2). The single-track model has linear tyres without a friction
+/// limit, and no wheel loads, roll, wind or grades.
 ///
 /// Throws InternalError unless mass, yaw inertia and both cornering stiffnesses are above zero.
-/// Cost: about 2 us of computing time per 2 ms of simulated time.
+/// SingleTrackCar needs about 2 us of computing time per 2 ms of simulated time.
 class SingleTrackCar {
  public:
   SingleTrackCar(const VehicleParams& params, const SingleTrackState& start);
@@ -74,7 +77,7 @@ class SingleTrackCar {
   [[nodiscard]] VehicleState FullState() const;
 
  private:
-  /// Vector of the ratios v/u [rad] and r/u [1/m].
+  /// Vector of the ratios v/u [rad] and r/u [1/m], with lateral speed v, yaw rate r and speed u.
   using Ratios = Vec2;
   [[nodiscard]] Eigen::Matrix2d Decay(double speed, double acceleration_along) const;
   [[nodiscard]] Ratios RatiosAt(double direction, double acceleration) const;
@@ -83,9 +86,11 @@ class SingleTrackCar {
 
   VehicleParams params_;
   SingleTrackState state_;
-  // Decay rate of v and r caused by the tyre forces, multiplied by |u| [m/s^2].
+  // Decay rate of the lateral speed v and the yaw rate r caused by the tyre forces, multiplied by
+  // the speed |u| [m/s^2].
   Eigen::Matrix2d slip_rate_;
-  Vec2 steer_gain_;  // Gain from tan(delta) to the rates of v and r when driving forwards.
+  // Gain from tan(delta) to the rates of lateral speed v and yaw rate r when driving forwards.
+  Vec2 steer_gain_;
   double time_ = 0.0;
   double acceleration_ = 0.0;  // Acceleration at the end of the last step [m/s^2].
 };

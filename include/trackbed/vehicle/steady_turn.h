@@ -8,9 +8,10 @@
 /// Symbols: kappa is the curvature of the path of the rear axle [1/m], u the signed speed of the
 /// car [m/s], negative in reverse, m the mass [kg], L the wheelbase [m], and w_f and w_r the
 /// fractions of the weight on the front and rear axle. Each axle carries its fraction of the
-/// lateral force m u^2 kappa. Slip angles s_f and s_r of the axles have the sign of the lateral
-/// force. The steering angle delta satisfies
-///   tan(delta) = L kappa + sign(u) (s_f - s_r).
+/// lateral force m u^2 kappa (mass m, speed u, curvature kappa). Slip angles s_f and s_r of the
+/// axles have the sign of the lateral force. The steering angle delta satisfies
+///   tan(delta) = L kappa + sign(u) (s_f - s_r),
+/// with the wheelbase L and the slip angles s_f and s_r.
 /// For a car without tyre coefficients, the slip angles are 0 and delta = atan(L kappa).
 namespace trackbed {
 
@@ -48,19 +49,20 @@ struct TurnOperation {
   AxleStiffness stiffness;
 };
 
-/// Returns the turn of a car whose tyres do not slip, the steady state of KinematicCar.
+/// Returns the steady turn of a car whose tyres do not slip: the steady state of KinematicCar.
 SteadyTurn TurnWithoutSlip(const VehicleParams& vehicle, double curvature, double speed);
 
-/// Returns the turn of a car whose slip angles are proportional to the lateral forces, the steady
-/// state of SingleTrackCar. The steering angle delta of this turn follows from tan(delta) = kappa
-/// (L + K u |u|), with the understeer gradient K. A car without tyre coefficients does not slip.
+/// Returns the steady turn of a car whose slip angles are proportional to the lateral forces: the
+/// steady state of SingleTrackCar. The steering angle delta of this turn follows from tan(delta) =
+/// kappa (L + K u |u|), with the understeer gradient K, the wheelbase L and the signed speed u.
+/// SteadyTurnOn assumes that a car without tyre coefficients does not slip.
 SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double speed);
 
-/// Returns the turn of a car whose axles follow the brush model (Pacejka 2012, ch. 3). The
+/// Returns the steady turn of a car whose axles follow the brush model (Pacejka 2012, ch. 3). The
 /// stiffness and the friction force of an axle are proportional to its load, which changes with the
 /// acceleration. The road's friction factor scales the friction force of an axle, but not its
 /// stiffness. Lateral forces of more than 0.95 of the friction force cause no more slip. If the
-/// friction or the axle loads are unknown, the result is that of SteadyTurnOn.
+/// friction or the axle loads are unknown, BrushTurnOn returns the turn of SteadyTurnOn.
 TurnOperation BrushTurnOn(const VehicleParams& vehicle, const TurnMotion& motion);
 
 /// Motion of a car in a bend whose curvature and speed change.
@@ -78,8 +80,8 @@ double SteeringInBend(const VehicleParams& vehicle, const BendMotion& motion);
 
 /// Derivatives of SteeringInBend, the steering angle delta of a turn at constant speed.
 struct SteeringSlopes {
-  double by_curvature = 0.0;  ///< Derivative of delta by the curvature [rad m].
-  double by_speed = 0.0;      ///< Derivative of delta by the speed abs(u) [rad s/m].
+  double by_curvature = 0.0;  ///< Derivative of the steering angle by the curvature [rad m].
+  double by_speed = 0.0;      ///< Derivative of the steering angle by the speed abs(u) [rad s/m].
 };
 SteeringSlopes SteeringSlopesInBend(const VehicleParams& vehicle, const BendMotion& motion);
 

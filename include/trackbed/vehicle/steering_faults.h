@@ -18,14 +18,16 @@ struct SteeringFaults {
   double backlash = 0.0;  ///< Backlash b, which is the total play at the road wheels [rad], >= 0.
 };
 
-/// Applies the faults to commanded angles. Guarantees: without faults, the output equals the
-/// commanded angle, bit for bit. The transport delay is rounded to a whole number of timesteps; the
-/// control period does not matter. Cost: O(1). Throws PreconditionError if a number is not finite,
-/// or if the delay exceeds 10^7 timesteps.
+/// Applies the faults of the steering to commanded angles. Guarantees: without faults, the
+/// actuator's input equals the commanded angle, bit for bit. The transport delay is rounded to a
+/// whole number of timesteps; the control period does not matter. Cost: O(1). Throws
+/// PreconditionError if a parameter of the faults is not finite, or if the delay exceeds 10^7
+/// timesteps.
 class FaultySteering {
  public:
   /// The wheels and the actuator start at the angle `start` [rad], in the middle of the play, as
-  /// after a long time of constant command. `timestep` [s] > 0 is the time between calls of Pass.
+  /// after a long time of constant command. The argument `timestep` [s], > 0, is the time between
+  /// calls of Pass.
   FaultySteering(const SteeringFaults& faults, double timestep, double start);
 
   /// Returns the angle [rad] that the actuator receives in the present timestep if `wanted` is

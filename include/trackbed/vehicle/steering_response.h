@@ -21,7 +21,8 @@ class MonotoneCurve {
   explicit MonotoneCurve(const std::vector<Vec2>& points);
 
   /// Returns the value of the curve at x, which is exact at the given points. Throws
-  /// PreconditionError if x is not finite. Cost: O(log n) for a curve through n points.
+  /// PreconditionError if x is not finite. A call of At takes O(log n) for a curve through n
+  /// points.
   [[nodiscard]] double At(double x) const;
 
  private:
@@ -45,23 +46,23 @@ struct SteeringResponse {
   double time_constant = 0.0;  ///< Time constant of the actuator's first-order lag [s], >= 0.
   double backlash = 0.0;       ///< Backlash of the steering, which is the total play [rad], >= 0.
 
-  /// Whether the response passes commands unchanged and without delay.
+  /// Whether the steering response passes commands unchanged and without delay.
   [[nodiscard]] bool ideal() const;
   /// Returns the delay [s] of the actuator behind a command that changes at a constant rate.
   [[nodiscard]] double delay() const { return dead_time + time_constant; }
 };
 
-/// Applies a steering response to commands. Guarantees: with an ideal response, the output equals
-/// the command, bit for bit. If the delayed command changes during a timestep, the old and the new
-/// command are weighted with their fractions of the timestep. The first-order lag is computed
-/// exactly for a command that is constant over each timestep. Cost: O(log n) for a curve with n
-/// points. Throws PreconditionError if a number is not finite or out of range, or if the dead time
-/// exceeds 10^7 timesteps.
+/// Applies a steering response to commands. Guarantees: with an ideal response, the output of the
+/// filter equals the command, bit for bit. If the delayed command changes during a timestep, the
+/// old and the new command are weighted with their fractions of the timestep. The first-order lag
+/// is computed exactly for a command that is constant over each timestep. A call of Pass takes
+/// O(log n) for a curve with n points. Throws PreconditionError if a parameter of the steering
+/// response is not finite or out of range, or if the dead time exceeds 10^7 timesteps.
 class SteeringFilter {
  public:
-  /// The actuator starts at the angle `start` [rad], in the middle of the play. The initial state
-  /// is the state after a long time of constant command that holds the angle `start`. `timestep`
-  /// [s] > 0 is the time between calls of Pass.
+  /// The actuator starts at the angle `start` [rad], in the middle of the play. SteeringFilter
+  /// starts in the state after a long time of constant command that holds the angle `start`. The
+  /// argument `timestep` [s], > 0, is the time between calls of Pass.
   SteeringFilter(const SteeringResponse& response, double timestep, double start);
 
   /// Returns the angle [rad] toward which the actuator moves during the coming timestep if

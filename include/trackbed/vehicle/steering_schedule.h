@@ -6,8 +6,8 @@
 #include "trackbed/vehicle/params.h"
 
 /// The steering schedule: the steering angle as a function of the distance traveled, for a car
-/// whose wheels turn at a limited rate. The method is that of Skackauskas (dissertation, listing
-/// F.1), with corrected distances.
+/// whose wheels turn at a limited rate. The method of the steering schedule is that of Skackauskas
+/// (dissertation, listing F.1), with corrected distances.
 ///
 /// Symbols: D distance traveled by the rear axle [m]; d_0 neutral angle of the wheels before,
 /// between and after turns [rad]; S_delta = v |delta - d_0|/omega_delta the driven distance while
@@ -23,10 +23,11 @@ struct TurnSteering {
 };
 
 /// The steering angle delta as a continuous, piecewise linear function of the distance D. The
-/// steering angle changes toward the target angle with the slope omega_delta/v, and then stays
-/// constant. A turn that is long enough to reach its target angle has the shape of a trapezoid; a
-/// shorter turn does not reach its target angle. If a turn starts while the wheels still return
-/// from the previous turn, the wheels move toward the new target angle immediately.
+/// steering angle changes toward the target angle with the slope omega_delta/v (maximum steering
+/// rate per speed), and then stays constant. A turn that is long enough to reach its target angle
+/// has the shape of a trapezoid; a shorter turn does not reach its target angle. If a turn starts
+/// while the wheels still return from the previous turn, the wheels move toward the new target
+/// angle immediately.
 class SteeringSchedule {
  public:
   struct Knot {
@@ -37,23 +38,24 @@ class SteeringSchedule {
   /// Makes a schedule that steers straight ahead.
   SteeringSchedule() = default;
 
-  /// Makes a schedule of turns, which must be in the order of their starts. `slope` is
-  /// omega_delta/v [rad/m], > 0, with one value for all turns or one value for each turn. `neutral`
-  /// is the neutral angle d_0 [rad]. Throws InternalError if the turns are out of order.
+  /// Makes a schedule of turns, which must be in the order of their starts. The argument `slope` is
+  /// omega_delta/v [rad/m], > 0: the steering rate divided by the speed, with one value for all
+  /// turns or one value for each turn. The argument `neutral` is the neutral angle d_0 [rad].
+  /// Throws InternalError if the turns of the schedule are out of order.
   SteeringSchedule(const std::vector<TurnSteering>& turns, double slope, double neutral = 0.0);
   SteeringSchedule(const std::vector<TurnSteering>& turns, const std::vector<double>& slopes,
                    double neutral = 0.0);
 
-  /// Makes a schedule through at least one knot, in strictly increasing order of distance. Throws
-  /// InternalError if the knots are out of order. Throws PreconditionError unless all knots are
-  /// finite.
+  /// Makes a schedule through the given knots (distance and steering angle), at least one, in
+  /// strictly increasing order of distance. Throws InternalError if the knots of the schedule are
+  /// not in order of distance. Throws PreconditionError unless all knots are finite.
   static SteeringSchedule Through(std::vector<Knot> knots);
 
   /// Makes a schedule with the constant angle `steering` [rad].
   static SteeringSchedule Constant(double steering);
 
-  /// Returns the steering angle [rad] at a distance. The steering angle is constant before the
-  /// first knot and after the last knot. If the distance is NaN, the returned angle is NaN.
+  /// Returns the steering angle [rad] at a distance traveled. The steering angle is constant before
+  /// the first knot and after the last knot. If the distance is NaN, the returned angle is NaN.
   [[nodiscard]] double At(double distance) const;
 
   [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }
@@ -72,20 +74,21 @@ double SteeringDistance(const VehicleParams& params, double steering, double spe
 
 /// Returns the heading change [rad] of a kinematic car at `speed` while its steering angle changes
 /// from zero to `steering` at the full rate. The heading change is (v/(L omega)) (-ln cos delta),
-/// with the sign of the steering.
+/// with the sign of the steering, the speed v, the wheelbase L, the steering rate omega, and the
+/// final steering angle delta.
 double RampHeading(const VehicleParams& params, double steering, double speed);
 
 /// Returns the pose of a kinematic car's rear axle after its steering angle has changed as in
-/// RampHeading. The car starts at the origin, heading along x. The pose after the ramp is computed
-/// by quadrature of the heading and is exact except for rounding errors.
+/// RampHeading. RampPose starts the car at the origin, heading along x. The pose after the ramp is
+/// computed by quadrature of the heading and is exact except for rounding errors.
 Pose2 RampPose(const VehicleParams& params, double steering, double speed);
 
 /// Simulates an open-loop run of the kinematic car from `start` over `distance` [m], and returns
 /// the state at the end. The wheels follow the schedule exactly, which requires a speed at which
 /// the schedule is within the steering rate limit. If the start speed is negative, the car drives
-/// backwards. `start` and the returned state are states of the point `reference`. The simulation
-/// uses integration of fourth order with steps of length `step` [m], split at the schedule's knots.
-/// Throws InternalError if the start speed is 0.
+/// backwards. The start state and the returned state are states of the car's reference point
+/// `reference`. The simulation uses integration of fourth order with steps of length `step` [m],
+/// split at the schedule's knots. Throws InternalError if the start speed is 0.
 KinematicState RollOut(const VehicleParams& params, const KinematicState& start,
                        const SteeringSchedule& schedule, double distance, double step,
                        ReferencePoint reference = ReferencePoint::kRearAxle);

@@ -14,7 +14,7 @@ namespace trackbed {
 /// m/s.
 class TowingCar {
  public:
-  /// `angle` is the hitch angle at the start [rad].
+  /// The argument `angle` is the hitch angle at the start [rad].
   TowingCar(const VehicleParams& params, ReferencePoint reference, const KinematicState& start,
             const TrailerParams& trailer, double angle);
 

@@ -35,7 +35,7 @@ struct TrailerOptions {
   std::optional<double> wheel_radius{};  ///< Radius of the trailer's wheels [m].
 };
 
-/// The parameters of a trailer, all given; TrailerOptions describes them.
+/// The complete parameters of a trailer; TrailerOptions describes each parameter.
 struct TrailerParams {
   double hitch = 0.0;
   double hitch_height = 0.0;
@@ -58,17 +58,18 @@ struct TrailerParams {
   [[nodiscard]] double body_front() const { return tongue - body_ahead - 0.5 * length; }
 };
 
-/// Returns the numbers of a trailer, in the order of TrailerParams.
+/// Returns the parameters of a trailer as a list of numbers, in the order of TrailerParams.
 std::array<double, 13> TrailerNumbers(const TrailerParams& trailer);
-/// Returns the trailer with the given numbers; the inverse of TrailerNumbers.
+/// Returns the trailer with the given parameter values; the inverse of TrailerNumbers.
 TrailerParams TrailerFromNumbers(const std::array<double, 13>& numbers);
 
-/// Returns the trailer that a scenario describes. Default values, with the car's wheelbase L,
-/// length, width, height, mass m and wheel radius R: hitch 2 % of the length behind the rear end,
-/// hitch_height 1.2 R, tongue L, track of the rear axle, body length 0.6 times the car's length,
-/// body width equal to the car's width, height 0.8 times the car's height, body_ahead 0, mass 0.4
-/// m, yaw inertia of a uniform box as large as the body, cg_ahead 6 % of the tongue, cg_height 1.75
-/// R, wheel_radius R.
+/// Returns the trailer that a scenario describes. Defaults, with the car's wheelbase L and wheel
+/// radius R: hitch 2 % of the car's length behind the car's rear end, hitch_height 1.2 R, tongue L,
+/// and the track of the car's rear axle. The default body has 0.6 times the car's length, the car's
+/// width, 0.8 times the car's height, and body_ahead 0. By default, the trailer's mass is 0.4 times
+/// the car's mass, and its yaw inertia is that of a uniform box as large as the body. By default,
+/// cg_ahead is 6 % of the tongue, cg_height is 1.75 times the car's wheel radius, and wheel_radius
+/// is the car's wheel radius.
 ///
 /// Throws InputError, with the key below vehicle.trailer and the allowed values, if the hitch is
 /// not behind the car, or if the body reaches ahead of the hitch. Also throws InputError if the
@@ -88,8 +89,9 @@ Pose2 TrailerPose(const TrailerParams& trailer, const Pose2& car, double angle);
 /// Returns the footprint of the body of a trailer whose axle is at `pose` (TrailerPose).
 OrientedBox TrailerFootprint(const TrailerParams& trailer, const Pose2& pose);
 
-/// Returns the body as a vehicle whose reference point is the middle of the trailer's axle, for
-/// functions that need a footprint. Only name, length, width, height and rear_overhang are set.
+/// Returns the trailer's body as a vehicle whose reference point is the middle of the trailer's
+/// axle, for functions that need a footprint. Only the members name, length, width, height and
+/// rear_overhang of the returned parameters are set.
 VehicleParams TrailerBody(const TrailerParams& trailer);
 
 /// Returns the smallest magnitude of the hitch angle at which body or drawbar of the trailer touch
@@ -97,15 +99,18 @@ VehicleParams TrailerBody(const TrailerParams& trailer);
 /// the hitch to the front of the body.
 double JackknifeAngle(const TrailerParams& trailer, const VehicleParams& car);
 
-/// Returns the rate of the hitch angle of a trailer whose wheels do not slip [rad/s]:
+/// Returns the rate of the hitch angle theta = `angle` of a trailer whose wheels do not slip
+/// [rad/s]:
 ///   theta' = -v sin(theta)/l - r (1 + b cos(theta)/l),
-/// with the yaw rate r = `yaw_rate` of the car.
+/// with the car's yaw rate r and rear-axle speed v, and the distances b and l from the hitch to the
+/// car's rear axle and to the trailer's axle.
 double RollingHitchRate(const TrailerParams& trailer, double angle, double speed, double yaw_rate);
 
 /// Returns the hitch angle after the car's rear axle has moved by `distance` [m], negative in
-/// reverse, on a path of constant curvature. The wheels do not slip. The solution is exact except
-/// for rounding errors: u = tan(theta/2) satisfies a Riccati equation with constant coefficients.
-/// The returned hitch angle is continuous with `angle` if the hitch angle changes by less than pi.
+/// reverse, on a path of constant curvature. The wheels do not slip. The returned hitch angle theta
+/// is exact except for rounding errors: u = tan(theta/2) satisfies a Riccati equation with constant
+/// coefficients. The returned hitch angle is continuous with `angle` if the hitch angle changes by
+/// less than pi.
 double RolledHitchAngle(const TrailerParams& trailer, double angle, double curvature,
                         double distance);
 

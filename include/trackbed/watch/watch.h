@@ -63,8 +63,8 @@ RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFo
 
 /// Serves the report page of `paths`, with embedded videos; the page is equal to the page that
 /// WriteReport would write for the present content of `paths`. WatchReport ignores the options
-/// `speed` and `paused`. Throws the same errors as WriteReport. For an invalid address or a port in
-/// use, throws the same errors as WatchRun.
+/// `speed` and `paused`. WatchReport throws the same errors as WriteReport. For an invalid address
+/// or a port in use, WatchReport throws the same errors as WatchRun.
 void WatchReport(const std::vector<std::filesystem::path>& paths, const WatchOptions& options,
                  const WatchHooks& hooks);
 

@@ -16,13 +16,13 @@ enum class UnknownCells { kFree, kOccupied };
 
 /// A map of square cells in rows along the map's x axis; the first row is at the bottom.
 struct GridMap {
-  /// Pose of the map's frame; the origin is the outer corner of cell 0, x points in the direction
-  /// of growing columns, and y in the direction of growing rows.
+  /// Pose of the map's frame, whose origin is the outer corner of cell 0. The map's x axis points
+  /// in the direction of growing columns, and the map's y axis in the direction of growing rows.
   Pose2 X_WM;
   double cell = 1.0;  ///< Length of a cell's side [m], > 0.
   int columns = 0;
   int rows = 0;
-  std::vector<MapCell> cells;  ///< State of each cell, row by row.
+  std::vector<MapCell> cells;  ///< State of each map cell, row by row.
 
   [[nodiscard]] MapCell At(int column, int row) const {
     return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -47,9 +47,10 @@ struct CellRectangle {
 };
 
 /// Returns rectangles that cover exactly the blocked cells, without overlap. The greedy method
-/// visits the cells row by row. At each blocked cell that is not yet covered, the method places the
-/// larger of two rectangles: the widest possible one and the highest possible one. The number of
-/// rectangles is small but not always minimal. The run time is proportional to the number of cells.
+/// visits the cells row by row. At each blocked cell that is not yet covered, the greedy method
+/// places the larger of two rectangles: the widest possible one and the highest possible one. The
+/// number of rectangles that MergeCells returns is small but not always minimal. The run time of
+/// MergeCells is proportional to the number of cells.
 std::vector<CellRectangle> MergeCells(const GridMap& map, UnknownCells unknown);
 
 }  // namespace trackbed

@@ -10,8 +10,8 @@
 /// The friction coefficient and the height of the road. A bump or a superelevation is a feature of
 /// the road, and covers a rectangular area. In the coordinate frame of a feature's area, u counts
 /// along the length L and v counts to the left along the width W, both from the middle of the area.
-/// Smooth transitions use the function C(q) = cos^2(pi/2 q), which is 1 at q = 0; for q >= 1, C is
-/// 0.
+/// Smooth transitions of the road's height use the function C(q) = cos^2(pi/2 q), which is 1 at q =
+/// 0; for q >= 1, C is 0.
 namespace trackbed {
 
 /// An area of the road with a different friction coefficient, such as ice, a wet lane, or one side
@@ -22,7 +22,8 @@ struct FrictionPatch {
   double friction = 1.0;
 };
 
-/// A speed bump across the road. The height of a bump above the plane is
+/// A speed bump across the road. With the length L and the width W of its area, the bump rises
+/// above the plane by
 ///   height C(2 |u| / L) C((|v| - W/2 + e) / e)     with e = min(edge, W/2).
 struct Bump {
   OrientedBox area;     ///< Area of the bump; the length of the area is along the road.
@@ -32,9 +33,10 @@ struct Bump {
 
 /// A superelevated (banked) section of the road. The banked section rises from its lower edge,
 /// which lies on the plane, to its upper edge. Beyond the upper edge of the section, an embankment
-/// of the same width descends to the plane. Let w be W/2 + v if the section rises to the left and
-/// W/2 - v if the section rises to the right, and let l be the transition length. The height of the
-/// section above the plane is
+/// of the same width descends to the plane. Let w be the distance of the lateral coordinate v from
+/// the lower edge of a section of the width W: W/2 + v if the section rises to the left, and W/2 -
+/// v if the section rises to the right. The length of the transition at each end of the section is
+/// l. With the length L and the width W of its area, the section rises above the plane by
 ///   |slope| C((|u| - L/2 + r) / r) w               for 0 <= w <= W,     r = min(l, L/2),
 ///   |slope| C((|u| - L/2 + r) / r) W C((w - W)/W)  beyond.
 struct Superelevation {
@@ -71,7 +73,7 @@ OrientedBox Extent(const Bump& bump);
 OrientedBox Extent(const Superelevation& side_slope);
 
 /// Returns the height z of the ground at a point [m]. The ground's height is continuous. The run
-/// time is proportional to the number of bumps and superelevations.
+/// time of GroundHeight is proportional to the number of bumps and superelevations.
 double GroundHeight(const Ground& ground, const Vec2& point_W);
 
 /// Returns the slopes dz/dx and dz/dy of the ground. Where the slope jumps (at the long sides of a

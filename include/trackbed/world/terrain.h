@@ -61,7 +61,8 @@ class Terrain {
   [[nodiscard]] bool IsRefined(int column, int row) const;
 
   /// Returns the height and slope of the ground at any point. Outside of the terrain's rectangle,
-  /// and for points that are not finite, the height is `base`. A call takes about 0.1 us.
+  /// and for points that are not finite, At returns the height `base` of the surroundings. A call
+  /// of At takes about 0.1 us.
   [[nodiscard]] Point At(const Vec2& point_W) const;
 
  private:

@@ -37,8 +37,8 @@ struct Wind {
 /// Returns the strength of a gust at `time`, as a fraction of the gust's peak velocity in [0, 1].
 double GustStrength(const Gust& gust, double time);
 
-/// Returns the velocity of the air at a point and time [m/s]. The run time is proportional to the
-/// number of gusts.
+/// Returns the velocity of the air at a point and time [m/s]. The run time of WindAt is
+/// proportional to the number of gusts.
 Vec2 WindAt(const Wind& wind, const Vec2& point_W, double time);
 
 /// Whether the wind is zero everywhere and at all times.

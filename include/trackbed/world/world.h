@@ -37,8 +37,8 @@ struct Obstacle {
   /// Poses through which the box moves, with increasing times; empty, or at least two. The box
   /// moves from each pose to the next at a constant velocity and a constant yaw rate, and turns by
   /// less than pi. Before its first and after its last pose, the box keeps the velocity of the
-  /// adjacent motion between two poses and does not rotate. The center of `footprint` is the pose
-  /// at time 0.
+  /// adjacent motion between two poses and does not rotate. If the box moves through poses,
+  /// `footprint` has the pose of the box at time 0.
   std::vector<TimedPose> motion{};
   /// Time after which the obstacle no longer exists [s]; its box is then moved 1000 km away.
   /// Default: never.
@@ -64,7 +64,7 @@ struct RoadNetworkSpec {
 
 /// The world in which a car drives: road, ground, wind and obstacles.
 struct World {
-  /// Factor of the world's roads on the tyres' friction coefficient, for both tyre models.
+  /// Factor by which the world's roads scale the tyres' friction coefficient, for both tyre models.
   double friction = 1.0;
   /// Areas whose friction factor differs from `friction`. Where friction patches overlap, the last
   /// patch in the list applies.
@@ -88,11 +88,11 @@ const std::vector<OrientedBox>& MapWalls(const World& world);
 
 /// Returns the road's factor on the tyres' friction coefficient at a point. RoadFactor returns the
 /// factor of the last friction patch in the list that contains the point, or `friction` if no patch
-/// contains the point. The run time is proportional to the number of friction patches. Throws
-/// PreconditionError if the point is not finite.
+/// contains the point. The run time of RoadFactor is proportional to the number of friction
+/// patches. Throws PreconditionError if the point is not finite.
 double RoadFactor(const World& world, const Vec2& point_W);
 
-/// Returns the same factor as RoadFactor above, for a given `friction` and given `patches`.
+/// Returns the factor of RoadFactor above, for a given `friction` and given `patches`.
 double RoadFactor(double friction, const std::vector<FrictionPatch>& patches, const Vec2& point_W);
 
 /// Return the height and the normal of the ground, and the wind, at a point of the world (road.h,
@@ -112,8 +112,8 @@ struct ObstacleMotion {
   double yaw_rate = 0.0;         ///< Yaw rate [rad/s].
 };
 
-/// Returns the motion of an obstacle at `time` [s]. The run time is logarithmic in the number of
-/// the obstacle's poses.
+/// Returns the motion of an obstacle at `time` [s]. The run time of MotionAt is logarithmic in the
+/// number of the obstacle's poses.
 ObstacleMotion MotionAt(const Obstacle& obstacle, double time);
 
 /// Returns the footprint of an obstacle at `time` [s].
@@ -143,17 +143,18 @@ struct ClosestApproach {
   double time = 0.0;       ///< Time at which the clearance is minimal [s].
 };
 
-/// Returns the minimum clearance of a car between two samples. The function assumes that between
+/// Returns the minimum clearance of a car between two samples. ApproachBetween assumes that between
 /// the samples the car moves on a straight line and turns at a constant rate, by far less than a
-/// full turn. The motion of obstacles between the samples is included.
+/// full turn. ApproachBetween includes the motion of obstacles between the samples.
 ///
 /// Guarantees: every contact deeper than 1 mm is detected. The returned minimum clearance exceeds
 /// the true minimum by at most 5 mm or a hundredth of the clearance. If the car and the obstacles
 /// are further apart than they move between the samples, the run time is negligible. For a car
-/// closer to obstacles, the function calls Clearance() several times, at most 10^5 times. For a
-/// motion over kilometers, 10^5 calls of Clearance() may not suffice. After 10^5 calls, the search
-/// for the minimum ends, and the later part of the motion is not searched. Throws InternalError if
-/// the world has no obstacles. Throws PreconditionError if a sample is not finite.
+/// closer to obstacles, ApproachBetween calls Clearance() several times, at most 10^5 times. For a
+/// motion over kilometers, 10^5 calls of Clearance() may not suffice. After 10^5 calls of
+/// Clearance(), the search for the minimum ends, and the later part of the motion is not searched.
+/// Throws InternalError if the world has no obstacles. Throws PreconditionError if a sample is not
+/// finite.
 ClosestApproach ApproachBetween(const World& world, const VehicleParams& vehicle,
                                 const ClearanceSample& from, const ClearanceSample& to);
 
