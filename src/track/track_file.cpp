@@ -20,8 +20,8 @@
 // Reads the center line and widths of a track from a CSV file.
 // 1. TrackRows reads the columns and checks the numbers.
 // 2. CheckShape refuses center lines with large gaps, and center lines that turn back at a point.
-// 3. FitSmoothing chooses the wavelength of the smoothing. Where the smooth line swings aside of the
-//    straight line between two points, FittingTrack adds points on the straight line.
+// 3. FitSmoothing chooses the wavelength of the smoothing. Where the smooth line swings aside of
+//    the straight line between two points, FittingTrack adds points on this straight line.
 // 4. If an edge folds over in a tight bend, Narrow moves this edge inwards, with a note, but by at
 //    most half of its width.
 namespace trackbed {
