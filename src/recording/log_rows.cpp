@@ -24,12 +24,12 @@
 #include "trackbed/path_files/globe_file.h"
 #include "trackbed/path_files/globe_names.h"
 
-// Reads the CSV file of a log, and the other files that the log's map names, row by row. Times are
-// relative to the first row of the log. The reader skips rows outside the imported part and rows
-// that a condition of the map excludes. The reader also skips incomplete poses and poses with the
-// time of the previous pose. Each number is converted by the scale, unit, offset and curve that the
-// map specifies for its column. NED poses are converted to ENU, and signals that are positive to
-// the right change their sign.
+// Reads the CSV file of a log, and the other files named in the log map (the file that describes
+// the log's columns), row by row. Times are relative to the first row of the log. The reader skips
+// rows outside the imported part and rows that a condition of the log map excludes. The reader also
+// skips incomplete poses and poses with the time of the previous pose. Each number is converted by
+// the scale, unit, offset and curve that the log map specifies for its column. NED poses are
+// converted to ENU, and signals that are positive to the right change their sign.
 namespace trackbed {
 namespace {
 
@@ -79,7 +79,7 @@ char DelimiterOf(const LogMap& map) {
                                                      : '\t';
 }
 
-/// A list of column names without duplicates.
+/// A list of log column names without duplicates.
 class ColumnNames {
  public:
   std::size_t Add(const std::string& name) {
@@ -102,7 +102,7 @@ double Yaw(double x, double y, double z, double w) {
 
 class LogReader {
  public:
-  /// Reads a topic of a bag, if `topic` is not empty.
+  /// Reads a topic of a ROS bag, if `topic` is not empty.
   LogReader(const fs::path& log, const LogMap& map, std::string topic)
       : log_(log),
         topic_(std::move(topic)),
@@ -160,7 +160,7 @@ class LogReader {
   }
 
   /// Returns the time of a row since the first row of the log [s]. If the time is missing or less
-  /// than the previous time, TimeOf adds a problem and returns none.
+  /// than the previous time, TimeOf adds a problem and returns nullopt.
   std::optional<double> TimeOf(Clock& clock, const Numbers& numbers, const fs::path& file, int line,
                                ProblemList& problems) {
     const double count = numbers[clock.column];
@@ -213,7 +213,7 @@ class LogReader {
     LogSeries& series = rows_.signals[signal.signal];
     const double at = time - column.delay;
     if (!series.time.empty() && at <= series.time.back()) {
-      return;  // skip a value whose time is not later than the time of the previous value
+      return;  // skip a signal value whose time is not later than that of the previous value
     }
     Count(2);
     double value = column.scale * (number * UnitInSi(column.unit)) + column.offset;
@@ -235,7 +235,7 @@ class LogReader {
                 const std::vector<std::size_t>& columns, ProblemList& problems);
 
   const fs::path& log_;
-  std::string topic_;  // Topic of the position in a bag; empty for other logs.
+  std::string topic_;  // Topic of the position in a ROS bag; empty for other logs.
   const LogMap& map_;
   std::vector<SignalColumn> signals_;
   LogRows rows_;
@@ -243,9 +243,10 @@ class LogReader {
   // column of additional nanoseconds.
   std::optional<std::pair<double, double>> origin_;
   std::size_t kept_ = 0;
-  bool is_globe_;            // Whether positions are on the globe [deg] until projection.
-  double globe_unit_ = 1.0;  // Degrees per unit of the columns.
-  std::vector<int> lines_;   // Line of each position on the globe.
+  bool is_globe_;            // Whether the log has geographic positions [deg], which are projected
+                             // at the end.
+  double globe_unit_ = 1.0;  // Degrees per unit of the columns of geographic positions.
+  std::vector<int> lines_;   // Line number in the log of each geographic position.
 };
 
 void LogReader::TakePose(const Numbers& numbers, double time, int line,
@@ -361,8 +362,8 @@ void LogReader::ReadOther(const std::string& name, const char* key) {
   ReadLogNumbers({file, topic_.empty() ? "" : name}, Wanted(names),
                  [&](const Numbers& numbers, int line) {
                    const std::optional<double> time = TimeOf(clock, numbers, file, line, problems);
-                   // Keep also rows outside the imported part, because the rows of this file may be
-                   // far apart in time.
+                   // Keep also rows outside the imported part of the log, because the rows of this
+                   // file may be far apart in time.
                    if (time) {
                      for (const auto& [signal, column] : signals) {
                        TakeSignal(*signal, numbers[column], *time);

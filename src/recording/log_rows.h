@@ -23,7 +23,8 @@ enum LogSignal : std::size_t {
   kLogSignals,
 };
 
-/// Keys of the signals in the map of a log, in the order of LogSignal.
+/// Keys of the signals in a log map (the file that describes a log's columns), in the order of
+/// LogSignal.
 inline constexpr std::array<const char*, kLogSignals> kLogSignalKeys{
     "speed",    "yaw_rate",         "accelerometer", "accelerometer",
     "steering", "steering_command", "throttle"};
@@ -41,23 +42,24 @@ struct LogRows {
   // Logged yaw angle of the measured axes, which may jump by multiples of 2 pi [rad].
   std::vector<double> yaw{};
   std::array<LogSeries, kLogSignals> signals{};
-  // For each signal, whether the map of the log specifies a column for the signal.
+  // For each signal, whether the log map (the file that describes the log's columns) specifies a
+  // column for the signal.
   std::array<bool, kLogSignals> has{};
-  double origin = 0.0;           // Time of the first row, in the log's unit.
+  double origin = 0.0;           // Time of the first row, in the log's time unit.
   std::size_t rows = 0;          // Number of rows in the log.
-  std::size_t invalid = 0;       // Number of rows that a condition of the map excludes.
-  std::size_t without_pose = 0;  // Number of rows without a complete pose.
+  std::size_t invalid = 0;       // Number of rows that a condition of the log map excludes.
+  std::size_t without_pose = 0;  // Number of log rows without a complete pose.
   std::size_t repeated = 0;      // Number of rows with the same time as the previous row.
   // Line number of the first row that has the same time as the previous row.
   int repeated_line = 0;
-  std::vector<std::string> notes{};  // Notes on how positions on the globe were projected.
+  std::vector<std::string> notes{};  // Notes on how geographic positions were projected to a plane.
 };
 
-/// Reads the rows of the log and of the other files that the map names. ReadLogRows throws
+/// Reads the rows of the log and of the other files that the log map names. ReadLogRows throws
 /// InputError under the same conditions as ImportLog.
 LogRows ReadLogRows(const std::filesystem::path& log, const LogMap& map);
 
-/// Returns the problem, with its remedy, if most rows are farther apart than `gap` [s], so that
+/// Returns an error message with a remedy if most rows are farther apart than `gap` [s], so that
 /// nearly all samples would be in gaps; else "".
 std::string GapProblem(const std::vector<double>& time, double gap);
 

@@ -59,7 +59,8 @@ class BagColumns {
     const bool has_header = Has("header.stamp.sec");
     const bool has_stamp = Has("stamp.sec");
     for (std::string name : names) {
-      // The time of a message is the time in its header or, without a header, the time of logging.
+      // The time of a bag message is the time in its header or, without a header, the time of
+      // logging.
       if (!has_stamp && (name == "stamp.sec" || name == "stamp.nanosec")) {
         name = has_header ? "header." + name : "log_time" + name.substr(5);
       }

@@ -104,7 +104,7 @@ RecordedDrive ReadRecordCsv(const std::filesystem::path& file) {
   ProblemList problems;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double expected = static_cast<double>(row) * drive.period;
-    // Permitted deviation of a time from the constant period, as a fraction of the period.
+    // Permitted deviation of a sample's time from the constant period, as a fraction of the period.
     constexpr double kRounding = 1e-6;
     if (!(drive.period > 0.0) ||
         std::abs(drive.samples[row].time - expected) > kRounding * drive.period) {

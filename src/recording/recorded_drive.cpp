@@ -84,7 +84,8 @@ RecordedSample RecordedDrive::At(double time) const {
                    period);
   const double last = static_cast<double>(samples.size() - 1);
   const double place = std::clamp(time / period, 0.0, last);
-  // Return a sample unchanged if its time differs from the requested time only by rounding errors.
+  // Return a recorded sample without interpolation if its time differs from the requested time only
+  // by rounding errors.
   constexpr double kRounding = 1e-6;
   const double nearest = std::round(place);
   if (std::abs(place - nearest) < kRounding) {

@@ -7,13 +7,14 @@
 #include <map>
 
 // Estimates a delay by least squares: a scan over whole samples computes the sum of squared
-// residuals for each delay. The slope of a cubic that is fitted to the sums around the chosen delay
-// refines the delay. The cubic extends over the delays that explain at least nine tenths of what
-// the best delay explains, so noise of neighboring delays averages out. The standard error is that
-// of an extremum estimator with correlated residuals (Newey and West 1987). Noise that varies
-// faster than the motion has narrow peaks of correlation at random delays. If the reference
-// explains too little of the signal, reference and signal are smoothed by moving averages of
-// growing width. Equal averages of both do not change the delay between them.
+// residuals for each delay. The delay is then refined by a cubic that is fitted to the sums of
+// squared residuals around the chosen delay. The cubic extends over the delays that explain at
+// least nine tenths of what the best delay explains, so noise of neighboring delays averages out.
+// The standard error of the delay is that of an extremum estimator with correlated residuals (Newey
+// and West 1987). Noise that varies faster than the motion can cause narrow peaks of correlation at
+// random delays. If the reference explains too little of the signal, reference and signal are
+// smoothed by moving averages of growing width. Equal moving averages of signal and reference do
+// not change the delay between them.
 namespace trackbed {
 namespace {
 
@@ -24,7 +25,7 @@ constexpr double kLeastExplained = 0.1;
 struct Line {
   double a = 0.0;
   double b = 0.0;
-  double residuals = 0.0;  // Sum of squared residuals.
+  double residuals = 0.0;  // Sum of squared residuals of the line.
   double variance = 0.0;   // Sum of squared deviations of the signal from its mean.
   double count = 0.0;
 };
@@ -36,8 +37,8 @@ class Scan {
        const std::vector<bool>& valid, int reach)
       : reference_(reference), signal_(signal), valid_(valid), reach_(reach) {}
 
-  /// Calls `take(reference, signal, index)` for every `stride`-th valid pair at a delay in samples.
-  /// The neighbors of a pair's reference are valid, too.
+  /// Calls `take(reference, signal, index)` for every `stride`-th valid pair of values at a delay
+  /// in samples. In a valid pair, the neighbors of the reference value are valid, too.
   template <typename Take>
   void ForPairs(int delay, int stride, const Take& take) const {
     const int count = static_cast<int>(signal_.size());
@@ -117,7 +118,8 @@ double NeighborCorrelation(const std::vector<double>& values) {
 }
 
 /// Returns the variance of the sum of correlated values with the mean 0 (Newey and West 1987). The
-/// number of lags follows from the correlation of neighboring values by the rule of Andrews (1991).
+/// number of lags in the estimate is computed from the correlation of neighboring values by the
+/// rule of Andrews (1991).
 double VarianceOfSum(const std::vector<double>& values) {
   const double n = static_cast<double>(values.size());
   const double rho = NeighborCorrelation(values);
@@ -136,10 +138,11 @@ double VarianceOfSum(const std::vector<double>& values) {
 }
 
 /// Returns weights w_k such that the sum of w_k (f(k) - f(-k)) over k from 1 to `width` is the
-/// slope at 0 of the least-squares cubic through values f. The values f(k) are at the places k from
-/// -`width` to `width` (Savitzky and Golay 1964). If `width` is 1, the fitted curve is a parabola.
+/// slope at 0 of the least-squares cubic through values f. The values f(k) are given at the
+/// integers k from -`width` to `width` (Savitzky and Golay 1964). If `width` is 1, a parabola is
+/// fitted instead of a cubic.
 std::vector<double> CubicWeights(int width) {
-  double s2 = 0.0;  // sums of k^2, k^4 and k^6 over all places k
+  double s2 = 0.0;  // sums of k^2, k^4 and k^6 over the integers k from -width to width
   double s4 = 0.0;
   double s6 = 0.0;
   for (int k = 1; k <= width; ++k) {
@@ -159,9 +162,9 @@ std::vector<double> CubicWeights(int width) {
 
 /// Minimum of the sum of squared residuals over the delay, in samples.
 struct Minimum {
-  int middle = 0;      // Whole delay nearest to the minimum.
+  int middle = 0;      // Whole number of samples nearest to the delay at the minimum.
   double delay = 0.0;  // Delay at the minimum.
-  double bend = 0.0;   // Second derivative at the minimum.
+  double bend = 0.0;   // Second derivative of the sum of squared residuals at the minimum.
 };
 
 /// Finds the delay near `middle` at which the cubic through the sums of squared residuals, within
@@ -185,7 +188,8 @@ Minimum FindMinimum(const Scan& scan, int middle, int width, int stride) {
     return slope;
   };
   Minimum minimum{.middle = middle, .delay = static_cast<double>(middle)};
-  // Search at most 2 `width` samples, because the minimum is within the width of the cubic.
+  // Search at most 2 `width` samples for the minimum, because the minimum is within the width of
+  // the cubic.
   for (int step = 0; step < 2 * width; ++step) {
     const double slope = slope_at(minimum.middle);
     const int toward = slope > 0.0 ? -1 : 1;
@@ -207,8 +211,8 @@ Minimum FindMinimum(const Scan& scan, int middle, int width, int stride) {
 /// Returns the standard error of the delay at the minimum of a cubic over +-`width`, in samples.
 double StandardError(const Scan& scan, const Minimum& minimum, int width, int stride) {
   const Line line = scan.Fit(minimum.middle, stride);
-  // Add the scores in groups: the variance of the total stays the same, and the number of groups
-  // bounds the cost.
+  // Add the scores (products of residual and reference slope) in groups: the variance of the total
+  // stays the same, and the number of groups bounds the cost.
   constexpr std::size_t kMaxScores = 20000;
   const std::size_t group = 1 + static_cast<std::size_t>(line.count) / kMaxScores;
   const std::vector<double> weights = CubicWeights(width);
@@ -245,11 +249,11 @@ double IndependentSamples(const Scan& scan, int delay, const Line& line, int str
   return line.count * (1.0 - rho) / (1.0 + rho);
 }
 
-/// Returns the delay in samples whose sum of squared residuals is smallest. Periodic motion fits
-/// nearly as well at other delays, one period apart. For periodic motion, the sum of squared
-/// residuals has several minima, separated by delays that fit significantly worse. If other minima
-/// are not significantly worse than the smallest one, returns the minimum with the smallest
-/// absolute delay.
+/// Returns the delay in samples whose sum of squared residuals is smallest. For periodic motion,
+/// delays one period of the motion apart fit nearly equally well. The sum of squared residuals of
+/// periodic motion has several minima, separated by delays that fit significantly worse. If other
+/// minima of this sum are not significantly worse than the smallest one, returns the minimum with
+/// the smallest absolute delay.
 int BestDelay(const Scan& scan, const std::vector<Line>& lines, int stride) {
   const int reach = scan.reach();
   const auto at = [&](int delay) -> const Line& {
@@ -267,7 +271,7 @@ int BestDelay(const Scan& scan, const std::vector<Line>& lines, int stride) {
   const double worst = at(least).residuals * std::exp(kSignificant / std::max(1.0, independent));
   int best = least;
   const int none = reach + 1;
-  int valley = none;  // best delay since the last significantly worse delay
+  int valley = none;  // best delay found after the last significantly worse delay of the scan
   for (int delay = -reach; delay <= reach; ++delay) {
     if (at(delay).a > 0.0 && at(delay).residuals <= worst) {
       valley = valley != none && at(valley).residuals <= at(delay).residuals ? valley : delay;
@@ -281,7 +285,7 @@ int BestDelay(const Scan& scan, const std::vector<Line>& lines, int stride) {
 }
 
 /// Returns the half width of the range of delays around `best` that explain at least nine tenths of
-/// the variance that `best` explains. The returned half width is at least 1.
+/// the variance that `best` explains. The returned half width is at least 1 sample.
 int WidthOfCubic(const std::vector<Line>& lines, int reach, int best) {
   constexpr double kExplained = 0.9;
   const auto explained = [&](int delay) {
@@ -297,9 +301,9 @@ int WidthOfCubic(const std::vector<Line>& lines, int reach, int best) {
   return width;
 }
 
-/// Returns whether the reference explains more of the signal than pure noise would explain at its
-/// best delay. IsSignificant applies a likelihood ratio test at three standard deviations,
-/// corrected for the number of independent delays.
+/// Returns whether the reference explains more of the signal's variance than pure noise would
+/// explain at its best delay. The function IsSignificant applies a likelihood ratio test at three
+/// standard deviations, corrected for the number of independent delays.
 bool IsSignificant(const Scan& scan, int best, const Line& line, int stride) {
   constexpr double kSignificant = 9.0;
   const double independent = IndependentSamples(scan, best, line, stride);
@@ -308,7 +312,7 @@ bool IsSignificant(const Scan& scan, int best, const Line& line, int stride) {
          kSignificant + 2.0 * std::log(delays);
 }
 
-/// The best delay, and how much of the signal it explains.
+/// The best delay, and the share of the signal's variance that it explains.
 struct Estimate {
   std::optional<SignalDelay> found{};
   double explained = 0.0;  // explained share of the signal's variance
@@ -318,7 +322,8 @@ Estimate EstimateDelay(const std::vector<double>& reference, const std::vector<d
                        const std::vector<bool>& valid, double period) {
   const int reach = static_cast<int>(std::ceil(kMaxSignalDelay / period));
   const int count = static_cast<int>(signal.size());
-  // Largest numbers of samples for the scan and for the refinement, which bound the cost.
+  // Largest numbers of samples for the scan and for the refinement of the delay, which bound the
+  // computing time.
   constexpr int kScanned = 20000;
   constexpr int kRefined = 200000;
   const Scan scan(reference, signal, valid, reach);
@@ -387,10 +392,11 @@ std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
   if (static_cast<double>(signal.size()) < 4.0 * std::ceil(kMaxSignalDelay / period)) {
     return std::nullopt;
   }
-  // Largest reach of the moving averages [s]. A moving average of larger reach would smooth the
-  // motion itself.
+  // Largest time over which the moving averages extend to either side [s]. A moving average over a
+  // longer time would also smooth out the motion itself.
   constexpr double kWidest = 0.5 * kMaxSignalDelay;
-  constexpr double kMost = 0.8;  // explained share above which the signals need no smoothing
+  constexpr double kMost = 0.8;  // explained share of the signal's variance above which signal and
+                                 // reference need no smoothing
   Estimate estimate = EstimateDelay(reference, signal, valid, period);
   for (double reach = 0.125 * kWidest; estimate.explained < kMost && reach <= kWidest;
        reach *= 2.0) {

@@ -17,25 +17,27 @@ inline constexpr double kMaxSignalDelay = 1.0;
 /// Estimates the delay tau of the model
 ///   signal(t) = a reference(t - tau) + b + noise,
 /// where tau minimizes the sum of squared residuals over the valid samples. The constants a > 0 and
-/// b are free, so a wrong scale or offset of the signal has no effect. The standard error is
+/// b of the model are fitted, so a wrong scale or offset of the signal has no effect on the delay.
+/// The standard error of the delay is
 ///   sqrt(V)/H,  V = variance of sum_i e_i x'_i,  H = a |sum_i (x_i - mean) x''_i|,
-/// with the residuals e and the reference x. V is estimated from the correlation of the products
-/// e_i x'_i over time (Newey and West 1987), because smoothed noise is correlated. H is the
-/// curvature of the correlation of signal and reference, so noise of the reference does not
-/// increase H. For a reference that is linear in time, H is 0 and the standard error is infinite.
+/// with the residuals e and the reference x. The variance V is estimated from the autocorrelation
+/// of the products e_i x'_i of residual and reference slope (Newey and West 1987), because smoothed
+/// noise is correlated. The number H is the curvature of the correlation of signal and reference,
+/// so noise of the reference does not increase H. If the reference is linear in time, H is 0 and
+/// the standard error is infinite.
 ///
-/// Periodic motion fits at several delays. If the sums of squared residuals of these delays do not
-/// differ significantly (three standard deviations), the smallest absolute delay is returned.
+/// For periodic motion, several delays fit. If their sums of squared residuals do not differ
+/// significantly (three standard deviations), FindDelay returns the smallest absolute delay.
 ///
-/// If the model explains less than 0.8 of the signal's variance, signal and reference are smoothed
-/// by moving averages. The moving averages extend over up to half of kMaxSignalDelay to either
-/// side.
+/// If the delay model explains less than 0.8 of the signal's variance, signal and reference are
+/// smoothed by moving averages. The moving averages extend over up to half of kMaxSignalDelay to
+/// either side.
 ///
-/// All samples have the same distance `period` [s] in time. Returns nullopt if the model explains
-/// less than a tenth of the signal's variance. Also returns nullopt if pure noise would explain
-/// nearly as much at its best delay. Also returns nullopt if the best delay exceeds
+/// Consecutive samples are `period` [s] apart in time. FindDelay returns nullopt if the model
+/// explains less than a tenth of the signal's variance, or hardly more than pure noise would
+/// explain at its best delay. FindDelay also returns nullopt if the best delay exceeds
 /// kMaxSignalDelay, or if there are fewer than 4 kMaxSignalDelay/period samples. The computing time
-/// is at most 1.5 s.
+/// of FindDelay is at most 1.5 s.
 std::optional<SignalDelay> FindDelay(const std::vector<double>& reference,
                                      const std::vector<double>& signal,
                                      const std::vector<bool>& valid, double period);

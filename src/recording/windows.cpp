@@ -41,8 +41,8 @@ int StepsPerPeriod(double period, double timestep) {
 }
 
 /// Simulates the steering actuator with the commands of the recorded drive, from the start of the
-/// drive. Returns the actuator's state at each of the control periods in `periods`, which must be
-/// in ascending order.
+/// drive. Returns the actuator's state at the beginning of each control period in `periods`, which
+/// must be in ascending order.
 std::vector<SteeringHistory> FollowCommands(const Replay& replay,
                                             const std::vector<long>& periods) {
   const VehicleParams& params = replay.car.params();
@@ -112,7 +112,7 @@ WindowPrediction Predict(const Replay& replay, const std::string& name, long fir
   return window;
 }
 
-/// Returns a quantile of sorted values, with linear interpolation between the values.
+/// Returns a quantile of a sorted list of values, with linear interpolation between the values.
 double QuantileOf(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto before = static_cast<std::size_t>(place);
@@ -140,7 +140,7 @@ std::vector<WindowPrediction> PredictWindows(const CarModel& car, const std::str
                    "PredictWindows: a horizon of {} s; must be above 0", horizon);
   std::vector<long> first;
   for (const double restart : restarts) {
-    // Allow 1.5 control periods more than the duration of the drive, because the time grid may end
+    // Allow 1.5 control periods more than the duration of the drive, because the drive may end
     // between two control periods.
     TRACKBED_REQUIRE(restart >= 0.0 && restart + horizon <= drive.duration() + 1.5 * period,
                      "PredictWindows: a window from {} s to {} s of a drive of {} s", restart,
@@ -198,7 +198,7 @@ WindowErrors MeasureWindows(const std::vector<WindowPrediction>& windows,
   RelativeRms yaw_rate;
   RelativeRms lateral;
   for (const WindowPrediction& window : windows) {
-    // Skip the first predicted state, because it is equal to the recorded state.
+    // Skip the first predicted state of a window, because it is equal to the recorded state.
     for (std::size_t k = 1; k < window.states.size(); ++k) {
       const VehicleState& state = window.states[k];
       const VehicleState recorded = StateOf(drive.At(state.time), vehicle, false);

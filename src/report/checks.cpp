@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 /// Formats the bound of a check as text, such as "≤ 0.15" or "= arrived".
 std::string BoundText(const std::string& relation, const ordered_json& bound) {
   const char* sign = relation == "at_most" ? "≤" : relation == "at_least" ? "≥" : "=";
-  // The bound is rounded to six significant digits, like the metrics on the page.
+  // The bound of the check is rounded to six significant digits, like the metrics on the page.
   return fmt::format("{} {}", sign,
                      bound.is_number_float() ? fmt::format("{:.6g}", bound.get<double>())
                      : bound.is_string()     ? bound.get<std::string>()
@@ -25,7 +25,7 @@ std::string BoundText(const std::string& relation, const ordered_json& bound) {
 }
 
 /// Returns the label of a temporal-logic requirement, such as "Robustness of lane: always
-/// abs(cross_track_m) < 0.5". A long formula is shortened in the label.
+/// abs(cross_track_m) < 0.5". In the label of a requirement, a long formula is shortened.
 std::string RequirementLabel(const ShownName& name, const std::string& formula) {
   constexpr std::size_t kMaxFormulaLength = 120;
   return fmt::format("{}: {}{}", name.label, formula.substr(0, kMaxFormulaLength),

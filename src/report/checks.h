@@ -7,11 +7,11 @@
 namespace trackbed {
 
 /// Returns a table row for each check of a verdict in metrics.json: {of, metric, what, unit,
-/// relation, bound, asked, found, t, met}. Returns no rows for runs of older versions, whose
-/// verdicts list only failures.
+/// relation, bound, asked, found, t, met}. For runs of older versions of Trackbed, whose verdicts
+/// list only failures, CheckRows returns no rows.
 nlohmann::ordered_json CheckRows(const JsonValue& verdict);
 
-/// Returns a verdict without the list of checks, as {passed, failures, notes}.
+/// Returns the JSON of a verdict without its list of checks, as {passed, failures, notes}.
 nlohmann::ordered_json VerdictJson(const JsonValue& verdict);
 
 }  // namespace trackbed

@@ -19,11 +19,11 @@
 
 // Computes the data of the comparisons that a report page shows. The pairs of plants to compare are
 // listed in compare.json, in a comparison folder or next to the runs. Without compare.json, plants
-// with equal names in several runs form the pairs; for a single run, all pairs of its plants are
-// compared. The differences are computed again from the logs. If the maxima of the recomputed
+// with equal names in different runs are compared; for a single run, all pairs of its plants. The
+// differences between the plants are computed again from the logs. If the maxima of the recomputed
 // differences do not match compare.json, the logs have changed, and the report fails with
-// InputError. The curves are thinned, so that the curves of all pairs together do not exceed a
-// limit on the number of rows.
+// InputError. The difference curves are thinned such that those of all pairs together do not exceed
+// a limit on the number of rows.
 namespace trackbed {
 namespace {
 
@@ -48,7 +48,7 @@ struct Drive {
 struct Pair {
   Drive first;
   Drive second;
-  /// entry of the pair in compare.json; nullopt if there is no compare.json
+  /// entry of this pair of plants in compare.json; nullopt if there is no compare.json
   std::optional<JsonValue> outcome;
 };
 
@@ -132,7 +132,7 @@ void RefuseIfChanged(const JsonValue& outcome, const PlantComparison& now,
   for (const ComparedQuantity& quantity : ComparedQuantities()) {
     const std::optional<double> then = outcome.At(quantity.key).At("max").NumberOrNull();
     const double max = (now.*quantity.difference).max;
-    // A null in compare.json stands for a maximum that is not finite.
+    // A null value in compare.json stands for a maximum difference that is not finite.
     if (then ? !(std::abs(*then - max) <= kEqualityTolerance) : std::isfinite(max)) {
       const auto text = [](double number) {
         return std::isfinite(number) ? ShortestText(number) : "null";
@@ -174,7 +174,8 @@ ordered_json CurveJson(const Table& differences, std::size_t row_limit) {
   return json;
 }
 
-/// Returns the tolerances for the differences of a pair, keyed by name.
+/// Returns the tolerances for the differences of a pair of plants, keyed by the name of the
+/// difference.
 ordered_json TolerancesJson(const JsonValue& tolerances) {
   ordered_json json = ordered_json::object();
   for (const auto& [name, bound] : tolerances.Members()) {
@@ -215,7 +216,8 @@ std::vector<fs::path> ComparedRuns(const fs::path& folder) {
   std::vector<fs::path> runs;
   const std::optional<JsonValue> names = json.Find("runs");
   for (const std::string& name : names ? names->Texts() : std::vector<std::string>()) {
-    const fs::path path = folder / name;  // if the path is absolute, `folder` has no effect
+    const fs::path path = folder / name;  // if the path of the run is absolute, `folder` has no
+                                          // effect on the result
     if (runs.empty() || fs::weakly_canonical(runs.front()) != fs::weakly_canonical(path)) {
       runs.push_back(path);
     }

@@ -73,7 +73,8 @@ std::string ForceColumn(const char* kind, const char* wheel) {
   return fmt::format("{}_force_{}_N", kind, wheel);
 }
 
-/// Fractions of the longitudinal and lateral friction that a tyre uses, for each row of a log.
+/// Fractions of the available friction that a tyre uses in the longitudinal and lateral directions,
+/// for each row of a log.
 struct TyreShares {
   std::vector<double> along;
   std::vector<double> across;

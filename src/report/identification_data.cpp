@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Maximum number of rows of all records together on the page.
+/// Maximum number of rows of all recorded drives together on the report page.
 constexpr std::size_t kRows = 6000;
 
 ordered_json Residuals(const fs::path& file, std::size_t max_points) {
@@ -73,7 +73,7 @@ ordered_json CorrelationJson(const JsonValue& correlation) {
   return {{"names", names}, {"matrix", matrix}};
 }
 
-/// Converts the prediction errors of one plant on one record to JSON.
+/// Converts the prediction errors of one plant on one recorded drive to JSON.
 ordered_json PlantJson(const JsonValue& plant) {
   ordered_json json{{"windows", ordered_json::array()}};
   if (const std::optional<JsonValue> yaw_rate = plant.Find("yaw_rate_relative_rms")) {

@@ -39,7 +39,7 @@ std::string LiveRows::Pose(const Table& configurations, std::size_t row) const {
   if (pose_columns_.empty()) {
     return "";
   }
-  constexpr double kSteps = 1e4;  // number of quantization steps per meter or radian
+  constexpr double kSteps = 1e4;  // number of quantization steps of poses per meter or radian
   ordered_json cells = ordered_json::array();
   for (const std::string& column : pose_columns_) {
     const int found = configurations.Find(column);

@@ -12,8 +12,8 @@ namespace trackbed {
 namespace {
 
 /// Converts a metric's description to the name shown on the page; exponents in units become
-/// superscripts, such as m/s² for m/s^2. If no metric is registered under `path`, the name is
-/// `path`.
+/// superscripts, such as m/s² for m/s^2. If no metric is registered under `path`, the shown name is
+/// `path` itself.
 ShownName Shown(const std::optional<MetricInfo>& info, const std::string& path) {
   if (!info) {
     return {path, ""};
@@ -50,7 +50,7 @@ ShownName NameOfOutput(const std::string& path) {
     const std::string plant = TakeWord(rest);
     ShownName name = NameOfMetric(rest);
     // A label that begins with "…", such as "… at station", continues the label of the row above.
-    // A label that needs the row above is replaced by the metric's path.
+    // Labels that continue the label of the row above are replaced by the metric's path.
     name.label = name.label.starts_with("…") ? rest : name.label;
     name.label += plant == "*" ? "" : fmt::format(" ({})", plant);
     return name;
@@ -77,7 +77,7 @@ ShownName NameOfOutput(const std::string& path) {
 }
 
 ShownName NameOfKey(const std::string& key) {
-  // The table of scenario keys has N in place of each list index.
+  // The table of scenario keys contains N in place of each list index.
   static const std::regex index(R"(\[\d+\])");
   const std::string listed = std::regex_replace(key, index, "[N]");
   for (const KeySection& section : ScenarioKeys()) {

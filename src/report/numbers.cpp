@@ -11,8 +11,9 @@
 namespace trackbed {
 namespace {
 
-/// Returns the indices of the first and the last row. The returned indices include the rows with
-/// the minimum and maximum of each column in each of `stretches` equal parts of the table.
+/// Returns the indices of the first and the last row of the table. The returned indices also
+/// contain the rows with the minimum and maximum of each column in each of `stretches` equal parts
+/// of the table.
 std::vector<std::size_t> ExtremeRows(const Table& table, std::size_t stretches) {
   std::set<std::size_t> rows{0, table.rows() - 1};
   for (std::size_t k = 0; k < stretches; ++k) {
@@ -60,8 +61,9 @@ std::vector<std::size_t> RowsToShow(const Table& table, std::size_t limit) {
     std::iota(all.begin(), all.end(), std::size_t{0});
     return all;
   }
-  // Doubles the number of parts until the number of rows would exceed the limit. The number of rows
-  // is not known in advance, because several columns often have their extremes in the same row.
+  // Doubles the number of parts of the table until the number of selected rows would exceed the
+  // limit. The number of selected rows is not known in advance, because several columns often have
+  // their extremes in the same row.
   std::vector<std::size_t> rows = ExtremeRows(table, 1);
   for (std::size_t stretches = 2; stretches < table.rows(); stretches *= 2) {
     std::vector<std::size_t> more = ExtremeRows(table, stretches);

@@ -14,16 +14,16 @@ namespace trackbed {
 /// six digits is invisible on a screen and makes the JSON shorter.
 double Rounded(double value);
 
-/// Returns the given rows of a column as a JSON array of rounded numbers.
+/// Returns the values of a table column in the given rows as a JSON array of rounded numbers.
 nlohmann::ordered_json RoundedColumn(const Table& table, const std::string& column,
                                      const std::vector<std::size_t>& rows);
 
-/// Selects rows of a table that preserve the shape of the curves of all columns. Selects all rows
-/// if the table has at most `limit` rows. Divides a table with more than `limit` rows into parts
-/// with equal numbers of rows. From a table with more than `limit` rows, selects the first and the
-/// last row, and the rows with the minimum and maximum of each column in each part of the table.
-/// Returns the selected rows in their order in the table. At most `limit` rows are selected, unless
-/// the two end rows and two rows per column exceed `limit`.
+/// Selects rows of a table that preserve the shape of the curves of all columns. If the table has
+/// at most `limit` rows, RowsToShow selects all of them. A larger table is divided into parts with
+/// equal numbers of rows. From such a larger table, RowsToShow selects the first and the last row,
+/// and the rows with each column's minimum and maximum in each part. Returns the indices of the
+/// selected rows in their order in the table. At most `limit` rows are selected, unless the two end
+/// rows and two rows per column exceed `limit`.
 std::vector<std::size_t> RowsToShow(const Table& table, std::size_t limit);
 
 }  // namespace trackbed

@@ -22,7 +22,8 @@ ordered_json OrNull(double number) {
   return std::isfinite(number) ? ordered_json(number) : ordered_json();
 }
 
-/// Converts a limit to JSON; the value 0 means unknown and becomes null.
+/// Converts a limit of the car to JSON; the value 0 means that the limit is unknown and becomes
+/// null.
 ordered_json LimitJson(double limit) {
   return limit > 0.0 ? OrNull(limit) : ordered_json();
 }
@@ -96,7 +97,7 @@ ordered_json PathCheckReport(const PathCheckTitle& title, const FittedPath& fitt
     columns[column] = RoundedColumn(table, column, rows);
   }
   json["demand"] = std::move(columns);
-  // Adds a line through the given points, thinned evenly.
+  // Adds a line through the given points to the map's data; the points are thinned evenly.
   const std::vector<Vec2>& points = fitted.given.points;
   const std::size_t step = std::max<std::size_t>(1, points.size() / kMaxDemands);
   ordered_json xs = ordered_json::array();

@@ -9,8 +9,9 @@
 
 namespace trackbed {
 
-/// Returns the path and value of each leaf of the JSON document `json`, in order. A path has the
-/// form used in expectations and studies, such as "turns[0].lateral_offset".
+/// Returns the path and value of each leaf (number, text, ...) of the JSON document `json`, in
+/// order. The path of a leaf has the form used in expectations and studies, such as
+/// "turns[0].lateral_offset".
 std::vector<std::pair<std::string, nlohmann::ordered_json>> LeafValues(
     const nlohmann::ordered_json& json);
 

@@ -34,7 +34,8 @@ void MakeReadable(ordered_json& json) {
 std::string Readable(const std::string& text) {
   using Utf8 = boost::locale::utf::utf_traits<char>;
   if (std::all_of(text.begin(), text.end(), IsPlain)) {
-    return text;  // fast path for plain text, because most long texts are embedded videos
+    return text;  // fast path for text that needs no replacement, because most long texts are
+                  // embedded videos
   }
   std::string readable;
   for (auto at = text.begin(); at != text.end();) {

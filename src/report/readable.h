@@ -13,8 +13,8 @@ namespace trackbed {
 /// UTF-8 sequence is replaced by U+FFFD.
 std::string Readable(const std::string& text);
 
-/// Applies Readable to all text values in `json`. JSON keys stay unchanged, because the page does
-/// not show them.
+/// Replaces invisible characters (Readable) in all text values in `json`. JSON keys stay unchanged,
+/// because the page does not show them.
 nlohmann::ordered_json WithReadableTexts(nlohmann::ordered_json json);
 
 }  // namespace trackbed

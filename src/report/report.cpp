@@ -23,8 +23,8 @@
 // an identification as JSON. A report page is a fixed text (page_text.h) with this JSON in a script
 // element; the JavaScript in page/ renders the data. All texts in the data pass through
 // WithReadableTexts, and '<' is escaped, so that data from untrusted files cannot become markup.
-// Videos are either linked or embedded as base64. The page is written atomically, after checking
-// that the run folders have not changed meanwhile.
+// Videos of runs are either linked or embedded as base64. The page is written atomically, after
+// checking that the run folders have not changed meanwhile.
 namespace trackbed {
 namespace {
 
@@ -36,7 +36,7 @@ constexpr std::size_t kMaxFilmBytes =
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Maximum number of rows of all logs together, which yields a page of about 1 MB.
+/// Maximum number of rows of all logs together on a page, which yields a page size of about 1 MB.
 constexpr std::size_t kRows = 7500;
 
 std::string Escaped(const std::string& text) {
@@ -47,8 +47,8 @@ std::string Escaped(const std::string& text) {
   return markup;
 }
 
-/// Serializes JSON for embedding in an HTML script element. Text in the JSON cannot end the script
-/// element.
+/// Serializes JSON for embedding in an HTML script element. No text in the returned JSON can end
+/// the script element.
 std::string ScriptJson(const ordered_json& json) {
   // Invalid UTF-8 is replaced here because the keys have not passed through Readable.
   const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
@@ -95,7 +95,7 @@ std::string PageTitle(const ordered_json& data) {
   return title;
 }
 
-/// Whether `path` is a study, but neither a run nor a comparison.
+/// Returns whether `path` is the folder or table of a study, but neither a run nor a comparison.
 bool IsStudyAlone(const fs::path& path) {
   return !IsRunFolder(path) && !HasComparison(path) && StudyTable(path);
 }

@@ -34,9 +34,10 @@
 #include "trackbed/track/track_file.h"
 
 // Reads the data of one run for a report page from the run folder: verdict and checks, world, plan,
-// logs and metrics of each plant, and the resolved scenario. The logs are thinned to a row limit
-// (RowsToShow). The data of the 3D scene (vehicle, motion, ground) is added if all plants have
-// state logs. Events and tyre forces are added last, because they need the compiled model.
+// logs and metrics of each plant, and the resolved scenario. The logs of a run are thinned to a row
+// limit (RowsToShow). The data of the 3D scene (vehicle, motion, ground) is added if all plants
+// have state logs. Events and tyre forces of a run are added last, because they need the compiled
+// model.
 namespace trackbed {
 namespace {
 
@@ -94,7 +95,7 @@ ordered_json PlanLine(const fs::path& file) {
 }
 
 /// Returns the plans adopted during the run, in the order of time, each with the time of adoption.
-/// The returned plans are thinned evenly to about 4000 points in total.
+/// The points of the returned plans are thinned evenly to about 4000 points in total.
 ordered_json NewPlans(const fs::path& file) {
   constexpr std::size_t kMaxPoints = 4000;
   const Table table = ReadCsvExcerpt(file, {"from_t_s", "x_m", "y_m"}).table;
@@ -143,7 +144,7 @@ ordered_json LogJson(const fs::path& file, std::size_t row_limit) {
   return json;
 }
 
-/// Returns how a run ended, as {status, t, s, cause}: status, time, station and cause.
+/// Returns the end of a run as {status, t, s, cause}: status, time, station on the path, and cause.
 ordered_json EndJson(const JsonValue& metrics) {
   ordered_json json{{"status", metrics.At("status").Text()}};
   for (const auto& [name, key] : {std::pair{"t", "status_t"}, std::pair{"s", "status_s"}}) {
@@ -235,7 +236,7 @@ ordered_json CarJson(const VehicleParams& car) {
           {"grip_acceleration", Rounded(car.friction_lateral * kGravity)}};
 }
 
-/// Returns the data of the plan: planning method, gates and path.
+/// Returns the data of a run's plan: planning method, gates and path.
 ordered_json PlanJson(const fs::path& folder) {
   const JsonValue file = ReadJson(folder / run_folder::kPlanJson);
   ordered_json plan{{"status", file.At("status").Text()}};
@@ -299,7 +300,7 @@ void AddScene(const fs::path& folder, const World& world, std::size_t row_limit,
   run["ground"] = GroundJson(world, low.x(), low.y(), high.x(), high.y());
 }
 
-/// Adds the data that needs the compiled model of the car.
+/// Adds the report data that can be computed only with the compiled model of the car.
 void AddCar(const fs::path& folder, const World& world, std::size_t row_limit, ordered_json& run) {
   const fs::path model = folder / run_folder::kModelXml;
   const CarModel car(ComposeScene(run_folder::RequireFile(model), {}), model.string());

@@ -10,7 +10,7 @@ namespace trackbed {
 /// Returns the name of the column of a plant's log file that is called `name` in the page's data.
 const char* ColumnOfChannel(const std::string& name);
 
-/// Whether the folder contains a finished run.
+/// Returns whether the folder contains the files of a finished run.
 bool IsRunFolder(const std::filesystem::path& folder);
 
 /// Returns the data of one run, with at most `row_limit` rows per log. `name` is the name of the

@@ -70,7 +70,7 @@ ordered_json ChannelJson(const std::vector<double>& values) {
   if (values.empty() || *high - *low > kSteps * kFine) {
     return FloatsJson(values);
   }
-  // If all values of the channel are equal, the scale and all integers are 0.
+  // If all values of a channel are equal, the scale and all integers of its encoding are 0.
   const double scale = (*high - *low) / kSteps;
   const double middle = 0.5 * (*high + *low);
   std::string bytes;
@@ -184,7 +184,7 @@ ordered_json GroundJson(const World& world, double low_x, double low_y, double h
   if (IsFlat(world.ground)) {
     return nullptr;
   }
-  constexpr double kMargin = 60.0;  // width of the visible ground around the run [m]
+  constexpr double kMargin = 60.0;  // width of the visible ground around the driven paths [m]
   constexpr double kMaxGridLines = 160.0;
   const double span = std::max(high_x - low_x, high_y - low_y) + 2.0 * kMargin;
   const double step = std::max(1.0, span / kMaxGridLines);

@@ -30,8 +30,8 @@ std::optional<std::size_t> FindColumn(const TextTable& table, const std::string&
              : std::optional(static_cast<std::size_t>(found - table.columns().begin()));
 }
 
-/// Divides the range of a search key into equal intervals. On a logarithmic range, the ratio of
-/// upper to lower end is the same for all intervals.
+/// Divides the range of a search key into equal intervals. If the range is logarithmic, the ratio
+/// of upper to lower end is the same for all intervals.
 class Intervals {
  public:
   explicit Intervals(const JsonValue& distribution)
@@ -58,7 +58,8 @@ class Intervals {
                          : kind_ == "integer"   ? (value - from_ + 0.5) / (to_ - from_ + 1.0)
                                                 : (value - from_) / (to_ - from_);
     const double interval = std::floor(place * static_cast<double>(count_));
-    // Values that are below the range or have no logarithm are counted in the first interval.
+    // Values of the key that are below the range or have no logarithm are counted in the first
+    // interval.
     return interval > 0.0
                ? static_cast<std::size_t>(std::min(interval, static_cast<double>(count_ - 1)))
                : 0;
@@ -118,8 +119,8 @@ ordered_json BestSoFar(const Runs& runs, std::size_t searched) {
 }
 
 /// Converts the entry of a key in `margins` of falsify.json for the page. The result contains the
-/// range, as a pair, in which the run passes if only this key is varied. If no run passes on one
-/// side of the nominal value, the range ends at the nominal value.
+/// range of the key's values, as a pair, in which the run passes if only this key is varied. If no
+/// run passes on one side of the nominal value, the passing range ends at the nominal value.
 ordered_json MarginJson(const JsonValue& margin) {
   const auto number = [&](const char* name) -> ordered_json {
     const std::optional<JsonValue> value = margin.Find(name);

@@ -44,7 +44,8 @@ ordered_json StudyDescription(const fs::path& table) {
   }
   const JsonValue json = ReadJson(file);
   const bool complete = json.At("complete").Flag();
-  // The index of a row in the table equals its row number in the study only if no rows are missing.
+  // The index of a row in the table equals its row number in the study only if the table has all
+  // rows of the study.
   const bool has_all = complete && !json.Find("shard");
   const auto text_of = [](const std::optional<JsonValue>& text) {
     return text ? text->Text() : std::string();
@@ -141,7 +142,7 @@ ordered_json StudyData(const fs::path& file, const std::optional<fs::path>& befo
   }
   if (ordered_json search = SearchData(file, table); !search.is_null()) {
     study["search"] = std::move(search);
-    // no statistics, because the runs of a search are concentrated on the worst region and are not
+    // a search has no statistics, because its runs are concentrated on the worst region and are not
     // a random sample
     study["statistics"] = nullptr;
   } else {
@@ -149,7 +150,8 @@ ordered_json StudyData(const fs::path& file, const std::optional<fs::path>& befo
   }
   if (before) {
     const TextTable other = ReadStudyTable(*before);
-    ColumnsJson(other, before->string());  // throws if the table is not the table of a study
+    ColumnsJson(other, before->string());  // throws InputError if the table is not the table of a
+                                           // study
     study["difference"] = StudyDifference(other, before->string(), table, file.string());
     study["difference"]["before"] =
         before->parent_path().filename() != "" ? before->parent_path().string() : before->string();

@@ -12,7 +12,8 @@ namespace trackbed {
 std::optional<std::filesystem::path> StudyTable(const std::filesystem::path& path);
 
 /// Returns the data of a study and, if `before` is given, its differences from the study `before`.
-/// Throws InputError if a file is not the table of a sweep. Throws the errors of StudyDifference.
+/// Throws InputError if a file is not the table of a sweep. If `before` is given, also throws the
+/// errors of StudyDifference.
 nlohmann::ordered_json StudyData(const std::filesystem::path& table,
                                  const std::optional<std::filesystem::path>& before = {});
 

@@ -8,7 +8,7 @@
 namespace trackbed {
 
 /// Computes how the pass rate and each common output differ between two studies, before and after a
-/// change. Rows with equal settings are paired (ComparePairs).
+/// change. Rows of both studies with equal settings are compared as pairs (ComparePairs).
 ///
 /// Throws InputError naming the files if the studies vary different keys, have equal settings in
 /// several rows, or have no row in common.

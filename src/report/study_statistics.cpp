@@ -14,8 +14,8 @@
 // Computes the statistics of a study for its page (statistics.h): the pass rate, and statistics of
 // each output. The statistics of an output are its quantiles, its distribution function, and its
 // first-order sensitivity to each varied parameter. The statistics of an output also include its
-// mean in each class of a parameter, and its rank correlations with other outputs. Only rows with a
-// result enter the statistics; outputs with fewer than 20 values are omitted. For large studies,
+// mean in each class of a parameter, and its rank correlations with other outputs. The statistics
+// use only rows with a result, and omit outputs with fewer than 20 values. For large studies,
 // StudyRowsToShow selects evenly spaced rows, plus the rows with the ten lowest and ten highest
 // values of each output.
 namespace trackbed {
@@ -134,7 +134,8 @@ class StudyAnalysis {
   }
 
  private:
-  /// Computes the rank correlation of each pair of outputs, over the rows that have both outputs.
+  /// Computes the rank correlation of each pair of outputs, over the study rows that have values of
+  /// both outputs.
   [[nodiscard]] ordered_json Correlations() const {
     ordered_json json = ordered_json::array();
     const std::size_t count = std::min(columns_.outputs.size(), kMaxCorrelatedOutputs);
@@ -250,7 +251,8 @@ class StudyAnalysis {
 
   const TextTable& table_;
   StudyColumns columns_;
-  Sample passed_;                    // For each row with a result: 1 if the row passed, else 0.
+  Sample passed_;                    // For each row of the study with a result: 1 if the run
+                                     // passed, else 0.
   std::vector<std::size_t> varied_;  // Indices of the columns of the varied parameters.
 };
 

@@ -9,13 +9,13 @@ namespace {
 constexpr double kTimeTolerance = 1e-9;  // [s]
 
 /// Returns for each sample the minimum or the maximum of the values in the sample's window. The
-/// strict order `precedes` decides between minimum and maximum.
+/// strict order `precedes` determines whether the minimum or the maximum is computed.
 template <typename Precedes>
 Degrees SlidingExtreme(const Degrees& values, const Windows& windows, const Degree& of_none,
                        const Precedes& precedes) {
   Degrees extremes(values.size());
-  // Indices of those samples in the window that are more extreme than all later samples in the
-  // window.
+  // Indices of the samples in the time window whose values are more extreme than those of all later
+  // samples in the window.
   std::deque<std::uint32_t> wedge;
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {

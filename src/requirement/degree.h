@@ -12,21 +12,22 @@ struct Degree {
   static constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max();
 
   double value = 0.0;
-  std::uint32_t row = kNoRow;  ///< index of the sample at which a comparison determines `value`
+  std::uint32_t row = kNoRow;  ///< index of the sample at which a comparison in the formula has
+                               ///< determined `value`
   bool satisfied = false;
 };
 
 using Degrees = std::vector<Degree>;
 
-/// Degrees of a condition that always holds and of one that never holds. A time window without
-/// samples has the minimum kTrue and the maximum kFalse.
+/// Degrees of a condition that always holds (kTrue) and of a condition that never holds (kFalse).
+/// Over a time window without samples, the minimum of degrees is kTrue and the maximum is kFalse.
 inline constexpr Degree kTrue{.value = std::numeric_limits<double>::infinity(), .satisfied = true};
 inline constexpr Degree kFalse{.value = -std::numeric_limits<double>::infinity()};
 
-/// Returns whether degree a is less than degree b. If both robustness values are equal, the degree
-/// of a violated condition is less than the degree of a satisfied condition. The minimum of two
-/// degrees is therefore satisfied if both degrees are satisfied, and the maximum is satisfied if at
-/// least one degree is satisfied.
+/// Returns whether the degree of satisfaction a is less than the degree b. Of two degrees with
+/// equal robustness values, that of a violated condition is less than that of a satisfied
+/// condition. With this order, the minimum of two degrees is satisfied if both degrees are, and the
+/// maximum is satisfied if at least one degree is.
 inline bool IsLess(const Degree& a, const Degree& b) {
   return a.value != b.value ? a.value < b.value : !a.satisfied && b.satisfied;
 }
@@ -42,7 +43,7 @@ inline Degree Max(const Degree& a, const Degree& b) {
 }
 
 /// Time windows, one per sample: the window of sample i contains the samples from begin[i] to
-/// end[i] (exclusive). The lists `begin` and `end` are non-decreasing.
+/// end[i] (exclusive). The lists `begin` and `end` of sample indices are non-decreasing.
 struct Windows {
   std::vector<std::uint32_t> begin;
   std::vector<std::uint32_t> end;
@@ -50,7 +51,7 @@ struct Windows {
 
 /// Finds for each sample the window of samples that lie `from` to `to` seconds later, including
 /// both ends, with a tolerance of 1 ns. The time window of a sample never begins before the sample
-/// itself. The argument `times` must be in ascending order.
+/// itself. The argument `times` (sample times) must be in ascending order.
 Windows FindWindows(const std::vector<double>& times, double from, double to);
 
 /// Compute the minimum or maximum over the window of each sample, by Lemire's monotonic wedge
@@ -60,10 +61,11 @@ Degrees SlidingMin(const Degrees& values, const Windows& windows);
 Degrees SlidingMax(const Degrees& values, const Windows& windows);
 
 /// Computes for each sample the degree of "phi until[from, to] psi", in a time proportional to the
-/// number of samples (Donzé, Ferrère and Maler 2013). The degree of "until" is the minimum of the
-/// degrees of three conditions. Condition 1: psi holds at some sample of the window. Condition 2:
-/// phi holds from the sample to the beginning of the window. Condition 3: "phi until psi" holds at
-/// the beginning of the window.
+/// number of samples (Donzé, Ferrère and Maler 2013). The degree of "phi until psi" at a sample is
+/// the minimum of the degrees of three conditions. Condition 1 of "until": psi holds at some sample
+/// of the time window. Condition 2 of "until": phi holds from the sample to the beginning of the
+/// time window. Condition 3 of "until": "phi until psi" without time bounds holds at the beginning
+/// of the time window.
 Degrees Until(const Degrees& phi, const Degrees& psi, const Windows& windows);
 
 }  // namespace trackbed

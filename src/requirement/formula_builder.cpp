@@ -44,8 +44,8 @@ bool GivesNumber(FormulaOperation operation) {
   return operation < FormulaOperation::kLess;
 }
 
-/// Returns the name or number at the beginning of a text. If the text begins with neither a name
-/// nor a number, returns the first character.
+/// Returns the name or number at the beginning of a formula's text. If the text begins with neither
+/// a name nor a number, returns its first character.
 std::string_view FirstWord(std::string_view text) {
   const auto in_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.'; };
   const auto is_continuation = [](unsigned char c) { return (c & 0xC0U) == 0x80U; };
@@ -60,7 +60,7 @@ std::string_view FirstWord(std::string_view text) {
   return text.substr(0, length);
 }
 
-/// Returns a part of a formula in quotes, shortened if the part is long.
+/// Returns a part of a formula's text in quotes, shortened if it is long.
 std::string Quoted(std::string_view part) {
   constexpr std::size_t kMaxQuotedLength = 60;
   return part.size() <= kMaxQuotedLength ? fmt::format("'{}'", part)

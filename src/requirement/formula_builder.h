@@ -8,12 +8,13 @@
 namespace trackbed {
 
 /// Builds a formula while the parser reads the text of the formula. Checks that each operand of an
-/// operation is of the required kind, a condition or a number. Throws InputError with the column of
-/// the error in the text.
+/// operation is of the required kind, a condition or a number. If a formula has an error, throws
+/// InputError with the error's column in the text.
 class FormulaBuilder {
  public:
   /// The argument `text` is the text of the whole formula and must outlive the FormulaBuilder.
-  /// Texts passed to the other member functions must be substrings of `text`.
+  /// Texts passed to the member functions of FormulaBuilder must be substrings of the formula
+  /// `text`.
   FormulaBuilder(std::string_view text, const std::vector<std::string>& allowed)
       : text_(text), allowed_(allowed) {}
 

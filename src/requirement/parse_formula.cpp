@@ -5,10 +5,10 @@
 #include <boost/spirit/home/x3.hpp>
 #include <functional>
 
-// Defines the grammar of formulas. Wherever several grammar rules are possible, the next word
-// determines the rule, so the parser never parses a text twice. Every recursive rule first calls
-// FormulaBuilder::Open or OpenParenthesis, which limit the nesting depth. An error message names
-// the grammar rule that was expected.
+// Defines the grammar of requirement formulas. Wherever several grammar rules are possible, the
+// next word determines the rule, so the parser never parses a text twice. Every recursive grammar
+// rule first calls FormulaBuilder::Open or OpenParenthesis, which limit the nesting depth. An error
+// message names the grammar rule that was expected.
 namespace trackbed {
 namespace formula_grammar {
 namespace {

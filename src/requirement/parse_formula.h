@@ -6,8 +6,8 @@
 
 namespace trackbed {
 
-/// Parses the text of a formula and passes its parts to a FormulaBuilder. Throws InputError for a
-/// syntax error, or if the builder throws InputError.
+/// Parses the text of a formula and passes its parts to a FormulaBuilder. ParseFormula throws
+/// InputError for a syntax error in the formula, or if the builder throws InputError.
 void ParseFormula(std::string_view text, FormulaBuilder& builder);
 
 }  // namespace trackbed

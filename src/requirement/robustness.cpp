@@ -127,7 +127,8 @@ class Evaluation {
         return Reduce(numbers_, [](double a, double b) { return a * b; });
       case FormulaOperation::kDivide:
         return Reduce(numbers_, [](double a, double b) { return a / b; });
-      case FormulaOperation::kMin:  // do not use std::min, because std::min may ignore a NaN
+      case FormulaOperation::kMin:  // std::min is not used, because it may ignore a NaN (not a
+                                    // number)
         return Reduce(numbers_, [](double a, double b) { return std::isnan(a) || a < b ? a : b; });
       case FormulaOperation::kMax:
         return Reduce(numbers_, [](double a, double b) { return std::isnan(a) || a > b ? a : b; });

@@ -35,8 +35,8 @@ class Exits {
   }
 
  private:
-  /// Adds a part of the network if the reader left the part out. Returns whether the part was left
-  /// out.
+  /// Lists a part of the network in `found_` if the reader left the part out. Returns whether the
+  /// part was left out.
   bool AddBroken(const std::string& part) {
     const auto broken = network_.broken.find(part);
     if (broken != network_.broken.end()) {

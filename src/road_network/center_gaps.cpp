@@ -5,13 +5,14 @@
 #include <cmath>
 
 // Adds smooth moves w(s) C to a path p(s), where C is a constant vector in the plane and w a
-// quintic polynomial that rises from 0 to 1. Heading and curvature of the moved path p + w C follow
-// from its first and second derivatives, so the moved path is as smooth as the path p.
+// quintic polynomial that rises from 0 to 1. The first and second derivatives of the moved path p +
+// w C determine its heading and curvature, so the moved path is as smooth as the path p.
 
 namespace trackbed {
 namespace {
 
-/// A move of the path by `offset`, between the stations `from` and `from + length`.
+/// A smooth displacement of the path by the vector `offset`, between the stations `from` and `from
+/// + length`.
 struct Move {
   double from = 0.0;
   double length = 0.0;
@@ -41,8 +42,8 @@ MoveRate RateAt(const std::vector<Move>& moves, double s) {
   return rate;
 }
 
-/// Returns the moves that bring the path back to the points of the lane centers. The moves are
-/// ordered by the station of the point at which the path deviates.
+/// Returns the moves (smooth displacements) that bring the path back to the points of the lane
+/// centers. The moves are ordered by the station of the point at which the path deviates.
 std::vector<Move> NeededMoves(const Path& path, const std::vector<Piece>& runs) {
   std::vector<Move> moves;
   Vec2 moved(0.0, 0.0);
@@ -80,8 +81,10 @@ CurvePoint Moved(const CurvePoint& point, const MoveRate& rate) {
 }  // namespace
 
 double ClosingLength(double offset) {
-  constexpr double kCurvature = 1e-3;             // Largest curvature that a move adds [1/m].
-  const double steepest = 10.0 / std::sqrt(3.0);  // Largest w'' of a move of length 1.
+  constexpr double kCurvature = 1e-3;             // Largest curvature that a move adds to the path
+                                                  // [1/m].
+  const double steepest = 10.0 / std::sqrt(3.0);  // Largest second derivative of the blending
+                                                  // polynomial w for a move of length 1.
   return std::sqrt(steepest * offset / kCurvature);
 }
 
@@ -96,7 +99,7 @@ bool CloseGaps(const Path& path, std::vector<Piece>& runs) {
   std::stable_sort(by_start.begin(), by_start.end(),
                    [](const Move& a, const Move& b) { return a.from < b.from; });
   std::vector<Move> active;
-  Vec2 done(0.0, 0.0);  // Sum of the path moves that end before the current point.
+  Vec2 done(0.0, 0.0);  // Sum of the offsets of all path moves that end before the current point.
   auto next = by_start.begin();
   double before = 0.0;
   double distance = 0.0;

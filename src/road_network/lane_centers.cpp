@@ -13,27 +13,30 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/geometry/pose.h"
 
-// Joins the centers of a route's lanes to a path. The center line of a lane is the reference line
-// of the road plus a lateral offset. The offset of a lane center is measured across the road's
-// surface and projected to the plane. In a lane change, a quintic polynomial blends the offsets of
-// the two lanes. The algorithm splits the lane centers into pieces, at the stations where one
-// polynomial of the OpenDRIVE file ends and the next polynomial begins. Each piece is sampled at
-// points with exact heading and curvature. Kinks of at most 0.2 rad are rounded over 0.5 m on
-// either side, and negligible steps of curvature become ramps. The path through the pieces then
-// returns to the lane centers after each gap (center_gaps.h). The algorithm rejects a route whose
-// lane centers have larger gaps or kinks, and a path that deviates too far from the lane centers.
+// Joins the center lines of a route's lanes to a path. The center line of a lane is the reference
+// line of the road plus a lateral offset. The lateral offset of a lane center is measured across
+// the road's surface and projected to the horizontal plane. In a lane change, a quintic polynomial
+// blends the offsets of the two lanes. The algorithm splits the lane centers into pieces, at the
+// stations where one polynomial of the OpenDRIVE file ends and the next polynomial begins. Each
+// piece of a lane center is sampled at points with exact heading and curvature. Kinks of at most
+// 0.2 rad are rounded over 0.5 m on either side, and negligible steps of curvature become linear
+// changes of curvature. The path through the pieces then returns to the lane centers after each gap
+// (center_gaps.h). The algorithm rejects a route whose lane centers have larger gaps or kinks, and
+// a path that deviates too far from the lane centers.
 
 namespace trackbed {
 namespace {
 
 // Largest distance between consecutive points of the lane centers, which path segments connect [m].
 constexpr double kSpacing = 0.25;
-constexpr double kKink = 1e-6;    // Largest kink that is not rounded [rad].
-constexpr double kMaxKink = 0.2;  // Largest kink that is rounded [rad].
-// Largest step of curvature that is rounded in the same way as a kink [1/m]. Rounding the largest
-// step moves the line by 1e-3/24 m, which is 0.04 mm. Curvature steps up to 1e-3 1/m are caused by
-// joints of superelevation or elevation polynomials, and by rounded numbers in a file. Without
-// rounding, a planner would reserve time for turning the wheels at each step of the curvature.
+constexpr double kKink = 1e-6;    // Largest kink of the lane centers that is not rounded [rad].
+constexpr double kMaxKink = 0.2;  // Largest kink of the lane centers that is rounded; larger kinks
+                                  // are rejected [rad].
+// Largest step of curvature that is rounded in the same way as a kink [1/m]. Rounding such a
+// curvature step moves the center line by at most 1e-3/24 m, which is 0.04 mm. Curvature steps up
+// to 1e-3 1/m are caused by joints of superelevation or elevation polynomials, and by rounded
+// numbers in a file. Without rounding, a planner would reserve time for turning the wheels at each
+// step of the curvature.
 constexpr double kCurvatureStep = 1e-3;
 // Largest change of the curvature that counts as 0 [1/m]. Along 100 km, a curvature of 1e-9 1/m
 // changes the heading by 1e-4 rad.
@@ -44,8 +47,8 @@ constexpr double kRounding = 0.5;
 constexpr double kLongestRounding = 2.0 * (kRounding + kSpacing);
 constexpr double kMaxDeviation = 0.05;  // [m]
 // Largest curvature of a lane center [1/m], and largest turn between consecutive points [rad]. The
-// heading along the segment between two points (SegmentsThrough) changes by at most eleven times
-// the largest turn, 5500 rad, which a Path can integrate.
+// heading along a segment between two points (SegmentsThrough) changes by at most eleven times this
+// turn, which is 5500 rad. A Path can still integrate this heading change.
 constexpr double kMaxBend = 500.0;
 constexpr double kMaxLength = 2e5;  // Largest length of a route's lane centers [m].
 
@@ -65,8 +68,8 @@ struct RoadStretch {
       return a;
     }
     const CubicValue b = LaneBordersAt(road, section, stretch.to_lane, s, piece_of).Center();
-    // Blend the offsets with a quintic polynomial w that rises from 0 to 1, with zero slope and
-    // curvature at both ends.
+    // Blend the offsets of both lanes with a quintic polynomial w that rises from 0 to 1, with zero
+    // first and second derivatives at both ends.
     const double scale = 1.0 / (stretch.to - stretch.from);
     const double q = std::clamp((s - stretch.from) * scale, 0.0, 1.0);
     const double w = q * q * q * (10.0 + q * (-15.0 + 6.0 * q));
@@ -79,7 +82,7 @@ struct RoadStretch {
   }
 };
 
-/// Whether the superelevation moves the lanes sideways.
+/// Whether the superelevation of the road moves the lanes sideways.
 bool IsBanked(const Road& road) {
   const auto& pieces = road.superelevation.pieces();
   return std::any_of(pieces.begin(), pieces.end(), [](const auto& piece) {
@@ -129,8 +132,9 @@ SurfaceLine StateAt(const RoadStretch& own, double s, double piece_of) {
 }
 
 /// Returns an error message if a lane center lies beyond the road's center of curvature
-/// (SurfaceLine::folded). Also returns an error message if the lane center turns too much between
-/// two points that are `step` apart. Returns "" if the lane center is valid.
+/// (SurfaceLine::folded). Also returns an error message if the heading of the lane center changes
+/// too much between two points that are `step` apart. Returns "" if the lane center has no such
+/// error.
 std::string ShapeProblem(const SurfaceLine& before, const SurfaceLine& state, double step) {
   if (state.folded) {
     return "lies beyond the road's center of curvature";
@@ -198,7 +202,7 @@ std::string Place(const Piece& piece) {
                      piece.front().position.y());
 }
 
-/// Counts the gaps of more than kKeptOffset, and keeps the largest one.
+/// Counts the gaps larger than kKeptOffset between lane centers, and stores the largest gap.
 class Gaps {
  public:
   /// Adds a gap of `size` [m]; `place` names its position in the note.
@@ -213,7 +217,7 @@ class Gaps {
     }
   }
   /// Returns a note that states the number of gaps, and size and place of the largest gap. Returns
-  /// an empty text if there are no gaps.
+  /// an empty text if the lane centers have no gaps.
   [[nodiscard]] std::string Note() const {
     if (count_ == 0) {
       return "";
@@ -233,8 +237,8 @@ class Gaps {
 /// pieces are rounded.
 class Joiner {
  public:
-  /// Adds a piece of a lane center to the end of the joined line. If the piece cannot be joined,
-  /// Add returns the reason, otherwise an empty text.
+  /// Adds a piece of a lane center to the end of the joined line. If the piece cannot be joined to
+  /// the line, Add returns the reason, otherwise an empty text.
   std::string Add(Piece piece) {
     if (runs_.empty()) {
       runs_.push_back(std::move(piece));
@@ -276,13 +280,14 @@ class Joiner {
     while (first + 1 != piece.end() && first->curve.s < end.s + kRounding) {
       ++first;
     }
-    // Keep the segment across the joint short, so that the segment also follows pieces that are
-    // shorter than the rounding.
+    // Keep the path segment across the joint of two pieces short, so that it also follows pieces
+    // that are shorter than the rounding.
     while (before.size() > 1 && before.back().curve.s > end.s - kRounding &&
            first->curve.s - before[before.size() - 2].curve.s <= kLongestRounding) {
       before.pop_back();
     }
-    // A gap or overlap along the line changes the length of the segment across the joint.
+    // A gap or overlap along the center line changes the length of the path segment across the
+    // joint.
     const double middle = end.yaw + 0.5 * kink;
     const double along = gap_vector.dot(Vec2(std::cos(middle), std::sin(middle)));
     const double change = std::max(along, -0.5 * (first->curve.s - before.back().curve.s));
@@ -295,9 +300,9 @@ class Joiner {
 
   /// Builds the path, which follows the lane centers also beyond gaps and kinks.
   [[nodiscard]] Path Join() {
-    // In the first pass, CloseGaps moves the path back to the lane centers. Later passes correct
-    // the error of the path segments through the moved points. The error after a pass is less than
-    // a tenth of the move in this pass.
+    // In the first pass, CloseGaps moves the path back to the lane centers. Later passes of
+    // CloseGaps correct the error of the path segments through the moved points. The remaining
+    // error after a pass is less than a tenth of the path's displacement in this pass.
     constexpr int kPasses = 4;
     Path path = Through();
     for (int i = 0; i < kPasses && CloseGaps(path, runs_); ++i) {
@@ -346,7 +351,7 @@ class Joiner {
 double Deviation(const Path& path, const std::vector<Piece>& pieces) {
   double worst = 0.0;
   double station = 0.0;
-  double ahead = 0.0;  // Length that gaps have added to the path so far [m].
+  double ahead = 0.0;  // Length that gaps between pieces have added to the path so far [m].
   for (const Piece& piece : pieces) {
     for (const CenterPoint& point : piece) {
       const auto at = [&] {

@@ -16,7 +16,8 @@ struct JoinedPath {
   /// Message that explains why the lane centers cannot be joined; empty on success.
   std::string failure;
   Path path;
-  std::string note;        ///< Note on the gaps that the path closes; empty without gaps.
+  std::string note;        ///< Note for the user on the gaps that the path closes; empty without
+                           ///< gaps.
   double deviation = 0.0;  ///< Largest distance of the path from the lane centers [m].
 };
 

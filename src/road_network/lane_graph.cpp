@@ -60,7 +60,7 @@ void LaneGraph::AddJunction(std::size_t index, const std::string& id) {
       continue;
     }
     // If both ends of a road are connected to the same junction, the sign of the lane's number
-    // tells at which end the car leaves the road.
+    // determines at which end of the road the car leaves it.
     for (const auto& [from, to] : connection.lane_links) {
       if (from == node.lane) {
         AddLink(index, road->second, connection.contact, to);

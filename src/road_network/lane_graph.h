@@ -28,23 +28,24 @@ class LaneGraph {
  public:
   explicit LaneGraph(const RoadNetwork& network);
 
-  /// Returns the node of a lane; none if the lane is not drivable.
+  /// Returns the index of a lane's node; nullopt if the lane is not drivable.
   [[nodiscard]] std::optional<std::size_t> Find(const Road& road, std::size_t section,
                                                 int lane) const;
   [[nodiscard]] const LaneNode& node(std::size_t index) const { return nodes_[index]; }
 
   /// Returns the shortest path in driving direction from the end of one lane to the start of
-  /// another lane. The returned path contains the first and the last lane. If `from` and `to` are
-  /// the same lane, the path is a loop. Returns an empty path if the target lane cannot be reached.
-  /// The computing time is O(n log n) for n lanes.
+  /// another lane. The returned path of lanes contains the lanes `from` and `to`. If `from` and
+  /// `to` are the same lane, the path is a loop. Returns an empty path if the target lane cannot be
+  /// reached. The computing time is O(n log n) for n lanes.
   [[nodiscard]] std::vector<std::size_t> ShortestWay(std::size_t from, std::size_t to) const;
 
-  /// Returns at most three texts for messages: the broken parts of the file at which the paths from
-  /// a lane end. Broken parts are links to roads, junctions or lanes that are missing or left out.
+  /// Returns texts for error messages on at most three broken parts of the file at which the paths
+  /// that begin at the lane `from` end. Broken parts are links to roads, junctions or lanes that
+  /// are missing or left out.
   [[nodiscard]] std::vector<std::string> BrokenPartsFrom(std::size_t from) const;
 
  private:
-  /// Each link has a weight, which is the length of the lane where the link begins [m].
+  /// Each link of the lane graph has as weight the length of the lane where the link begins [m].
   using Graph =
       boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property,
                             boost::property<boost::edge_weight_t, double>>;
@@ -59,9 +60,9 @@ class LaneGraph {
   const RoadNetwork& network_;
   // All lanes of the graph, grouped by road and ordered by section and lane.
   std::vector<LaneNode> nodes_;
-  // For each road, the index of its first node.
+  // For each road, the index of its first node in the list of all nodes.
   std::map<std::string, std::size_t, std::less<>> first_;
-  // For each road, the index after its last node.
+  // For each road, the index after its last node in the list of all nodes.
   std::map<std::string, std::size_t, std::less<>> last_;
   Graph links_;
 };

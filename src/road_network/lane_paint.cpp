@@ -25,7 +25,7 @@ BoundEnds EndsOf(const Vec2& first, const Vec2& last) {
 
 /// Adds the dashes of a broken line.
 void AddDashes(const std::vector<Vec2>& line, std::vector<PaintedLine>& lines) {
-  double from = 0.0;  // Station of the segment's first point.
+  double from = 0.0;  // Station of the first point of a line segment.
   PaintedLine dash{.points = {}, .width = kWidth};
   const auto finish = [&] {
     if (dash.points.size() > 1) {
@@ -49,7 +49,8 @@ void AddDashes(const std::vector<Vec2>& line, std::vector<PaintedLine>& lines) {
       } else {
         finish();
       }
-      s = next > s ? next : length;  // the loop must progress despite rounding
+      s = next > s ? next : length;  // the loop over the dashes must progress despite rounding
+                                     // errors
     }
     from += length;
   }
@@ -70,7 +71,7 @@ RoadPaint PaintLanes(const DrawnLanes& lanes) {
     for (const std::vector<Vec2>* bound : {&lane.left, &lane.right}) {
       const BoundEnds ends = EndsOf(bound->front(), bound->back());
       if (bounds.count(EndsOf(bound->back(), bound->front())) > 0) {
-        continue;  // a lane of the opposite direction has already added this bound
+        continue;  // a lane of the opposite direction has already added this lane boundary
       }
       const auto [own, is_new] = bounds.emplace(ends, Bound{bound, false});
       own->second.is_broken = !is_new;

@@ -27,7 +27,7 @@ void ReadLaneLinks(const XmlFields& fields, Lane& lane) {
 
 void ReadRoadMarks(const XmlFields& fields, Lane& lane) {
   ForEachChild(&fields.element(), "roadMark", [&](const XMLElement& element, std::size_t index) {
-    // A wrong road mark is only noted, because no car needs road marks.
+    // An invalid road mark is reported only as a note, because no car needs road marks.
     XmlProblems own(fields.problems().file());
     const XmlFields mark(element, fmt::format("{}.roadMark[{}]", fields.where(), index), own);
     double s = mark.Number("sOffset", {-1e6, 1e6});

@@ -7,8 +7,8 @@
 
 namespace trackbed {
 
-/// Reads the lane sections of a road from the elements <laneSection> of <lanes>. Adds to
-/// `unread_heights` the definitions of heights that Trackbed ignores.
+/// Reads the lane sections of a road from the elements <laneSection> of <lanes>. Adds the lane
+/// height definitions that Trackbed ignores to `unread_heights`.
 std::vector<LaneSection> ReadLaneSections(const XmlFields& lanes, const Road& road,
                                           std::vector<std::string>& unread_heights);
 

@@ -23,7 +23,7 @@ std::string Named(const LanePlace& place) {
   return fmt::format("lane {} of road {} at s = {:.4g} m", place.lane, place.road, place.s);
 }
 
-/// Road, lane section and lane graph node in which a place of a route lies.
+/// The road, the lane section and the node of the lane graph in which a place of a route lies.
 struct Found {
   const Road* road;
   std::size_t section;
@@ -63,8 +63,8 @@ Found FindPlace(const RoadNetwork& network, const LaneGraph& graph, const LanePl
   return {&road, section, graph.Find(road, section, place.lane).value()};
 }
 
-/// Adds the stretches between two places of a route. If no path connects the two places, returns an
-/// error message, otherwise an empty text.
+/// Adds the stretches of lanes between two places of a route. If no path connects the two places,
+/// returns an error message, otherwise an empty text.
 std::string Connect(const LaneGraph& graph, const LanePlace& a, const Found& from,
                     const LanePlace& b, const Found& to, Stretches& stretches) {
   const LaneNode& node = graph.node(from.node);
@@ -102,8 +102,9 @@ Pose2 PoseAt(const RoadNetwork& network, const LanePlace& place) {
   const Road& road = network.roads.find(place.road)->second;
   const bool follows = FollowsRoad(road, place.lane);
   const std::size_t section = road.SectionAt(place.s);
-  // The first pose of a route is computed from the polynomials beyond merged joints. If the route
-  // begins less than 1 cm before a kink, the first pose therefore has the heading beyond the kink.
+  // The first pose of a route is computed from the road polynomials beyond joints that are merged
+  // (kMergedJoints). If the route begins less than 1 cm before a kink, its first pose therefore has
+  // the heading after the kink.
   const double beyond = std::clamp(place.s + (follows ? 2.0 : -2.0) * kMergedJoints,
                                    road.sections[section].s, road.SectionEnd(section));
   const double piece_of = 0.5 * (place.s + beyond);

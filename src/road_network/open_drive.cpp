@@ -19,12 +19,12 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Largest number of XML elements in an OpenDRIVE file. A document with more than 4 million
+/// Largest number of XML elements in an OpenDRIVE file. An XML document with more than 4 million
 /// elements would take gigabytes of memory.
 constexpr std::ptrdiff_t kMaxElements = 4000000;
 
-/// Refuses files of OpenDRIVE whose major version is not 1. A missing header or version is a flaw,
-/// and the roads are read as roads of OpenDRIVE 1.4 to 1.7.
+/// Rejects OpenDRIVE files whose major version is not 1. A missing header or version is only noted
+/// as a flaw, and the roads are read as roads of OpenDRIVE 1.4 to 1.7.
 void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& problems) {
   XmlProblems flaws(problems.file());
   const XmlFields fields(root, "OpenDRIVE", flaws);
@@ -48,8 +48,8 @@ void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& pro
   }
 }
 
-/// Reads the offset of the header. A wrong header offset does not make the roads unusable, so a
-/// wrong offset counts as missing.
+/// Reads the coordinate offset in the header of the file. An invalid header offset does not make
+/// the roads unusable, so it is treated as missing.
 void ReadOffset(const XMLElement& root, OpenDriveFile& file) {
   XmlProblems ignored("");
   const XMLElement* header = root.FirstChildElement("header");
@@ -67,7 +67,7 @@ void ReadOffset(const XMLElement& root, OpenDriveFile& file) {
   }
 }
 
-/// Reads a junction. Connections of the junction with an error are left out.
+/// Reads a junction. Connections with an error are left out of the junction.
 Junction ReadJunction(const XmlFields& fields, RoadNetwork& network) {
   Junction junction{.id = fields.OptionalText("id"), .connections = {}};
   ForEachChild(&fields.element(), "connection", [&](const XMLElement& element, std::size_t index) {
@@ -81,7 +81,8 @@ Junction ReadJunction(const XmlFields& fields, RoadNetwork& network) {
     const bool direct = element.Attribute("linkedRoad") != nullptr;
     connection.connecting = direct ? own.Text("linkedRoad") : own.OptionalText("connectingRoad");
     if (connection.incoming.empty() || (!direct && connection.connecting.empty())) {
-      return;  // skip a virtual connection, because cars do not use virtual connections
+      return;  // skip a virtual connection of a junction, because cars do not use virtual
+               // connections
     }
     connection.contact = ReadContactPoint(own);
     ForEachChild(&element, "laneLink", [&](const XMLElement& link, std::size_t) {
@@ -98,7 +99,7 @@ Junction ReadJunction(const XmlFields& fields, RoadNetwork& network) {
   return junction;
 }
 
-/// Roads or junctions of a file; adds each road or junction to a map, or leaves it out.
+/// Collects the roads (or the junctions) of a file in a map, and leaves out those with problems.
 template <typename Part>
 class Parts {
  public:
@@ -106,8 +107,8 @@ class Parts {
         XmlProblems& left_out)
       : kind_(kind), parts_(parts), network_(network), left_out_(left_out) {}
 
-  /// Adds a road or junction with its problems. A road or junction with problems is left out, and
-  /// so are all parts with the same id.
+  /// Adds a road or junction to the map; `problems` are those of this part. A road or junction with
+  /// problems is left out, and so are all parts with the same id.
   void Add(Part part, int line, XmlProblems& problems) {
     const std::string id = part.id;
     const std::string name = fmt::format("{} {}", kind_, id);
@@ -133,8 +134,8 @@ class Parts {
   std::set<std::string> ids_;
 };
 
-/// Keeps only the first notes after the index `from`, and replaces the remaining notes by their
-/// number.
+/// Keeps only the first few notes after the index `from`, and replaces the remaining notes by a
+/// note with their number.
 void Shorten(std::vector<std::string>& notes, std::size_t from, const char* what) {
   constexpr std::size_t kMaxListed = 5;
   const std::size_t count = notes.size() - from;
@@ -164,8 +165,8 @@ void NoteUnreadHeights(RoadNetwork& network) {
   throw InputError(Problem{name, line, 0, "", std::move(message)});
 }
 
-/// Refuses a document with entity declarations, because tinyxml2 does not expand the entities that
-/// a document declares.
+/// Rejects an XML document with entity declarations, because tinyxml2 does not expand the entities
+/// that a document declares.
 void CheckDeclarations(const tinyxml2::XMLDocument& document, const std::string& name) {
   for (const tinyxml2::XMLNode* node = document.FirstChild(); node != nullptr;
        node = node->NextSibling()) {

@@ -16,15 +16,16 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Bounds of coordinates [m]; northings of UTM are below 1e7.
+// Bounds of coordinates in the file [m]; northings of UTM are below 1e7.
 constexpr Bounds kCoordinate{-1e8, 1e8};
-constexpr Bounds kGeometryLength{0.0, 1e6};  // Bounds of a geometry's length [m].
-constexpr Bounds kBend{-1e3, 1e3};           // Bounds of a geometry's curvature [1/m].
+constexpr Bounds kGeometryLength{0.0, 1e6};  // Bounds of the length of a plan view geometry [m].
+constexpr Bounds kBend{-1e3, 1e3};           // Bounds of the curvature of a plan view geometry
+                                             // [1/m].
 /// Largest difference between the start station of a geometry and the end station of the previous
 /// geometry [m].
 constexpr double kMaxStationGap = 0.1;
-/// Length below which a geometry is dropped, because such a geometry is a rounding error of the
-/// program that wrote the file [m].
+/// Length below which a geometry of the plan view is dropped, because such a short geometry is a
+/// rounding error of the program that wrote the file [m].
 constexpr double kMinGeometryLength = 1e-9;
 
 /// Start pose and length of a geometry in the plan view, such as a line, an arc or a spiral.

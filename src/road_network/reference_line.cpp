@@ -31,8 +31,8 @@ double Second(const Coefficients& c, double p) {
 /// road's curve over each part to machine precision.
 constexpr std::size_t kParts = 32;
 
-/// Returns the index of the piece of a piecewise function that contains the station s. If s lies
-/// before the first piece, returns the index of the first piece.
+/// Returns the index of the piece of a piecewise function that contains the station s. If the
+/// station s lies before the first piece, returns the index of the first piece.
 template <typename Piece>
 std::size_t IndexAt(const std::vector<Piece>& pieces, double s) {
   const auto after = std::upper_bound(pieces.begin(), pieces.end(), s,
@@ -75,8 +75,8 @@ ParametricCubic::ParametricCubic(const Coefficients& u, const Coefficients& v, d
 }
 
 ParametricCubic ParametricCubic::OverU(const Coefficients& v, double length) {
-  // The arc length of a curve v(u) is at least the length of its interval of u. The parameter u at
-  // the end of the curve is therefore at most `length`.
+  // A curve v(u) is at least as long as its interval of u, so the parameter u at the end of the
+  // curve is at most `length`.
   const Coefficients u{0.0, 1.0, 0.0, 0.0};
   const ParametricCubic whole(u, v, length, length);
   const double end = whole.Parameter(length);

@@ -138,8 +138,8 @@ CubicValue Product(const CubicValue& a, const CubicValue& b) {
           a.second * b.value + 2.0 * a.slope * b.slope + a.value * b.second};
 }
 
-/// The sine of the angle at which the reference line climbs. `stretch` is the ratio of arc length
-/// to station.
+/// The sine of the angle at which a road's reference line climbs, with derivatives. `stretch` is
+/// the ratio of arc length to station.
 CubicValue SineOfSlope(const Road& road, double stretch, double s, double piece_of) {
   const CubicValue height = road.elevation.At(s, piece_of);
   // The second derivative of a cubic polynomial is linear, so the difference quotient is exact.
@@ -154,9 +154,10 @@ CubicValue SineOfSlope(const Road& road, double stretch, double s, double piece_
 }  // namespace
 
 // The line on the road surface is P(s) = R + n N + a T, where R is the reference line with the
-// tangent T, the left normal N and the curvature k. With the roll angle r and the climbing angle c
-// of the reference line, n = t cos(r) and a = -t sin(r) sin(c). With q = |dR/ds|, the derivative of
-// P is A T + B N, where A = q (1 - k n) + a' and B = n' + q k a.
+// tangent T, the left normal N and the curvature k. With the lateral coordinate t, the roll angle r
+// and the climbing angle c of the reference line, n = t cos(r) and a = -t sin(r) sin(c). The
+// derivative of the surface line P(s) is A T + B N, where A = q (1 - k n) + a', B = n' + q k a and
+// q = |dR/ds|.
 SurfaceLine SurfaceLineAt(const Road& road, const CubicValue& t, double s, double piece_of) {
   const ReferenceLinePoint reference = road.reference.At(s, piece_of);
   const CubicValue roll = road.superelevation.At(s, piece_of);

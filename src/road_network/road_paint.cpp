@@ -18,7 +18,7 @@ constexpr double kDashLength = 3.0;  // Length of a dash [m].
 constexpr double kDashPeriod = 9.0;
 // Width of a road mark whose width the file does not specify [m].
 constexpr double kDefaultMarkWidth = 0.12;
-constexpr double kDoubleGap = 0.1;  // Gap between the two lines of a double road mark [m].
+constexpr double kDoubleGap = 0.1;  // Lateral gap between the two lines of a double road mark [m].
 
 Vec2 Beside(const Road& road, double s, double piece_of, double t) {
   return SurfaceLineAt(road, {.value = t}, s, piece_of).position;
@@ -63,7 +63,7 @@ std::vector<bool> DashedLines(const std::string& type) {
 class Painter {
  public:
   Painter(const RoadNetwork& network, double spacing) : spacing_(spacing) {
-    double length = 0.0;  // total length of all lanes [m]
+    double length = 0.0;  // total length of all lanes of the network [m]
     for (const auto& [id, road] : network.roads) {
       for (std::size_t i = 0; i < road.sections.size(); ++i) {
         length += (road.SectionEnd(i) - road.sections[i].s) *
@@ -85,7 +85,7 @@ class Painter {
   void Section(const Road& road, std::size_t index) {
     const LaneSection& section = road.sections[index];
     const double end = road.SectionEnd(index);
-    // Paint each group of adjacent paved lanes as a single area; begin at the leftmost lane.
+    // Paint each group of adjacent paved lanes as a single area, beginning at the leftmost lane.
     const std::vector<Lane>& lanes = section.lanes;
     for (std::size_t first = 0; first < lanes.size();) {
       if (lanes[first].id == 0 || !IsPaved(lanes[first])) {

@@ -14,18 +14,18 @@
 #include "trackbed/core/spelling.h"
 
 // Reads one road of an OpenDRIVE file: links, heights, lane offset and lane sections.
-// 1. Each element is read by XmlFields, which collects problems with their lines.
-// 2. ReadHeights reads elevation, superelevation and shape, and notes the forms that are not
-//    supported.
+// 1. The class XmlFields reads each XML element and collects problems with their line numbers.
+// 2. ReadHeights reads elevation, superelevation and shape, and adds notes on height definitions
+//    that are not supported.
 // 3. After all roads are read, CheckLinks compares the links of lanes and roads with the elements
-//    to which they refer. A wrong link is left out, with a note.
+//    to which they refer. An invalid link is left out, with a note.
 // Source: ASAM OpenDRIVE 1.7.0.
 namespace trackbed {
 namespace {
 
 using tinyxml2::XMLElement;
 
-/// Reads a link of a road. A link with an error is left out.
+/// Reads a link of a road. A road link with an error is left out.
 std::optional<RoadLink> ReadRoadLink(const XmlFields& road, const char* name, const std::string& id,
                                      RoadNetwork& network) {
   const XMLElement* link = road.element().FirstChildElement("link");
@@ -133,7 +133,7 @@ void CheckLaneIds(const std::vector<int>& ids, const LaneSection& beyond, const 
   }
 }
 
-/// Checks the lane links between the sections of a road, and the lane links to adjacent roads.
+/// Checks the lane links between the lane sections of a road, and the lane links to adjacent roads.
 void CheckLaneLinks(const RoadNetwork& network, const Road& road, XmlProblems& problems) {
   const auto beyond = [&](const std::optional<RoadLink>& link) -> const LaneSection* {
     if (!link || link->is_junction) {

@@ -11,9 +11,9 @@
 /// Functions that read the parts of an OpenDRIVE file.
 namespace trackbed {
 
-/// Reads a <road> element, and adds its errors to `problems`. Adds links with errors to
-/// RoadNetwork::broken; these links are left out. The coordinates of the road are relative to the
-/// point `origin` of the file [m].
+/// Reads a <road> element, and adds its errors to `problems`. Links with errors are left out of the
+/// road and added to RoadNetwork::broken. The coordinates of the road are relative to the point
+/// `origin` of the file [m].
 Road ReadRoad(const tinyxml2::XMLElement& element, const Vec2& origin, XmlProblems& problems,
               RoadNetwork& network);
 
@@ -23,10 +23,10 @@ Road ReadRoad(const tinyxml2::XMLElement& element, const Vec2& origin, XmlProble
 PiecewiseCubic ReadCubics(const tinyxml2::XMLElement* parent, const char* name, const char* start,
                           const std::string& where, XmlProblems& problems);
 
-/// Reads a contact point, which is "start" or "end". Any other contact point is an error.
+/// Reads a contact point, which is "start" or "end". Any other text of a contact point is an error.
 RoadEnd ReadContactPoint(const XmlFields& fields);
 
-/// Notes all links to roads, junctions and lanes that do not exist, as flaws.
+/// Adds a flaw for each link to a road, junction or lane that does not exist.
 void CheckLinks(const RoadNetwork& network, XmlProblems& problems);
 
 }  // namespace trackbed

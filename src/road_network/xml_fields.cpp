@@ -31,7 +31,7 @@ bool ParseAll(std::string_view text, Number_& number) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// Returns a problem as a text without the name of the file.
+/// Returns a problem of the XML file as a text without the file name.
 std::string Text(const Problem& problem) {
   return fmt::format("line {}: {}{}{}", problem.line, problem.key, problem.key.empty() ? "" : ": ",
                      problem.message);

@@ -29,15 +29,15 @@ class XmlProblems {
   void Add(int line, std::string key, std::string message) {
     problems_.Add({file_, line, 0, std::move(key), std::move(message)});
   }
-  /// Adds a flaw that does not affect other parts of the file. Flaws are reported as notes, not as
-  /// errors.
+  /// Adds a flaw, which is a mistake that does not affect other parts of the XML file. Flaws of an
+  /// XML file are reported as notes, not as errors.
   void AddFlaw(int line, const std::string& key, const std::string& message) {
     AddFlaw(fmt::format("line {}: {}: {}", line, key, message));
   }
   void AddFlaw(std::string flaw) { flaws_.push_back(std::move(flaw)); }
-  /// Adds the problems of `part`, a part of the file that is left out, as flaws.
+  /// Adds the problems of `part`, a part of the XML file that is left out, as flaws.
   void AddFlaws(const XmlProblems& part);
-  /// Adds the problems of `part` to the problems, and the flaws of `part` to the flaws.
+  /// Adds the problems and the flaws that were found in `part` of the file.
   void Append(const XmlProblems& part);
 
   [[nodiscard]] bool empty() const { return problems_.empty(); }
@@ -67,14 +67,15 @@ class XmlFields {
   [[nodiscard]] int line() const { return element_.GetLineNum(); }
   [[nodiscard]] XmlProblems& problems() const { return problems_; }
 
-  /// Reads an attribute as a number within bounds. After an error, returns the value within the
-  /// bounds that is nearest to 0.
+  /// Reads an attribute as a number within bounds. If the attribute is invalid, returns the value
+  /// within the bounds that is nearest to 0.
   [[nodiscard]] double Number(const char* name, Bounds bounds = {}) const;
-  /// Reads an attribute as a number within bounds; returns `missing` if the attribute is absent.
+  /// Reads an XML attribute as a number within bounds; returns `missing` if the attribute is
+  /// absent.
   [[nodiscard]] double Number(const char* name, Bounds bounds, double missing) const;
-  /// Reads an attribute as an integer; returns 0 after an error.
+  /// Reads an XML attribute as an integer; returns 0 if it is invalid.
   [[nodiscard]] int Integer(const char* name) const;
-  /// Reads an attribute as a non-empty text; returns "" after an error.
+  /// Reads an XML attribute as a non-empty text; returns "" if it is missing or empty.
   [[nodiscard]] std::string Text(const char* name) const;
   /// Reads an attribute as a text; returns "" if the attribute is absent.
   [[nodiscard]] std::string OptionalText(const char* name) const;

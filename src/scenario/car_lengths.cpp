@@ -24,7 +24,7 @@ bool FollowsCarSize(const Key& key, const std::string& method) {
 double CarLengthScale(const Scenario& scenario) {
   const VehicleSpec& vehicle = scenario.vehicle;
   if (vehicle.model == VehicleSpec{}.model) {
-    return 1.0;  // the default lengths are meant for this car
+    return 1.0;  // the default lengths are meant for this default car
   }
   try {
     const std::filesystem::path file = FindModel(vehicle.model, scenario.folder);

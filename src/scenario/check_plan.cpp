@@ -17,8 +17,8 @@
 
 // Checks rules that concern several keys of the mission and the plan. A check is skipped if one of
 // its keys could not be read, because the reader has already reported the error of that key. The
-// rules depend on properties in the planner's registry entry (PlannerEntry: follows_track,
-// follows_lanes, needs_limits, min_waypoints, ...) and not on the planner's name.
+// rules for a planner depend on properties in the planner's registry entry (PlannerEntry:
+// follows_track, follows_lanes, needs_limits, min_waypoints, ...) and not on the planner's name.
 namespace trackbed {
 namespace {
 
@@ -152,10 +152,10 @@ void CheckLaps(Diagnostics& c) {
   }
 }
 
-/// Checks the options of the speed profile. A speed profile at the car's limits is computed for a
-/// single plan, but local avoidance and replanning change the speeds during the run. A speed
-/// profile at the limits is therefore rejected if the scenario uses local avoidance or replanning,
-/// except for planners that follow a track.
+/// Checks the options of the plan's speed profile. A speed profile at the car's limits is computed
+/// for a single plan, but local avoidance and replanning change the speeds during the run. A speed
+/// profile at the car's limits is therefore rejected if the scenario uses local avoidance or
+/// replanning, except for planners that follow a track.
 void CheckSpeedProfile(Diagnostics& c) {
   const auto& profile = c.scenario.mission.speed_profile;
   if (!profile || !c.CouldRead({"mission.speed_profile", "mission.speed_profile.method"}) ||

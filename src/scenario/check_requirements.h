@@ -9,7 +9,7 @@
 namespace trackbed {
 
 /// Returns the problems of the requirements, each as a pair of the key and the error message. The
-/// scenario must have no other problems.
+/// scenario must have no problems outside the requirements.
 std::vector<std::pair<std::string, std::string>> RequirementProblems(const Scenario& scenario);
 
 }  // namespace trackbed

@@ -17,7 +17,7 @@
 namespace trackbed {
 namespace {
 
-/// Checks the values of keys against the declarations of the keys.
+/// Checks the values of scenario keys against the declared ranges and names.
 class ValueChecker final : public NumberVisitor {
  public:
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> TakeFound() {
@@ -38,7 +38,7 @@ class ValueChecker final : public NumberVisitor {
       Check(Element(key, i), value[i], WithinReason(key, range));
     }
   }
-  // An enumerator without a name is visited as an empty text.
+  // The visitor gets an empty text for an enumerator that has no name.
   void Field(const Key& key, std::string& value, Need need, const Names& allowed) override {
     if (!value.empty()) {
       CheckName(Dotted(key), value, allowed);
@@ -106,8 +106,8 @@ class ValueChecker final : public NumberVisitor {
 using Found = std::vector<std::pair<std::string, std::string>>;
 
 /// Checks that the content of a file that the scenario names was read. A program may set the
-/// content of a file without a file name. For such content, CheckContent sets `file` to a
-/// placeholder name, because the key of the file is required.
+/// content of an input file in memory, without a file name. For content without a file name,
+/// CheckContent sets `file` to a placeholder, because the key of the file is required.
 void CheckContent(const std::string& key, bool is_read, std::string& file, Found& found) {
   if (is_read && file.empty()) {
     file = "content set by the program";
@@ -117,8 +117,8 @@ void CheckContent(const std::string& key, bool is_read, std::string& file, Found
   }
 }
 
-/// Checks that the content of each file was read, and sets a placeholder name for files without a
-/// name.
+/// Checks that the content of each input file was read, and sets a placeholder name for contents
+/// without a file name.
 Found CheckContents(Scenario& scenario) {
   Found found;
   if (auto& record = scenario.record) {

@@ -78,7 +78,7 @@ std::string PlannersWithHeadings() {
 }
 
 /// Explains why waypoint `i` must not be at the same point as the previous waypoint. Returns an
-/// empty text if the car turns at this point from one heading to another.
+/// empty text if the car turns at the waypoint from one heading to another.
 std::string WhyNotInPlace(const Scenario& scenario, std::size_t i) {
   const MissionSpec& mission = scenario.mission;
   const char* what = "same point as the previous waypoint";
@@ -103,7 +103,8 @@ std::string WhyNotInPlace(const Scenario& scenario, std::size_t i) {
 }
 
 /// Reports waypoints at the same point as the previous waypoint, unless the car turns at this
-/// point. The second waypoint may be equal to the first one if the car starts at another point.
+/// point. The second waypoint may be at the same point as the first one if the car starts at
+/// another point.
 void CheckEqualWaypoints(Diagnostics& c) {
   const MissionSpec& mission = c.scenario.mission;
   if (!c.CouldReadPlan({"method"}) || !c.CouldRead({"mission.headings", "mission.start.yaw"})) {

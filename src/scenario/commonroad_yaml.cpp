@@ -18,7 +18,8 @@ namespace {
 constexpr double kObstacleHeight = 1.5;
 
 /// Returns the condition that the car's center is in a region, as a formula over the position of
-/// the rear axle. The formula assumes that the car's heading in the region is about `yaw`.
+/// the rear axle. The formula of the region assumes that the car's heading in the region is about
+/// `yaw`.
 std::string InRegion(const CommonRoadRegion& region, double yaw) {
   const Vec2 ahead = kCommonRoadCenterAhead * Direction(yaw);
   if (region.corners.empty()) {
@@ -42,7 +43,7 @@ std::string InRegion(const CommonRoadRegion& region, double yaw) {
   return fmt::format("({})", fmt::join(sides, " and "));
 }
 
-/// Returns the goal as a formula over the log.
+/// Returns the goal of a CommonRoad scenario as a requirement formula over the log.
 std::string GoalFormula(const CommonRoadScenario& scenario) {
   const CommonRoadGoal& goal = scenario.goal;
   std::vector<std::string> conditions;
@@ -74,8 +75,8 @@ std::string GoalFormula(const CommonRoadScenario& scenario) {
   if (conditions.empty()) {
     conditions.emplace_back("t_s >= 0");
   }
-  // A formula rejects bounds beyond kMaxTimeBound. If the goal's latest time is beyond
-  // kMaxTimeBound, the formula has no time bounds, because no run takes so long.
+  // The formula language rejects time bounds beyond kMaxTimeBound. If the goal's latest time is
+  // beyond kMaxTimeBound, the formula has no time bounds, because no run takes so long.
   constexpr double kMaxTimeBound = 1e6;  // [s]
   const std::string interval =
       goal.time.second <= kMaxTimeBound

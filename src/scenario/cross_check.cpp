@@ -14,9 +14,10 @@
 #include "trackbed/sim/plant.h"
 
 // Checks conditions that involve several sections of a scenario.
-// 1. Each function Check... tests one condition, and adds its problem at the key that the user
-//    should change.
-// 2. A condition is tested only if its keys could be read, so that one mistake causes one message.
+// 1. Each function Check... tests one condition. If the scenario violates the condition, the
+//    function adds a problem at the key that the user should change.
+// 2. A condition is tested only if its keys could be read, so that a single mistake causes only one
+//    error message.
 // 3. The function CrossProblems runs all checks of this file. The conditions of a single method,
 //    such as a planner, are in the registry entry of the method (`check`).
 namespace trackbed {
@@ -177,8 +178,8 @@ void CheckGround(Diagnostics& c) {
         !c.could_read(key + ".width") || !c.could_read(key + ".edge")) {
       continue;
     }
-    // The height of a bump's edge is h cos^2(pi/2 d/reach) at the distance d; its largest slope is
-    // pi/2 h/reach.
+    // At the distance d from its flat top, the edge of a bump of height h has the height h
+    // cos^2(pi/2 d/reach); its largest slope is pi/2 h/reach.
     const auto check = [&](double reach, const char* where) {
       const double steepest = 0.5 * kPi * bump.height / reach;
       if (steepest > kMaxSlope) {

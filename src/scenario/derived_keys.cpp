@@ -40,7 +40,8 @@ void RequireOneValue(const std::string& formula, const std::vector<std::string>&
   }
 }
 
-/// Returns the keys that a formula uses. NamesIn throws mu::ParserError if the formula is invalid.
+/// Returns the keys that the formula of a derived key uses. NamesIn throws mu::ParserError if the
+/// formula is invalid.
 std::vector<std::string> NamesIn(const std::string& formula) {
   mu::Parser parser;
   parser.DefineNameChars(kNameCharacters);

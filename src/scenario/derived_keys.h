@@ -6,9 +6,9 @@
 
 namespace trackbed {
 
-/// Evaluates the study's formulas at a point with these settings and appends the results to the
-/// settings. If a result is not finite, AddDerived throws InputError with the position of the
-/// formula.
+/// Evaluates the study's formulas for derived keys at a study point and appends the results to the
+/// settings of the point. If the result of a formula is not finite, AddDerived throws InputError
+/// with the position of the formula.
 void AddDerived(const Study& study, std::vector<Setting>& settings);
 
 /// Checks the formulas of a study. If a formula is invalid or uses a key that the study does not

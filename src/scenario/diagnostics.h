@@ -15,7 +15,7 @@
 
 namespace trackbed {
 
-/// Returns the prefix of the global planner's keys in the scenario, "plan." or "plan.global.".
+/// Returns the prefix of the global planner's keys in the scenario file, "plan." or "plan.global.".
 inline std::string PlannerSection(const Scenario& scenario) {
   const bool layers = scenario.plan->avoid || scenario.plan->replan;
   return layers ? "plan.global." : "plan.";
@@ -34,8 +34,8 @@ inline const char* NameOfPlannerThat(bool PlannerEntry::*property) {
 /// the key at which the problem is reported to the user.
 struct Diagnostics {
   const Scenario& scenario;
-  /// Function that returns whether the value of a key was read. If the value was not read, the
-  /// reader has already reported a problem of the key.
+  /// Function that returns whether the value of a key was read. If the value of a key was not read,
+  /// the reader has already reported a problem of this key.
   const std::function<bool(const std::string& key)>& could_read;
   std::vector<std::pair<std::string, std::string>> found{};
 

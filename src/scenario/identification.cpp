@@ -29,7 +29,7 @@ void CheckParameters(Identification& study, const YAML::Node& root, ReaderContex
   if (study.parameters.empty()) {
     add_error("parameters", "needs at least one parameter");
   }
-  // Largest number of parameters, because QuadraticProgram supports no more variables.
+  // Largest number of parameters to identify, because QuadraticProgram supports no more variables.
   constexpr std::size_t kMaxParameters = 40;
   if (study.parameters.size() > kMaxParameters) {
     add_error("parameters",
@@ -59,8 +59,8 @@ void CheckParameters(Identification& study, const YAML::Node& root, ReaderContex
   }
 }
 
-/// Reads the scenario files that the identification file lists. Adds a problem for each scenario
-/// that has no recorded drive or has another vehicle than the first scenario.
+/// Reads the scenario files that the identification file lists. Adds a problem for each listed
+/// scenario that has no recorded drive, or another vehicle than the first scenario.
 std::vector<Scenario> ReadRecords(const std::vector<std::string>& files, const std::string& list,
                                   const fs::path& folder, const std::vector<fs::path>& assets,
                                   const Scenario* first, const YAML::Node& root,
@@ -98,8 +98,8 @@ std::vector<Scenario> ReadRecords(const std::vector<std::string>& files, const s
   return scenarios;
 }
 
-/// Checks that the names of the scenarios differ, because output files are named after the
-/// scenarios.
+/// Checks that the names of the scenarios in an identification differ, because output files are
+/// named after the scenarios.
 void CheckRecordNames(const Identification& study, const YAML::Node& root, ReaderContext& context) {
   std::set<std::string> names;
   for (const auto& [list, scenarios] :
@@ -117,8 +117,9 @@ void CheckRecordNames(const Identification& study, const YAML::Node& root, Reade
   }
 }
 
-/// Reads the track of the bank, which becomes the ground. Checks that the plant simulates the
-/// ground, and that no scenario defines another ground.
+/// Reads the banked track, whose surface becomes the ground of the identification runs. Checks that
+/// the plant simulates the banked ground, and that no scenario of the identification defines
+/// another ground.
 void ReadBank(Identification& study, const std::vector<fs::path>& assets, const YAML::Node& root,
               ReaderContext& context) {
   const auto add_error = [&](const std::string& key, std::string message) {

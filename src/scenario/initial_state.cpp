@@ -8,12 +8,12 @@
 #include "trackbed/road_network/open_drive.h"
 
 // Determines the initial state of the car in a run. Planners, plants and the resolved scenario use
-// this initial state.
+// the initial state that InitialState returns.
 namespace trackbed {
 namespace {
 
 /// Returns the steering angle with which the planner's route begins [rad]. Returns nullopt if the
-/// planner follows no given route, or if the steering angle exceeds the car's limit.
+/// planner follows no given route, or if this steering angle exceeds the car's steering limit.
 std::optional<double> RouteSteering(const Scenario& scenario, const VehicleParams& vehicle,
                                     const Pose2& start) {
   if (!scenario.plan) {

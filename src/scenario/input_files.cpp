@@ -20,8 +20,8 @@
 #include "trackbed/vehicle/tyre_file.h"
 
 // Defines the input files in a run folder: their names, their contents, and the keys of the
-// resolved scenario that refer to them. The input files of a controller or planner are defined by
-// its registry entry.
+// resolved scenario that refer to them. The registry entry of a controller or planner defines its
+// input files.
 namespace trackbed {
 namespace {
 
@@ -87,7 +87,7 @@ std::vector<std::string> InputFileNames() {
 
 namespace {
 
-/// The tyres of the front and rear axle that a scenario names.
+/// The tyre property files of the front and rear axle that a scenario names.
 struct AxleTyres {
   TyreFile front;
   TyreFile rear;

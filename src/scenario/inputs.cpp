@@ -28,14 +28,15 @@
 // Reads the files that a scenario names. The recorded drive, the track, the map and the road
 // network are read first, followed by the files of the controller and of the planner. Before
 // reading a file, each function checks that the keys with the file name were read and that access
-// to the file is allowed. A file must lie in the scenario's folder or in an asset folder. Files
-// other than recordings may also lie in Trackbed's data folder. Attempt() returns problems inside a
-// file with their position in the file, and reports other problems at the key that names the file.
+// to the file is allowed. An input file must lie in the scenario's folder or in an asset folder.
+// Files other than recordings may also lie in Trackbed's data folder. If a read fails, Attempt()
+// returns the problems inside the file with their positions; other problems are reported at the key
+// that names the file.
 namespace trackbed {
 namespace {
 
-/// Calls `read` and catches the errors that `read` throws. Attempt() returns problems inside a
-/// file, and passes problems of a key to `add_error`.
+/// Calls `read` and catches the errors that `read` throws. Attempt() returns the problems inside
+/// the file that `read` reads, and passes problems of the key with the file name to `add_error`.
 std::vector<Problem> Attempt(const std::function<void()>& read, const char* key,
                              ReaderContext& context, const AddKeyError& add_error) {
   try {
@@ -108,7 +109,8 @@ std::vector<Problem> ReadRecord(Scenario& scenario, ReaderContext& context,
       "record.file", context, add_error);
 }
 
-/// Reads the banked track of the record, and uses its surface as the ground of the world.
+/// Reads the banked track that the scenario's record names, and uses the track's surface as the
+/// ground of the world.
 std::vector<Problem> ReadRecordGround(Scenario& scenario, ReaderContext& context,
                                       const AddKeyError& add_error) {
   RecordSpec& record = *scenario.record;
@@ -162,8 +164,8 @@ std::vector<Problem> TakeInputs(Scenario& scenario, ReaderContext& context,
 /// Reads the files that a scenario names in the section of the controller or of the planner.
 class SectionReader final : public InputReader {
  public:
-  /// The argument `section` is the prefix of the section's keys. The argument `others` lists
-  /// further folders from which files may be read.
+  /// The argument `section` is the prefix of the section's keys, such as "plan.". The argument
+  /// `others` lists further folders from which files may be read.
   SectionReader(const Scenario& scenario, std::string section,
                 std::vector<std::filesystem::path> others, ReaderContext& context,
                 const AddKeyError& add_error)
@@ -205,7 +207,7 @@ class SectionReader final : public InputReader {
   [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
 
  private:
-  /// Adds the section's prefix to the keys of all problems that do not name a file.
+  /// Adds the prefix of the scenario section to the keys of all problems that do not name a file.
   [[nodiscard]] std::vector<Problem> WithFullKeys(std::vector<Problem> problems) const {
     for (Problem& problem : problems) {
       if (problem.file.empty() && !problem.key.empty()) {
@@ -268,7 +270,8 @@ std::vector<Problem> ReadTrackInput(Scenario& scenario, ReaderContext& context,
         track.data = std::make_shared<const Track>(std::move(read.track));
         track.notes = std::move(read.notes);
         if (read.chosen_smoothing) {
-          track.smoothing = read.chosen_smoothing;  // smoothing of the track's copy in a run folder
+          track.smoothing = read.chosen_smoothing;  // smoothing wavelength of the track's copy in a
+                                                    // run folder
         }
       },
       key, context, add_error);
@@ -326,8 +329,8 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
       [&] {
         roads.data =
             std::make_shared<const OpenDriveFile>(ReadOpenDriveFile(scenario.folder / roads.file));
-        // Use the elevation of the route only if no error was found, because with an error the
-        // route may differ from the intended route.
+        // Use the elevation along the route as ground only if no error was found, because an error
+        // may change the route.
         if (context.problems.empty()) {
           LayRouteGround(scenario, add_error);
         }
@@ -341,7 +344,7 @@ std::vector<std::filesystem::path> WithOwnData(std::vector<std::filesystem::path
   try {
     folders.push_back(DataFolder());
   } catch (const InputError&) {
-    // Ignore the error, which means that this installation has no data folder.
+    // Ignore this error, because it only means that the installation has no data folder.
   }
   return folders;
 }

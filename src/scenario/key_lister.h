@@ -129,7 +129,8 @@ class KeyLister final : public KeyVisitor {
   }
 
   std::vector<KeySection>& sections_;
-  // Index of the section; not a reference, because the vector of sections grows.
+  // Index of the present section; a reference would become invalid when the vector of sections
+  // grows.
   std::size_t index_;
 };
 

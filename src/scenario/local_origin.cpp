@@ -27,10 +27,10 @@
 
 // Moves a scenario to its local origin. The function Visit of a scenario declares which keys are
 // coordinates (map_range.h). PlaceVisitor finds all keys that are coordinates (place_visitor.h).
-// Further coordinates are in the contents of files: record, track, map, road network, and path. The
-// origin is the middle of the box around all places. The coordinates of the origin are whole
-// meters. Therefore, subtracting the origin from a coordinate of the file and adding the origin
-// again yields exactly the same number.
+// Further coordinates are in files that the scenario names: record, track, map, road network, and
+// path. The local origin is the middle of the bounding box of all places. The origin's coordinates
+// are whole meters, so that subtracting the origin from a coordinate and adding it again yields
+// exactly the same number.
 namespace trackbed {
 namespace {
 
@@ -38,8 +38,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The coordinates of an automatically chosen origin are multiples of this distance [m].
 constexpr double kOriginStep = 1000.0;
 
-/// The smallest axis-aligned rectangle around some points. Along an axis without any coordinates,
-/// `low` exceeds `high`.
+/// The smallest axis-aligned rectangle around some points. If no point has a coordinate along an
+/// axis, `low` exceeds `high` along this axis.
 struct Bounds2 {
   Vec2 low{kInfinity, kInfinity};
   Vec2 high{-kInfinity, -kInfinity};
@@ -78,7 +78,8 @@ struct Bounds2 {
   }
 };
 
-/// Places that belong together: the places of one key, or the places in one file.
+/// A site, a group of places that belong together: the places of one key, or the places in one
+/// file.
 struct Site {
   std::string key;
   std::string name;
@@ -98,7 +99,7 @@ std::vector<Site> SitesOfKeys(Scenario& scenario) {
   Visit(visitor, scenario);
   std::vector<Site> found;
   for (const auto& [place, bounds] : sites) {
-    // SitesOfFiles adds the start with the default values of its missing coordinates.
+    // SitesOfFiles adds the start of the car, with the default values of missing start coordinates.
     if (place != "mission.start") {
       found.push_back({place, place, bounds});
     }
@@ -190,8 +191,8 @@ Bounds2 Moved(Bounds2 bounds, const Vec2& by) {
   return {bounds.low + by, bounds.high + by};
 }
 
-/// Returns the header's offset if the roads are near `place` only after adding the offset;
-/// otherwise (0, 0).
+/// Returns the offset in the OpenDRIVE header if the roads are near `place` only after adding this
+/// offset; otherwise (0, 0).
 Vec2 OffsetNear(const OpenDriveFile& file, const Bounds2& roads, const Vec2& place) {
   const bool is_near = roads.DistanceFrom(place) <= kOriginReach + kOriginStep;
   const bool is_usable = file.offset != Vec2::Zero() && file.offset_heading == 0.0;
@@ -201,8 +202,8 @@ Vec2 OffsetNear(const OpenDriveFile& file, const Bounds2& roads, const Vec2& pla
              : Vec2(Vec2::Zero());
 }
 
-/// Returns the key and the message of the problem that places are too far from each other. The
-/// message names the two places whose coordinates differ most in x or y.
+/// Returns the key and the error message for places of a scenario that are too far from each other.
+/// The error message names the two places whose coordinates differ most in x or y.
 std::pair<std::string, std::string> MixedProblem(const std::vector<Site>& sites) {
   const Site* near = &sites.front();
   const Site* far = &sites.front();
@@ -272,10 +273,10 @@ void TranslateKeys(Struct& value, const Vec2& by) {
   Visit(visitor, value);
 }
 
-/// Moves the scenario to an origin. Writes the coordinates of the start into the scenario if the
-/// start would otherwise differ from that of the resolved scenario. The start would differ in two
-/// cases: a start at the default (0, 0), and a start on a fitted curve. A start on a fitted curve
-/// is rounded to coordinates that the resolved scenario can state.
+/// Moves the scenario to a local origin. Writes the coordinates of the start into the scenario if
+/// its start would otherwise differ from that of the resolved scenario. The two starts would differ
+/// in two cases: a start at the default (0, 0), and a start on a fitted curve. A start on a fitted
+/// curve is rounded to coordinates that the resolved scenario can state.
 void Move(Scenario& scenario, const Vec2& origin) {
   const Vec2 before = InitialState(scenario).pose.position();
   TranslateKeys(scenario, -origin);
@@ -286,8 +287,8 @@ void Move(Scenario& scenario, const Vec2& origin) {
       AddRouteGround(scenario.mission.route, scenario.world);
     }
   }
-  // A start at the default (0, 0) does not depend on any place, so TranslateKeys has not moved the
-  // start.
+  // If the start is at the default (0, 0), TranslateKeys has not moved it, because this start does
+  // not depend on any place of the scenario.
   const Vec2 after = InitialState(scenario).pose.position();
   const bool is_default = after == before && !HasRoute(scenario);
   const Vec2 start = is_default ? Vec2(after - origin) : after;
@@ -313,7 +314,8 @@ std::optional<std::pair<std::string, std::string>> MoveToLocalOrigin(Scenario& s
   for (Site& site : SitesOfFiles(scenario)) {
     sites.push_back(std::move(site));
   }
-  // A key with only one coordinate belongs to a map or to the start, which are separate sites.
+  // Drop keys with only one coordinate: they belong to a map or to the start, which are separate
+  // sites.
   std::erase_if(sites, [](const Site& site) {
     return !(site.bounds.low.array() <= site.bounds.high.array()).all();
   });

@@ -26,8 +26,9 @@ enum class MapMode { kTrinary, kScale };
 /// Keys in the YAML file of a ROS map.
 struct RosMapKeys {
   std::string image;
-  double resolution = 0.0;     ///< Side length of a pixel [m].
-  std::vector<double> origin;  ///< Pose of the map's lower left corner: x, y [m], yaw [rad].
+  double resolution = 0.0;     ///< Side length of a map pixel [m].
+  std::vector<double> origin;  ///< Pose of the map's lower left corner: position x, y [m], and yaw
+                               ///< [rad].
   std::string negate;
   double occupied_thresh = 0.0;
   double free_thresh = 0.0;
@@ -60,8 +61,9 @@ std::string ReadMapFile(const fs::path& file) {
   }
 }
 
-/// Removes the keys that other programs add to a map, because map_server also ignores these keys.
-/// Keeps keys that may be misspelled, so that the reader refuses the file.
+/// Removes the keys that other programs add to the YAML file of a map, because map_server also
+/// ignores these keys. Keeps unknown keys that may be misspelled keys of a map, so that the reader
+/// rejects the file.
 void RemoveOtherKeys(YAML::Node& root) {
   static const std::vector<std::string> known{"image",           "resolution",  "origin", "negate",
                                               "occupied_thresh", "free_thresh", "mode"};
@@ -115,9 +117,9 @@ MapCell CellOf(const RosMapKeys& map, const MapImage& image, std::size_t pixel) 
                                     : MapCell::kUnknown;
 }
 
-/// Returns the file of the image. The programs map_saver and Cartographer write absolute paths,
-/// which other machines do not have. A missing file with an absolute path is replaced by the file
-/// of the same name beside the map.
+/// Returns the path of the map's image file. The programs map_saver and Cartographer write absolute
+/// paths, which other machines do not have. A missing file with an absolute path is replaced by the
+/// file of the same name beside the map.
 fs::path ImageFile(const fs::path& file, const std::string& image) {
   const fs::path named = file.parent_path() / image;
   std::error_code ignored;

@@ -35,7 +35,7 @@ class PgmNumbers {
     rest_.remove_prefix(2);  // skip the first two characters, which are the format name P2 or P5
   }
 
-  /// Skips white space and comments, and reads the whole number that follows.
+  /// Skips white space and comments of the image file, and reads the integer that follows.
   std::uint64_t Next(const char* what) {
     SkipBlanks();
     std::uint64_t number = 0;
@@ -48,8 +48,8 @@ class PgmNumbers {
     return number;
   }
 
-  /// Returns the rest of the image file, which begins after the blank that follows the last number
-  /// that Next returned.
+  /// Returns the part of the image file after the last number that Next returned and after the
+  /// blank that follows this number.
   [[nodiscard]] std::string_view AfterBlank() const {
     return rest_.empty() ? rest_ : rest_.substr(1);
   }

@@ -18,8 +18,8 @@ struct MapImage {
   std::vector<std::uint8_t> opaque;
 };
 
-/// Reads a map image from the content of a PGM (P2, P5) or PNG file. ReadMapImage throws InputError
-/// naming `file`.
+/// Reads a map image from the content of a PGM (P2, P5) or PNG file. If the image is invalid,
+/// ReadMapImage throws InputError naming `file`.
 MapImage ReadMapImage(const std::string& content, const std::string& file);
 
 }  // namespace trackbed

@@ -9,8 +9,8 @@ namespace trackbed {
 /// Largest coordinate of a place, in either direction [m]; northings of UTM are below 1e7.
 inline constexpr double kMaxCoordinate = 1e7;
 
-/// Range of the coordinates of places, whose keys are named x and y. Every key of this range moves
-/// with the local origin of a scenario (local_origin.h).
+/// Range of the coordinates of places, whose keys are named x and y. If a scenario is moved to a
+/// local origin, every key with this range is moved as a coordinate (local_origin.h).
 inline constexpr Range kPlace{.min = -kMaxCoordinate, .max = kMaxCoordinate};
 
 /// A list of places.

@@ -11,8 +11,8 @@ namespace trackbed {
 
 std::vector<std::pair<std::string, std::string>> UnknownMetrics(
     const Expectations& expect, const std::vector<std::string>& possible) {
-  // Metrics that an error message may suggest; for metrics in lists, only the metrics of the first
-  // list element.
+  // Names of metrics that an error message may suggest; for metrics in lists, only those of the
+  // first list element.
   std::vector<std::string> shown;
   std::copy_if(possible.begin(), possible.end(), std::back_inserter(shown),
                [](const std::string& path) {

@@ -22,7 +22,7 @@ class Lines {
   [[nodiscard]] bool empty() const { return rest_.empty(); }
   [[nodiscard]] int number() const { return number_; }
 
-  /// Returns the next line without its line feed.
+  /// Returns the next line of the text without its line feed.
   std::string_view Next() {
     ++number_;
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());

@@ -18,7 +18,7 @@
 namespace trackbed {
 namespace {
 
-/// Splits a line at blanks and tabs.
+/// Splits a line of an instance file at blanks and tabs.
 std::vector<std::string_view> Fields(std::string_view line) {
   constexpr std::string_view kBlanks = " \t\r";
   std::vector<std::string_view> fields;
@@ -36,8 +36,8 @@ bool Parse(std::string_view field, T& value) {
   return error == std::errc() && after == field.data() + field.size();
 }
 
-/// Parses one line of the instance file. Returns an error message if the line is invalid, else an
-/// empty string.
+/// Parses one line of a MovingAI instance file. Returns an error message if the line is invalid,
+/// else an empty string.
 std::string ParseInstance(std::string_view line, MovingAiInstance& instance) {
   const std::vector<std::string_view> fields = Fields(line);
   constexpr std::size_t kCount = 9;

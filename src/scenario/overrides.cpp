@@ -12,8 +12,8 @@ namespace {
   throw InputError(Problem{"--set", 0, 0, text, std::move(message)});
 }
 
-/// Replaces `node` by one of its children in the YAML tree. The argument `step` is the name of the
-/// child's key, or a list index such as "[3]".
+/// Makes `node` refer to one of its children in the YAML tree. The argument `step` is the name of
+/// the child's key, or a list index such as "[3]".
 void StepInto(YAML::Node& node, const std::string& text, std::string_view step) {
   if (step.starts_with('[')) {
     std::size_t index = 0;

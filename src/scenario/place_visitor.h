@@ -13,11 +13,11 @@
 
 namespace trackbed {
 
-/// The axis along which a number is a coordinate.
+/// Map axis (x or y) along which a number is a coordinate.
 enum class MapAxis { kX, kY };
 
 /// Calls a function for each coordinate of a place that the keys of a struct contain
-/// (IsCoordinate). The called function may change the coordinate.
+/// (IsCoordinate). The function that PlaceVisitor calls may change the coordinate.
 class PlaceVisitor final : public NumberVisitor {
  public:
   /// The argument `place` is the dotted key of the place, such as "world.obstacles[0].box" or

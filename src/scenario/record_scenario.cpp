@@ -32,8 +32,8 @@ Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::s
   try {
     playback.recording = ReplayInputs(*drive, record.steering, record.drive);
   } catch (const InputError&) {
-    // Without a steering signal, or if the car drove in reverse, the recorded drive can be viewed
-    // and compared but not replayed.
+    // A recorded drive without a steering signal or with driving in reverse can be viewed and
+    // compared, but not replayed.
     record.windows.clear();
     playback.recording.steering = {{{0.0, 0.0}}};
   }

@@ -41,7 +41,7 @@ std::vector<int> Permutation(int count, std::mt19937_64& stream) {
   std::vector<int> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = order.size(); i > 1; --i) {
-    // The modulo operation makes some permutations slightly more likely, but the bias is less than
+    // The modulo operation makes some permutations slightly more likely, but this bias is less than
     // count / 2^64.
     std::swap(order[i - 1], order[stream() % i]);
   }
@@ -61,7 +61,8 @@ Eigen::MatrixXd Random(const SampleSpec& spec, int dimensions) {
 
 Eigen::MatrixXd LatinHypercube(const SampleSpec& spec, int dimensions) {
   Eigen::MatrixXd sample(spec.count, dimensions);
-  // Largest double below 1; a coordinate that rounding has raised to 1 is replaced by this number.
+  // Largest floating-point number (double) below 1; a sample coordinate that rounding has raised to
+  // 1 is replaced by this number.
   const double largest = std::nextafter(1.0, 0.0);
   for (int j = 0; j < dimensions; ++j) {
     std::mt19937_64 stream = StreamOf(spec.seed, j);
@@ -103,8 +104,8 @@ double NormalQuantile(const Distribution& distribution, double u) {
   const double up_to = std::isinf(distribution.max) ? 1.0 : cdf(normal, distribution.max);
   const double share = below + u * (up_to - below);
   // If both bounds are in the far tail of the normal distribution, their cumulative probabilities
-  // both round to 0 or both to 1. If both probabilities round to the same value, return the bound
-  // that is nearer to the mean.
+  // both round to 0 or both to 1. If the cumulative probabilities of both bounds round to the same
+  // value, return the bound that is nearer to the mean.
   if (!(share > 0.0)) {
     return distribution.max;
   }

@@ -39,11 +39,11 @@
 
 // Reads a scenario. ReadScenario parses the YAML, applies the overrides, visits all keys (visit.h)
 // and reads the files that the keys name (inputs.cpp). Finally, ReadScenario checks rules between
-// keys (cross_check.cpp), requirements and names of metrics. All problems are collected and
-// reported in the order of the file. A CommonRoad scenario is converted to YAML before it is
-// parsed. ResolvedYaml writes a scenario as YAML (the resolved scenario). The resolved scenario
-// contains all default values explicitly; its file names are the names of the copies in a run
-// folder.
+// keys (cross_check.cpp), requirements and names of metrics. All problems of a scenario are
+// collected and reported in the order of the file. A CommonRoad file is converted to the YAML of a
+// scenario before it is parsed. ResolvedYaml writes a scenario as YAML (the resolved scenario). The
+// resolved scenario contains all default values explicitly; its file names are the names of the
+// copies in a run folder.
 namespace trackbed {
 namespace {
 
@@ -60,8 +60,8 @@ void DropUnusedExpectations(Scenario& scenario) {
   });
 }
 
-/// Returns an error message if the list in the key `origin` is not a local origin, else "". The
-/// YAML reader itself reports nodes that are not lists.
+/// Returns an error message if the list in the key `origin` is not a local origin, else "". If the
+/// YAML node is not a list, the YAML reader itself reports this error.
 std::string OriginError(const YAML::Node& node) {
   if (!node || !node.IsSequence()) {
     return "";
@@ -73,8 +73,8 @@ std::string OriginError(const YAML::Node& node) {
   return OriginProblem(numbers);
 }
 
-/// Throws InputError if a file is a study. Without this check, the scenario reader would report
-/// each key of a study as unknown.
+/// Throws InputError if the given scenario file is a study. Without this check, the scenario reader
+/// would report each key of a study as unknown.
 void RefuseStudy(const YAML::Node& root, const std::string& file) {
   const YAML::Node named = root["scenario"];
   if (named && !root["mission"] && !root["drive"]) {
@@ -103,7 +103,8 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   Scenario scenario;
   scenario.folder = folder;
   scenario.asset_folders = asset_folders;
-  // The length scale may use the vehicle, because Visit reads the section `vehicle` before `plan`.
+  // The factor on default lengths of the plan may depend on the vehicle, because Visit reads the
+  // section `vehicle` before `plan`.
   context.car_length_scale = [&] { return CarLengthScale(scenario); };
   YamlReader reader(context, root, "");
   Visit(reader, scenario);
@@ -201,7 +202,8 @@ Expectations ReadExpectations(const std::filesystem::path& file) {
 }
 
 void CheckScenario(const Scenario& scenario) {
-  // Rules between keys assume that each value is valid, and formulas need the columns of a log.
+  // Run each check only if the earlier checks found no problem: rules between keys need valid
+  // values, and formulas need the columns of a log.
   auto found = ValueProblems(scenario);
   if (found.empty()) {
     found = CrossProblems(scenario, [](const auto&) { return true; });
@@ -266,7 +268,7 @@ std::string OneLine(Options options) {
   YamlWriter writer(out);
   Visit(writer, options);
   out << YAML::EndMap;
-  // Remove the braces in which the YAML emitter encloses the text.
+  // Remove the braces in which the YAML emitter encloses the text of a section.
   const std::string text = out.c_str();
   return text.substr(1, text.size() - 2);
 }
@@ -294,9 +296,9 @@ std::string ResolvedYaml(const Scenario& scenario) {
   const StartState start = InitialState(scenario);
   const bool route_sets_steering =
       scenario.plan && PlannerFor(scenario.plan->global).start_curvature != nullptr;
-  // If a recorded drive or the route determines the initial steering angle, write only an angle
-  // that the user has specified. SimulateScenario and InitialState compute the initial steering
-  // angle again.
+  // If a recorded drive or the route determines the initial steering angle, write this angle only
+  // if the user has specified it. When the resolved scenario is run, SimulateScenario and
+  // InitialState compute the initial steering angle again.
   const std::optional<double> steering =
       scenario.record || route_sets_steering ? scenario.mission.start.steering : start.steering;
   resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed, steering};

@@ -32,7 +32,8 @@ bool IsContent(const fs::path& file, FolderContent content) {
          !IsRosMap(file) && !IsNavPathYaml(file);
 }
 
-/// Appends the YAML files in `folder` that `accepts` accepts, then those in its subfolders.
+/// Appends the YAML files in `folder` for which `accepts` returns true, followed by those in its
+/// subfolders.
 void AddFilesIn(const fs::path& folder, const Accepts& accepts, std::vector<fs::path>& files) {
   std::vector<fs::path> own;
   std::vector<fs::path> folders;
@@ -65,7 +66,7 @@ void AddFilesIn(const fs::path& folder, const Accepts& accepts, std::vector<fs::
   }
 }
 
-/// Returns the accepted files among those that are shipped with Trackbed.
+/// Returns the scenario files shipped with Trackbed for which `accepts` returns true.
 std::vector<fs::path> ShippedFiles(const Accepts& accepts) {
   std::vector<fs::path> files;
   const Accepts installed = [&](const fs::path& file) {

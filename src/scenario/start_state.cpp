@@ -13,15 +13,15 @@
 namespace trackbed {
 namespace {
 
-/// Returns the first sample of the scenario's recorded drive; null if the scenario has no recorded
-/// drive.
+/// Returns the first sample of the scenario's recorded drive; a null pointer if there is no
+/// recorded drive.
 const RecordedSample* FirstSample(const Scenario& scenario) {
   return scenario.record && scenario.record->data ? &scenario.record->data->samples.front()
                                                   : nullptr;
 }
 
 /// Returns the state of the car at the start of the plan, if the planner determines this state.
-/// Returns none for most planners, because their plans begin at the start of the mission.
+/// For most planners, returns no state, because their plans begin at the start of the mission.
 std::optional<PlannedStart> StartOfPlan(const Scenario& scenario) {
   if (!scenario.plan) {
     return std::nullopt;

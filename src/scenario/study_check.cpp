@@ -44,8 +44,8 @@ class Problems {
                      [&](const Found& a, const Found& b) { return place(a) < place(b); });
     std::vector<Problem> problems;
     for (Found& found : found_) {
-      // Append the settings of the point to the message if the problem has no position in the study
-      // file.
+      // Append the settings of the study point to the message if the problem has no position in the
+      // study file.
       if (found.problem.file != study_.file && found.count < points_) {
         std::string where;
         for (const Setting& setting : found.point) {
@@ -61,7 +61,7 @@ class Problems {
  private:
   struct Found {
     Problem problem;
-    std::vector<Setting> point;  // settings of the first study point with the problem
+    std::vector<Setting> point;  // settings of the first study point that has the problem
     std::size_t count = 0;
   };
 
@@ -87,7 +87,7 @@ void CheckPoints(const StudyPoints& points, bool all) {
   const Study& study = points.study();
   Problems problems(study);
   bool any_valid = false;
-  // Returns whether the scenario with these settings is valid.
+  // Returns whether the scenario of the study is valid with the given settings.
   const auto is_valid = [&](const std::vector<Setting>& settings, std::optional<double> bisected) {
     problems.CountPoint();
     try {
@@ -117,8 +117,8 @@ void CheckPoints(const StudyPoints& points, bool all) {
     } else {
       const BisectSpec& bisect = *study.bisect;
       const bool at_from = is_valid(settings, bisect.from);
-      // Check also a value with many digits between the two bounds, because the bisection tries
-      // arbitrary values.
+      // Check also a value with many digits between the bounds of the bisected key, because the
+      // bisection tries arbitrary values.
       good = is_valid(settings, bisect.to) && at_from &&
              is_valid(settings, bisect.from + 0.3819660112501051 * (bisect.to - bisect.from));
     }

@@ -13,16 +13,17 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 
-// Computes the points of a study. The grid is the Cartesian product of `list` and all lists of
-// values. Grid points are numbered by mixed-radix numbers. The lowest digit of a point's number is
-// the index in `list`, followed by the value indices of the varied keys, from the last key to the
-// first key. At some points, conditions (`when`) can drop keys. If dropped keys make points equal,
-// only one of the equal points is kept. At each grid point, the values of keys with distributions
-// are quantiles at the coordinates of a sample of the unit cube (sampling.cpp). Keys that take
-// their values from columns of the same CSV file share one coordinate of the sample. The values of
-// derived keys (derived_keys.cpp) are computed last, from the values of the other keys. The
-// scenario of a point is the base scenario with the point's settings as overrides. Each problem of
-// a point is reported at the line of the study file that causes the problem.
+// Computes the points of a study. The grid of a study is the Cartesian product of the section
+// `list` and the value lists of all varied keys. Grid points are numbered by mixed-radix numbers.
+// The lowest digit of a point's number is the index in `list`, followed by the value indices of the
+// varied keys, from the last key to the first key. Conditions (`when`) can drop varied keys at some
+// points of the grid. If grid points are equal because of dropped keys, only one of the equal
+// points is kept. At each grid point, the values of keys with distributions are quantiles at the
+// coordinates of a sample of the unit cube (sampling.cpp). Keys that take their values from columns
+// of the same CSV file share one coordinate of the sample. The values of derived keys
+// (derived_keys.cpp) are computed last, from the values of the other keys. The scenario of a point
+// is the base scenario with the point's settings as overrides. Each problem of a study point is
+// reported at the line of the study file that causes the problem.
 namespace trackbed {
 namespace {
 
@@ -30,8 +31,8 @@ namespace {
 /// ParseScenario as overrides.
 constexpr const char* kOverride = "--set";
 
-/// If a setting of the study caused the problem, changes the position of the problem to the line of
-/// that setting.
+/// If a setting of the study caused `problem`, moves the reported position to the line of that
+/// setting in the study file.
 void PlaceInStudy(const Study& study, const std::vector<Setting>& settings, Problem& problem) {
   // If ParseScenario cannot apply an override, problem.key contains the whole text of the override.
   const std::string key = problem.file == kOverride ? OverrideKey(problem.key) : "";
@@ -47,7 +48,7 @@ void PlaceInStudy(const Study& study, const std::vector<Setting>& settings, Prob
 }
 
 /// Rejects command line overrides of keys that the study varies, because a run can use only one of
-/// the two values.
+/// the two values for a key.
 void CheckOverrides(const Study& study) {
   std::vector<Problem> problems;
   for (const Override& override_text : study.overrides) {
@@ -73,7 +74,7 @@ bool Holds(const Condition& condition, const Study& study, const std::vector<Set
   if (found == point.end()) {
     found = std::find_if(study.set.begin(), study.set.end(), is_key);
     if (found == study.set.end()) {
-      return false;  // the key to which the condition refers was dropped from this point
+      return false;  // the key to which the condition refers was dropped from this study point
     }
   }
   return std::any_of(
@@ -97,7 +98,7 @@ Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
     overrides.push_back(fmt::format("{}={}", setting.key, setting.value));
   };
   // Apply the settings in this order: settings of the whole study, of the command line, and of this
-  // point.
+  // study point.
   const auto own = all.end() - static_cast<std::ptrdiff_t>(settings.size() + (bisected ? 1 : 0));
   std::for_each(all.begin(), own, add);
   overrides.insert(overrides.end(), study.overrides.begin(), study.overrides.end());

@@ -248,7 +248,7 @@ class StudyReader {
     }
   }
 
-  /// Rejects keys that the search method does not support.
+  /// Rejects varied keys of a study that the search method does not support.
   void CheckSearch(const Study& study) {
     const SearchSpec& search = *study.search;
     const YAML::Node node = root_["search"];
@@ -276,16 +276,16 @@ class StudyReader {
     if (search.method == "direct" && search.restarts > 1) {
       refuse("restarts", "direct does the same each time; 1 at most");
     }
-    // Require enough runs for about three rounds of DIRECT. The first round of DIRECT evaluates the
-    // center of the search space and two points for each key.
+    // Require enough runs for about three rounds of the search method DIRECT. The first round of
+    // DIRECT evaluates the center of the search space and two points for each key.
     if (search.method == "direct" && search.runs < 4 * (2 * keys + 1)) {
       refuse("runs", fmt::format("{} for direct and {} keys; at least {}", search.runs, keys,
                                  4 * (2 * keys + 1)));
     }
   }
 
-  /// Checks that each condition uses only keys set before the condition, and that no key of the
-  /// grid depends on a sampled key.
+  /// Checks that each condition of a study uses only keys set before the condition, and that no key
+  /// of the grid depends on a sampled key.
   void CheckConditions(const Study& study) {
     Names of_grid;
     for (const Setting& setting : study.set) {
@@ -320,7 +320,7 @@ class StudyReader {
     }
   }
 
-  /// Checks that each key is set only once and that no setting overwrites an earlier setting.
+  /// Checks that a study sets each key only once and that no setting overwrites an earlier setting.
   void CheckUniqueSettings(const Study& study) {
     std::vector<Setting> single_settings;
     for (const Variation& variation : study.vary) {

@@ -12,7 +12,7 @@ namespace trackbed {
 /// completely.
 bool Replaces(const std::string& later, const std::string& earlier);
 
-/// Returns the key of an override "key=value".
+/// Returns the key of an override text of the form "key=value".
 std::string OverrideKey(const Override& override_text);
 
 /// Returns all settings of a run at a grid point, in the order in which the settings are applied.
@@ -22,11 +22,12 @@ std::vector<Setting> AllSettings(const Study& study, const std::vector<Setting>&
 /// Parses a YAML value as a number; returns none if the value is not a number.
 std::optional<double> NumberOf(const std::string& value);
 
-/// Returns settings of all keys whose values differ between runs, with at least one setting for
-/// each of these keys.
+/// Returns settings of all keys whose values differ between the runs of a study; each of these keys
+/// has at least one setting.
 std::vector<Setting> Varied(const Study& study);
 
-/// Returns a setting of the varied key to `value`, at the position of the key in the study's file.
+/// Returns the setting of a varied key to `value`; its file position is that of the key in the
+/// study file.
 Setting SettingOf(const Variation& variation, std::string value);
 
 }  // namespace trackbed

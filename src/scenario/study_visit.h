@@ -34,7 +34,7 @@ inline void Visit(KeyVisitor& a, GridRange& range) {
           Need::kOptional, scales);
 }
 
-/// Visits the parameters that a distribution of this kind has.
+/// Visits the parameters of a random distribution in a study file, depending on its kind.
 inline void Visit(KeyVisitor& a, Distribution& distribution) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   switch (distribution.kind) {
@@ -140,8 +140,7 @@ inline void Visit(KeyVisitor& a, BisectSpec& bisect) {
           bisect.tolerance, Need::kRequired, kPositive);
 }
 
-/// Content of a study file, together with functions that read those sections of the study whose
-/// keys are keys of a scenario.
+/// Content of a study file, and the functions that read its sections with keys of a scenario.
 struct StudyFile {
   using Read = std::function<void(const YAML::Node& node, const std::string& key)>;
 

@@ -10,16 +10,16 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
-// Reads one entry of the section `vary` of a study. An entry is a list of values, a section
-// {values, when}, a range {from, to, steps, scale}, or a distribution with its parameters. Values
-// are stored as YAML text on a single line (flow style), because the study applies the values as
-// overrides of a scenario. A range is converted to a list of values with 15 significant digits. If
-// an entry names a column of a CSV file, each value is chosen randomly among the cells of the
-// column.
+// Reads one entry of the section `vary` of a study. An entry of the section `vary` is a list of
+// values, a section {values, when}, a range {from, to, steps, scale}, or a distribution with its
+// parameters. The values of a varied key are stored as single-line YAML text (flow style), because
+// a study applies the values as overrides of a scenario. A range {from, to, steps, scale} is
+// converted to a list of values with 15 significant digits. If an entry names a column of a CSV
+// file, each value of the key is chosen randomly among the cells of the column.
 namespace trackbed {
 namespace {
 
-/// Writes a YAML value on one line, and keeps its quotes.
+/// Writes a YAML value as text on one line, and keeps the quotes around texts.
 void WriteFlow(const YAML::Node& node, YAML::Emitter& out) {
   if (node.IsMap()) {
     out << YAML::Flow << YAML::BeginMap;
@@ -176,7 +176,8 @@ class VariationReader {
         }
         if (distribution.step > 0.0 && distribution.from < distribution.to) {
           const double steps = (distribution.to - distribution.from) / distribution.step;
-          // Allow a tolerance, because decimal fractions such as 0.2 have rounding errors.
+          // Allow a tolerance in the count of steps, because decimal fractions such as 0.2 have
+          // rounding errors.
           if (std::round(steps) < 1.0 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
             AddError(node["step"], dotted + ".step",
                      fmt::format("{} to {} is no whole number of steps of {}", distribution.from,

@@ -10,17 +10,17 @@
 #include "src/scenario/reader_context.h"
 #include "trackbed/scenario/study.h"
 
-/// Functions that read those sections of a study which set keys of the study's scenario.
+/// Functions that read the sections of a study file in which keys of a scenario get values.
 namespace trackbed {
 
-/// Returns a setting that sets the key to the value; the value is stored as YAML text.
+/// Returns a setting (key and value) of a study run; the value is stored as YAML text.
 Setting ParseSetting(const std::string& key, const YAML::Node& value);
 
 using ReadEntry =
     std::function<void(const YAML::Node& key, const YAML::Node& value, const std::string& dotted)>;
 
-/// Calls `read` for each key in a section whose keys are keys of a scenario, and passes the key and
-/// its value.
+/// Calls `read` with each key and value of a section of a study file; the keys of the section are
+/// keys of a scenario.
 void ForEachKey(ReaderContext& context, const YAML::Node& node, const std::string& section,
                 const ReadEntry& read);
 
@@ -35,7 +35,7 @@ struct StudyFolders {
   const std::vector<std::filesystem::path>& others;
 };
 
-/// Reads an entry of `vary`: a list of values, a range, or a distribution.
+/// Reads an entry of the section `vary` of a study: a list of values, a range, or a distribution.
 Variation ReadVariation(ReaderContext& context, const StudyFolders& folders, const std::string& key,
                         const YAML::Node& node, const std::string& dotted);
 

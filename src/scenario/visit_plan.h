@@ -9,7 +9,8 @@
 /// Declares the keys of the section `plan` of a scenario.
 namespace trackbed {
 
-/// Layers of a plan; each layer has its own key in the section `plan` of a scenario.
+/// Layers of planning (global planner, local avoidance, replanning); each layer has its own key in
+/// the section `plan` of a scenario.
 struct PlanLayers {
   std::optional<PlannerOptions>& global;
   std::optional<AvoiderOptions>& avoid;

@@ -114,7 +114,7 @@ inline void Visit(KeyVisitor& a, World& world) {
   }
 }
 
-/// Whether the times of a motion increase over at least two poses, so that the motion can be
+/// Whether a motion has at least two poses and increasing times, so that the motion can be
 /// evaluated.
 inline bool IsPiecewise(const std::vector<TimedPose>& motion) {
   return motion.size() >= 2 && std::adjacent_find(motion.begin(), motion.end(),
@@ -128,8 +128,8 @@ struct BoxKeys {
   Obstacle& obstacle;
 };
 
-/// Reads the box of an obstacle that moves through poses. If a coordinate or the yaw of the center
-/// is missing, its value is taken from the pose at time 0.
+/// Reads the keys of the box of an obstacle that moves through poses. If a coordinate or the yaw of
+/// the center is missing, its value is taken from the pose at time 0.
 inline void VisitMovingBox(KeyVisitor& a, Obstacle& obstacle) {
   OrientedBox& box = obstacle.footprint;
   box.center = {};

@@ -27,8 +27,8 @@ namespace {
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxValues = 100000;
 constexpr std::size_t kMaxTextBytes = std::size_t{16} << 20U;
-// The size limit of a YAML text allows 40 bytes for each of kMaxValues values. The parser yaml-cpp
-// reads about a megabyte per second.
+// The size limit of a YAML text allows 40 bytes for each of kMaxValues values. The size is limited
+// because the parser yaml-cpp reads only about a megabyte per second.
 constexpr std::size_t kMaxYamlBytes = std::size_t{4} << 20U;
 
 [[noreturn]] void Fail(const std::string& file, const YAML::Mark& mark, std::string message) {
@@ -95,12 +95,12 @@ class EventTracker : public YAML::EventHandler {
     Count(mark, found->second);
   }
 
-  /// Returns the start of the innermost list or section that is still open.
+  /// Returns the position of the start of the innermost list or section that is still open.
   [[nodiscard]] YAML::Mark open() const {
     return open_.empty() ? YAML::Mark::null_mark() : open_.back().mark;
   }
-  /// Returns the position at which the last value starts if the value is quoted, else the null
-  /// mark.
+  /// Returns the position at which the last YAML value starts if this value is quoted, else the
+  /// null mark.
   [[nodiscard]] YAML::Mark quoted() const { return quoted_; }
 
  private:
@@ -136,7 +136,7 @@ class EventTracker : public YAML::EventHandler {
   std::string file_;
   int documents_ = 0;
   std::size_t values_ = 0;
-  // For each anchor, the number of values that an alias of the anchor repeats.
+  // For each YAML anchor, the number of values that an alias of the anchor repeats.
   std::unordered_map<YAML::anchor_t, std::size_t> sizes_;
   std::vector<Collection> open_;
   YAML::Mark quoted_ = YAML::Mark::null_mark();
@@ -283,7 +283,8 @@ SyntaxError Explain(const std::string& text, const YAML::Exception& error,
   if (said == Says::MAP_KEY) {
     return {mark, "text that starts with '? ' must be in quotes"};
   }
-  // Newer versions of yaml-cpp append the name of the anchor to this error message.
+  // Newer versions of yaml-cpp append the name of the anchor to the message about an unknown
+  // anchor.
   if (said.starts_with(Says::UNKNOWN_ANCHOR)) {
     return {mark, "the alias ('*') has no anchor ('&') above"};
   }
@@ -291,8 +292,8 @@ SyntaxError Explain(const std::string& text, const YAML::Exception& error,
 }
 
 /// Returns whether a quote is still open at the end of the text. yaml-cpp reports an open quote
-/// only if no line feed follows the quote. If a line feed follows the open quote, yaml-cpp takes
-/// the rest of the text as the quoted value.
+/// only if no line feed follows the quote. If a line feed follows an unclosed quote, yaml-cpp
+/// treats the rest of the text as the quoted value.
 bool EndsInQuotes(const std::string& text) {
   if (text.find_first_of("'\"") == std::string::npos) {
     return false;
@@ -325,7 +326,7 @@ YAML::Node LoadYamlValue(const std::string& text, const std::string& file) {
                                text.size(), kMaxYamlBytes)});
   }
   RejectInvalidText(text, file);
-  // Add a line feed, so that a value at the end of the text is complete.
+  // Add a line feed, so that the parser treats a value at the end of the text as complete.
   const std::string lines = text + "\n";
   EventTracker tracker(file);
   std::optional<SyntaxError> syntax_error;

@@ -7,7 +7,7 @@
 
 namespace trackbed {
 
-/// Reads the whole content of a file. ReadInput throws InputError if the file cannot be read.
+/// Reads the whole content of a file. If the file cannot be read, ReadInput throws InputError.
 std::string ReadInput(const std::filesystem::path& file);
 
 /// Parses a text as a YAML value. If the text is invalid, LoadYamlValue throws InputError with
@@ -15,9 +15,9 @@ std::string ReadInput(const std::filesystem::path& file);
 /// contains control characters or several documents, or if it is nested or repeated excessively.
 YAML::Node LoadYamlValue(const std::string& text, const std::string& file);
 
-/// Parses a text as a YAML section, with the same errors as LoadYamlValue. Also throws InputError
-/// if the value is not a section. The argument `what` names the content of the file in error
-/// messages, such as "a scenario".
+/// Parses a text as a YAML section, with the same errors as LoadYamlValue. LoadYaml also throws
+/// InputError if the YAML value is not a section. The argument `what` names the content of the file
+/// in error messages, such as "a scenario".
 YAML::Node LoadYaml(const std::string& text, const std::string& file,
                     const char* what = "a scenario");
 

@@ -11,7 +11,7 @@
 #include "trackbed/scenario/car_lengths.h"
 
 // Implements a KeyVisitor that reads a YAML mapping. Each call of Field reads one key of the
-// mapping and checks type, range and allowed names. Each problem is reported with the key's
+// mapping and checks type, range and allowed names. YamlReader reports each problem with the key's
 // position in the file and a hint. Finish reports duplicate keys and unknown keys, and suggests the
 // most similar valid key. If a key is misspelled, Finish marks the intended key as unread, so that
 // the missing value causes no follow-up errors. If the method of a section is missing or unknown,

@@ -46,7 +46,7 @@ class YamlReader final : public KeyVisitor {
   [[nodiscard]] bool HasAny(const char* key, const Names& inner) const override;
 
   /// Visits a key whose value the function `read` parses. The function `read` also receives the
-  /// dotted key.
+  /// dotted key of the value.
   template <typename Read>
   void Custom(const Key& key, const char* type, const Read& read) {
     const auto node = Take(key.name, Need::kOptional);
@@ -77,7 +77,7 @@ class YamlReader final : public KeyVisitor {
   [[nodiscard]] std::string Dotted(const char* key) const;
   std::optional<YAML::Node> Take(const char* key, Need need);
   bool CheckMap(const YAML::Node& node, const std::string& dotted);
-  /// Returns the default of a number that the file does not have.
+  /// Returns the default value of a number whose key is missing in the file.
   [[nodiscard]] double DefaultOf(const Key& key, Range range, double value) const;
   bool ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value);
   bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);

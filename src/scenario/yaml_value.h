@@ -9,11 +9,11 @@
 #include "trackbed/core/classic_locale.h"
 #include "trackbed/options/key_visitor.h"
 
-/// Reads single values of YAML files, and describes them for error messages. A value in quotes is
-/// always a text, never a number.
+/// Reads single values of YAML files, and describes them for error messages. A YAML value in quotes
+/// is always a text, never a number.
 namespace trackbed {
 
-/// Returns whether a value is in quotes.
+/// Returns whether a YAML value is in quotes.
 bool IsQuoted(const YAML::Node& node);
 
 /// Reads a value of type T. Returns false if the YAML value is not of type T. A quoted value is
@@ -24,7 +24,7 @@ bool Decode(const YAML::Node& node, T& value) {
   return node.IsScalar() && !IsQuoted(node) && YAML::convert<T>::decode(node, value);
 }
 
-/// Describes a node for error messages, for example as "a section", "a list" or "'word'".
+/// Describes a YAML node for error messages, for example as "a section", "a list" or "'word'".
 std::string DescribeValue(const YAML::Node& node);
 
 /// Describes a value that is not of type T, for error messages. If the value would be of type T
@@ -42,7 +42,7 @@ std::string CountNumbers(std::size_t count);
 /// Returns an error message if a number is not finite or outside of the range, else "".
 std::string NumberProblem(double number, const Range& range);
 
-/// Returns an error message if a name cannot be the name of a folder, else "".
+/// Returns an error message if `name` is not allowed as the name of a folder, else "".
 std::string FolderNameProblem(const std::string& name);
 
 /// Reads a finite number within the range. If the node is no finite number within the range,

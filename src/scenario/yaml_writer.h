@@ -15,7 +15,7 @@ namespace trackbed {
 
 /// Writes a struct as YAML, with the keys that the function Visit of the struct declares, so that
 /// YamlReader reads the same values back. Each number is written with the fewest digits from which
-/// the same number is read back. The writer omits optional values that are not set.
+/// the same number is read back. YamlWriter omits optional values that are not set.
 class YamlWriter final : public KeyVisitor {
  public:
   explicit YamlWriter(YAML::Emitter& out) : out_(out) {}

@@ -12,7 +12,8 @@
 namespace trackbed::adapt {
 namespace {
 
-/// Returns the index of the wheel with which the body turns; -1 if the body turns with no wheel.
+/// Returns the index of the wheel with which the body turns; -1 if the body does not turn with a
+/// wheel.
 int WheelOf(const mjModel& m, const FoundVehicle& vehicle, int body) {
   for (std::size_t w = 0; w < vehicle.wheels.size(); ++w) {
     if (m.body_weldid[body] == m.body_weldid[vehicle.wheels[w].body]) {
@@ -22,7 +23,7 @@ int WheelOf(const mjModel& m, const FoundVehicle& vehicle, int body) {
   return -1;
 }
 
-/// Notes the joints by which the base moves, if none of them is a free joint.
+/// Adds a note that names the joints by which the base body moves, if none of them is a free joint.
 void NoteBase(const FoundModel& found, const FoundVehicle& vehicle, Findings& findings) {
   const mjModel& m = *found.model;
   std::vector<int> bodies;
@@ -54,8 +55,8 @@ void NoteBase(const FoundModel& found, const FoundVehicle& vehicle, Findings& fi
   }
 }
 
-/// Notes contacts of tyres with the vehicle that are not yet `known`, in the present configuration
-/// of `data`.
+/// Adds a note for each contact of a tyre with the vehicle that is not yet in `known`, in the
+/// present configuration of `data`.
 void NoteRubbing(const FoundModel& found, const FoundVehicle& vehicle, const mjData& data,
                  const char* when, std::set<std::pair<int, int>>& known, Findings& findings) {
   const mjModel& m = *found.model;
@@ -85,7 +86,7 @@ void NoteRubbing(const FoundModel& found, const FoundVehicle& vehicle, const mjD
   }
 }
 
-/// Notes equality constraints that act on the joints of the steering.
+/// Adds a note for each equality constraint that acts on the joints of the steering.
 void NoteEqualities(const FoundModel& found, const FoundVehicle& vehicle, Findings& findings) {
   const mjModel& m = *found.model;
   for (int i = 0; i < m.neq; ++i) {
@@ -107,7 +108,7 @@ void NoteEqualities(const FoundModel& found, const FoundVehicle& vehicle, Findin
   }
 }
 
-/// Notes joints of the vehicle that do not become joints in the proposed file.
+/// Adds a note for each joint of the vehicle that does not become a joint in the proposed file.
 void NoteLocked(const FoundModel& found, const FoundVehicle& vehicle, Findings& findings) {
   const mjModel& m = *found.model;
   std::vector<std::string> locked;

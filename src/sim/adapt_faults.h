@@ -4,8 +4,8 @@
 
 namespace trackbed::adapt {
 
-/// Notes faults of the model that would falsify a run: a base that cannot move freely, tyres that
-/// touch the vehicle at rest, and equality constraints between joints of the steering.
+/// Adds notes on faults of the model that would falsify a run: a base that cannot move freely,
+/// tyres that touch the vehicle at rest, and equality constraints between joints of the steering.
 void NoteFaults(const FoundModel& found, const FoundVehicle& vehicle, Findings& findings);
 
 }  // namespace trackbed::adapt

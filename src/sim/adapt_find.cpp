@@ -14,14 +14,15 @@
 #include "trackbed/core/error.h"
 
 // Finds a vehicle in a compiled model by geometry:
-//   1. The wheels (adapt_wheels).
-//   2. The vehicle: the body that contains the wheels. Casters are wheels that swivel.
-//   3. The frame: the mean wheel axis points left, the steered axle is in front.
+//   1. FindWheels finds the wheels (adapt_wheels).
+//   2. The vehicle is the body that contains the wheels. Wheels that swivel are casters.
+//   3. In the vehicle frame, the mean wheel axis points left, and the steered axle is in front.
 namespace trackbed::adapt {
 namespace {
 
 constexpr double kVertical = 0.7;  // Smallest vertical component of a steering axis's unit vector.
-constexpr double kSameAxis = 0.9;  // Smallest cosine between the axes of two wheels.
+constexpr double kSameAxis = 0.9;  // Smallest cosine of the angle between the axes of two wheels of
+                                   // a vehicle.
 
 [[noreturn]] void Ask(const FoundModel& found, std::string key, std::string message) {
   throw InputError(
@@ -43,7 +44,7 @@ bool Contains(const mjModel& model, int body, int part) {
   return part == body;
 }
 
-/// Keeps the wheels of one vehicle.
+/// Keeps only the wheels of one vehicle.
 void ChooseVehicle(const FoundModel& found, const AdaptOptions& options,
                    std::vector<FoundWheel>& wheels) {
   const mjModel& m = *found.model;
@@ -58,7 +59,7 @@ void ChooseVehicle(const FoundModel& found, const AdaptOptions& options,
   for (const FoundWheel& wheel : wheels) {
     ++counts[m.body_rootid[wheel.body]];
   }
-  // A single round part on the ground, such as an obstacle, is no vehicle.
+  // A single round part on the ground, such as an obstacle, does not count as a vehicle.
   std::erase_if(counts, [](const auto& count) { return count.second < 2; });
   if (counts.size() > 1) {
     std::vector<std::string> names;
@@ -88,7 +89,8 @@ int FindBase(const mjModel& m, const std::vector<FoundWheel>& wheels) {
   return base;
 }
 
-/// Finds the steering joint and the spring of each wheel, between the wheel and the base.
+/// Finds the steering joint and the spring of each wheel among the joints between the wheel and the
+/// base body.
 void FindCarriers(const FoundModel& found, int base, std::vector<FoundWheel>& wheels) {
   const mjModel& m = *found.model;
   for (FoundWheel& wheel : wheels) {
@@ -110,8 +112,8 @@ void FindCarriers(const FoundModel& found, int base, std::vector<FoundWheel>& wh
 }
 
 /// Returns whether a wheel swivels behind its steering axis, as a caster does. A caster's steering
-/// joint is not limited. A caster's steering axis is ahead of the wheel by more than a fifth of the
-/// wheel radius.
+/// joint is not limited. A caster has its steering axis ahead of the wheel by more than a fifth of
+/// the wheel radius.
 bool IsCaster(const FoundModel& found, const FoundWheel& wheel) {
   if (wheel.steer < 0 || found.model->jnt_limited[wheel.steer] != 0) {
     return false;
@@ -275,7 +277,8 @@ bool CrowdAnAxle(const std::vector<FoundWheel>& wheels) {
   return wheels.size() > 4 && axles.size() <= 2;
 }
 
-/// Describes an arrangement of wheels that is neither a car nor a differential drive.
+/// Throws InputError that describes an arrangement of wheels that is neither a car nor a
+/// differential drive.
 [[noreturn]] void RefuseCount(const FoundModel& found, const std::vector<FoundWheel>& wheels) {
   if (wheels.empty()) {
     Ask(found, "wheels",
@@ -298,7 +301,7 @@ bool CrowdAnAxle(const std::vector<FoundWheel>& wheels) {
                   CrowdAnAxle(wheels) ? "; remove the other wheels from the file" : ""));
 }
 
-/// Sets the wheel radius, the origin and the distances between the wheels.
+/// Sets the vehicle's wheel radius, the origin of its frame, and the distances between its wheels.
 void Measure(const FoundModel& found, const AdaptOptions& options, FoundVehicle& vehicle,
              Findings& findings) {
   const auto& wheels = vehicle.wheels;
@@ -330,7 +333,8 @@ void Measure(const FoundModel& found, const AdaptOptions& options, FoundVehicle&
     highest = std::max(highest, own);
     lowest = std::min(lowest, own);
   }
-  // Limit the width to the radius: the width of a ball is its diameter, but a tyre is narrower.
+  // Limit the tyre width to the wheel's radius: a wheel modeled as a ball has its diameter as
+  // width, but a tyre is narrower.
   vehicle.width = std::min(vehicle.width, vehicle.radius);
   const std::size_t rear = wheels.size() - 2;
   const Vector middle = 0.5 * (wheels[rear].round.center + wheels[rear + 1].round.center);

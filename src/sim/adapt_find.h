@@ -10,8 +10,8 @@
 
 namespace trackbed::adapt {
 
-/// A wheel that was found in the model. The indices refer to the compiled model; -1 means that the
-/// wheel has no such part.
+/// A wheel that was found in the model. The indices refer to the compiled model; the index -1 means
+/// that the wheel has no such part.
 struct FoundWheel {
   int body = -1;   ///< Body that turns with the wheel.
   int spin = -1;   ///< Hinge joint of the wheel.
@@ -26,11 +26,13 @@ struct FoundWheel {
 /// is on the ground under the rear axle or the driven axle, x points forward.
 struct FoundVehicle {
   VehicleKind kind = VehicleKind::kSteered;
-  int root = -1;  ///< Body below the world that contains the vehicle.
-  int base = -1;  ///< Deepest body that contains all wheels.
-  /// Order of the wheels of a car: fl, fr, rl, rr. Order with differential drive: left, right.
+  int root = -1;  ///< Child body of the world that contains the vehicle.
+  int base = -1;  ///< Deepest body in the tree of bodies that contains all wheels.
+  /// Order of the wheels of a car: front left, front right, rear left, rear right. Order of the
+  /// driven wheels of a differential drive: left, right.
   std::vector<FoundWheel> wheels;
-  Matrix turn = Matrix::Identity();  ///< Columns: axes of the vehicle frame V in the world.
+  Matrix turn = Matrix::Identity();  ///< Rotation matrix; its columns are the axes of the vehicle
+                                     ///< frame V in the world.
   Vector origin = Vector::Zero();    ///< Origin of the vehicle frame V in the world [m].
   double radius = 0.0;               ///< Wheel radius [m].
   double width = 0.0;                ///< Width of a tyre [m].
@@ -42,7 +44,7 @@ struct FoundVehicle {
   }
 };
 
-/// Collects what AdaptModel reports: guesses, notes and questions.
+/// Collects the guesses and notes that AdaptModel reports.
 struct Findings {
   std::vector<AdaptGuess> guesses;
   std::vector<std::string> notes;

@@ -12,7 +12,7 @@ namespace {
 /// Largest deviation of a round geom from a circle, and largest offset from the axis, both divided
 /// by the radius.
 constexpr double kOutOfRound = 0.1;
-/// Smallest cosine of the angle between two axes that count as parallel (8 degrees).
+/// Smallest cosine of the angle between two axes that count as parallel; the angle is 8 degrees.
 constexpr double kParallel = 0.99;
 
 /// Returns the largest coordinate of a mesh along `direction` [m].

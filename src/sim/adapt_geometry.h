@@ -21,7 +21,7 @@ Matrix ToMatrix(const mjtNum* numbers);
 std::optional<double> ReachAlong(const mjModel& model, const mjData& data, int geom,
                                  const Vector& direction);
 
-/// A geom that is round about an axis.
+/// A geom that is round about an axis, such as a wheel.
 struct RoundGeom {
   int geom = -1;
   Vector center = Vector::Zero();  ///< Middle of the geom, on its own axis [m].
@@ -30,8 +30,8 @@ struct RoundGeom {
 };
 
 /// Returns the geom as a wheel about the line through `anchor` along the unit vector `axis`;
-/// nullopt if the geom is not round about this line. The geom's center may be a tenth of its radius
-/// away from the line, and the radius of a mesh may vary by a tenth.
+/// nullopt if the geom is not round about this line. The center of the geom may be up to a tenth of
+/// its radius away from the line. The radius of a round mesh may vary by a tenth.
 std::optional<RoundGeom> RoundAbout(const mjModel& model, const mjData& data, int geom,
                                     const Vector& anchor, const Vector& axis);
 

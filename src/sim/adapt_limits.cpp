@@ -13,16 +13,17 @@
 #include "trackbed/core/error.h"
 
 // Finds the limits of a vehicle in its compiled model.
-//   Steering: the range of a joint that both front wheels follow is the bicycle angle. Without a
-//   joint that both front wheels follow, the ranges of the two front wheels are Ackermann angles:
+//   Steering: if both front wheels follow one joint, the joint's range limits the steering angle of
+//   the bicycle model. Without such a joint, the ranges of the front wheels are Ackermann angles:
 //   cot inner = cot bicycle - track/(2 L) with the wheelbase L.
-//   Drive: actuators with a moment about a wheel's joint. The torque of an actuator is limited by
-//   forcerange, by ctrlrange times the gain, and by the friction of the tyres.
+//   Drive: the vehicle is driven by the actuators that have a moment about a wheel's joint. The
+//   torque of an actuator is limited by its forcerange, by ctrlrange times the gain, and by the
+//   friction of the tyres.
 namespace trackbed::adapt {
 namespace {
 
-/// Ranges of steering joints beyond this angle [rad] are no steering limits; they only keep a joint
-/// from turning over.
+/// Ranges of steering joints beyond this angle [rad] are no steering limits; such ranges only keep
+/// a steering joint from turning over.
 constexpr double kLargestLimit = 1.3;
 /// Steering ranges below this angle [rad] occur in models whose unit of angles is wrong.
 constexpr double kSmallestLimit = 0.05;
@@ -60,7 +61,7 @@ Range RangeOfLeader(const mjModel& m, int front) {
   return {};
 }
 
-/// Returns the range of a position servo on the joint.
+/// Returns the control range of a position servo that acts on the joint.
 Range RangeOfServo(const mjModel& m, int joint) {
   for (int i = 0; i < m.nu; ++i) {
     const bool is_servo =
@@ -76,13 +77,15 @@ Range RangeOfServo(const mjModel& m, int joint) {
   return {};
 }
 
-/// Returns the bicycle angle at which the inner front wheel has the angle `inner`.
+/// Returns the steering angle of the bicycle model at which the inner front wheel has the angle
+/// `inner`.
 double BicycleAngle(const FoundVehicle& vehicle, double inner) {
   const double half = 0.5 * vehicle.track[0] / vehicle.wheelbase;
   return std::atan(std::tan(inner) / (1.0 + half * std::tan(inner)));
 }
 
-/// Returns the range of the bicycle angle that the model's joints and servos allow.
+/// Returns the range of the bicycle model's steering angle that the model's joints and servos
+/// allow.
 Range SteeringRange(const mjModel& m, const FoundVehicle& vehicle) {
   const int left = vehicle.wheels[0].steer;
   const int right = vehicle.wheels[1].steer;
@@ -98,7 +101,8 @@ Range SteeringRange(const mjModel& m, const FoundVehicle& vehicle) {
     }
   }
   // A front wheel may be coupled to the other front wheel instead of a joint between the wheels.
-  // The range of a coupling between the front wheels is an Ackermann angle of a wheel.
+  // If the front wheels are coupled to each other, the joint range is an Ackermann angle of a
+  // wheel.
   Range wheel{std::min(SmallerSide(m, left), SmallerSide(m, right)),
               fmt::format("the ranges of the joints {} and {}", ObjectName(m, mjOBJ_JOINT, left),
                           ObjectName(m, mjOBJ_JOINT, right))};
@@ -153,7 +157,7 @@ void FindSteering(const FoundModel& found, const FoundVehicle& vehicle, const Ad
     findings.Guess("steering limit", fmt::format("{:.4g} rad", range.limit), range.evidence);
   }
   // Assume that a car with the wheelbase kCarWheelbase steers from lock to lock in one second. For
-  // smaller vehicles, times scale with the square root of the length (Froude scaling).
+  // smaller vehicles, this time is scaled with the square root of the length (Froude scaling).
   constexpr double kCarWheelbase = 2.7;  // [m]
   const double lock_to_lock = std::min(std::sqrt(vehicle.wheelbase / kCarWheelbase), 1.0);
   limits.steering_rate = options.steering_rate.value_or(2.0 * limits.steering_limit / lock_to_lock);
@@ -164,7 +168,8 @@ void FindSteering(const FoundModel& found, const FoundVehicle& vehicle, const Ad
           : fmt::format("assumed: from lock to lock in {:.2g} s; --steering-rate", lock_to_lock));
 }
 
-/// Returns the largest force of an actuator, in the unit of its gear; nullopt if it is unlimited.
+/// Returns the largest force of an actuator, in the unit of its gear; nullopt if the force is
+/// unlimited.
 std::optional<double> LargestForce(const mjModel& m, int actuator) {
   std::optional<double> force;
   if (m.actuator_forcelimited[actuator] != 0) {

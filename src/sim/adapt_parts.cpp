@@ -12,9 +12,10 @@
 // Divides the model of another program into the parts of a car (adapt.h).
 // 1. The bodies between the chassis and a wheel become the wheel and its knuckle. If there is no
 //    body between chassis and wheel, the knuckle gets a share of the wheel's mass.
-// 2. The rack is a small scaled copy of the chassis, so that the inertias of both stay physical.
-// 3. Masses and inertias of the parts add up to those of the model. A wheel that is too light for
-//    tyre forces gets a share of the chassis mass.
+// 2. The rack is a small scaled copy of the chassis, so that the inertias of rack and chassis stay
+//    physical.
+// 3. Masses and inertias of the proposed parts add up to those of the model. A wheel that is too
+//    light for tyre forces gets a share of the chassis mass.
 // 4. CopyLooks copies the visible geoms as MJCF text; meshes with many faces become boxes.
 namespace trackbed::adapt {
 namespace {
@@ -28,7 +29,7 @@ constexpr double kProposedWheel = 0.01;
 constexpr double kKnuckleShare = 0.1;
 /// Share of the chassis mass that becomes the mass of the rack.
 constexpr double kRackShare = 0.001;
-/// Largest number of faces of a mesh; meshes with more faces are drawn as boxes.
+/// Largest number of faces of a copied mesh; meshes with more faces are drawn as boxes.
 constexpr int kMaxFaces = 4000;
 
 bool IsWithin(const mjModel& m, int body, int part) {
@@ -48,8 +49,8 @@ MassSum SumOfSubtree(const FoundModel& found, const FoundVehicle& vehicle, int t
   return sum;
 }
 
-/// Returns the highest body between the wheel and the base that contains no other wheel; -1 if the
-/// wheel is on the base.
+/// Returns the body nearest to the base, between the base and the wheel, that contains no other
+/// wheel; -1 if the wheel is directly on the base.
 int CarrierTop(const mjModel& m, const FoundVehicle& vehicle, std::size_t wheel) {
   int top = -1;
   for (int body = vehicle.wheels[wheel].body; body > vehicle.base; body = m.body_parentid[body]) {
@@ -63,7 +64,8 @@ int CarrierTop(const mjModel& m, const FoundVehicle& vehicle, std::size_t wheel)
   return top;
 }
 
-/// Returns a disk about the y axis with about the given mass properties, at `hub`.
+/// Returns the mass properties of a disk about the y axis at `hub`, close to the given mass
+/// properties.
 MassSum Disk(const MassSum& sum, const Vector& hub) {
   const double spin = sum.inertia(1, 1);
   const double across = std::min(0.5 * (sum.inertia(0, 0) + sum.inertia(2, 2)), spin);
@@ -134,7 +136,7 @@ const float* ColorOf(const mjModel& m, int geom) {
   return m.geom_matid[geom] >= 0 && is_default ? m.mat_rgba + 4 * m.geom_matid[geom] : own;
 }
 
-/// Copies geoms as MJCF text.
+/// Copies visible geoms of the model as MJCF text.
 class LooksCopier {
  public:
   LooksCopier(const FoundModel& found, const FoundVehicle& vehicle, bool as_boxes)
@@ -232,7 +234,8 @@ PartMasses SplitMasses(const FoundModel& found, const FoundVehicle& vehicle, boo
     SplitWheel(found, vehicle, w, is_car && (w < 2 || has_springs), parts, findings);
   }
   if (is_car) {
-    // The rack becomes a scaled copy of the chassis, so that the inertias of both stay physical.
+    // The rack becomes a scaled copy of the chassis, so that the inertias of rack and chassis stay
+    // physical.
     parts.rack = Scaled(parts.chassis, kRackShare);
     parts.chassis = Scaled(parts.chassis, 1.0 - kRackShare);
   }
@@ -282,7 +285,8 @@ CopiedLooks CopyLooks(const FoundModel& found, const FoundVehicle& vehicle, bool
   const auto is_look = [&](int geom) {
     return (m.geom_contype[geom] | m.geom_conaffinity[geom]) == 0;
   };
-  std::set<int> shown;  // bodies that have visual geoms, whose colliding geoms are not shown
+  std::set<int> shown;  // bodies that have visual geoms; the colliding geoms of these bodies are
+                        // not drawn
   for (int geom = 0; geom < m.ngeom; ++geom) {
     if (is_look(geom) && ColorOf(m, geom)[3] > 0.1F) {
       shown.insert(m.geom_bodyid[geom]);

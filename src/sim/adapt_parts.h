@@ -12,13 +12,14 @@ namespace trackbed::adapt {
 struct PartMasses {
   MassSum total;
   MassSum chassis;
-  MassSum rack;                   ///< Part of cars only.
-  std::vector<MassSum> knuckles;  ///< Knuckle of each wheel; mass 0 if the wheel has none.
+  MassSum rack;                   ///< Steering rack, a part of cars only.
+  std::vector<MassSum> knuckles;  ///< Knuckle of each wheel; its mass is 0 if the wheel has no
+                                  ///< knuckle.
   std::vector<MassSum> wheels;
 };
 
-/// Splits the mass of the model among the parts. Wheels and knuckles become symmetric about their
-/// axes; the chassis gets the remaining mass and inertia.
+/// Splits the mass of the model among the parts of the proposed vehicle. Wheels and knuckles become
+/// symmetric about their axes; the chassis gets the remaining mass and inertia.
 PartMasses SplitMasses(const FoundModel& found, const FoundVehicle& vehicle, bool has_springs,
                        Findings& findings);
 

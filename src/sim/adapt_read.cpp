@@ -21,9 +21,10 @@
 #include "trackbed/sim/mujoco_error.h"
 #include "trackbed/sim/scene.h"
 
-// Reads a model that was written for another program. ComposeScene reads MJCF files. MuJoCo's own
-// URDF reader reads URDF files. Before MuJoCo reads a URDF file, mesh paths are replaced by plain
-// names of checked files. Meshes that MuJoCo cannot read are removed.
+// Reads an MJCF or URDF model that was written for another program. ComposeScene reads MJCF files.
+// MuJoCo's own URDF reader reads URDF files. Before MuJoCo reads a URDF file, mesh paths are
+// replaced by plain names of checked files. Meshes that MuJoCo cannot read are removed from the
+// URDF text.
 namespace trackbed::adapt {
 namespace {
 
@@ -117,7 +118,8 @@ class MeshReader {
   }
 
  private:
-  /// Returns the path of a mesh: relative to the file, or to a package for package://NAME/….
+  /// Returns the path of a mesh file. The mesh name is relative to the URDF file or, for
+  /// package://NAME/…, to the package.
   [[nodiscard]] fs::path Locate(std::string_view name) const {
     for (const std::string_view scheme : {"package://", "model://"}) {
       if (name.starts_with(scheme)) {
@@ -141,9 +143,10 @@ class MeshReader {
   }
 
   fs::path own_;                   // Folder of the URDF file, absolute.
-  std::vector<fs::path> folders_;  // Folders from which meshes may be read.
+  std::vector<fs::path> folders_;  // Folders from which meshes of the URDF file may be read.
   Scene& scene_;
-  std::map<std::string, std::string> names_;  // Name of a mesh in the file, and name of its asset.
+  std::map<std::string, std::string> names_;  // Name of a mesh in the URDF file, and name of the
+                                              // asset made from the mesh.
   std::size_t bytes_ = 0;
 };
 
@@ -228,7 +231,8 @@ Scene ComposeUrdf(const fs::path& file, XMLDocument& document, const AdaptOption
                  fmt::format("more than {} links; allowed are {}", kMaxUrdfLinks, kMaxUrdfLinks));
       }
     } else if (kind != "joint" && kind != "material" && kind != "mujoco") {
-      robot.DeleteChild(part);  // <gazebo>, <transmission> and others describe no parts
+      robot.DeleteChild(part);  // removes elements such as <gazebo>, which describe no parts of the
+                                // model
     }
   }
   CheckUrdfElements(robot, file);
@@ -272,8 +276,8 @@ MujocoModel CompileFound(const Scene& scene, const std::string& name, bool is_ur
         text.find("mesh") == std::string::npos) {
       throw;
     }
-    // In files for display only, wheels have only visual geometry, so keep visual geometry if
-    // MuJoCo can compile it.
+    // Keep visual geometry if MuJoCo can compile it, because wheels in files for display have no
+    // other geometry.
     for (const bool drops_visual : {false, true}) {
       try {
         MujocoModel model =

@@ -15,7 +15,8 @@ namespace trackbed::adapt {
 namespace {
 
 constexpr double kHorizontal = 0.35;  // Largest vertical component of a wheel axis's unit vector.
-constexpr double kOnGround = 0.3;     // Largest height of a tyre above the lowest tyre [radii].
+constexpr double kOnGround = 0.3;     // Largest height of a tyre above the vehicle's lowest tyre
+                                      // [wheel radii].
 
 /// Finds the wheels of a model.
 class WheelFinder {
@@ -36,8 +37,8 @@ class WheelFinder {
   }
 
  private:
-  /// Adds the wheel that turns about a hinge joint, if any. If two hinges have the same axis, the
-  /// wheel belongs to the hinge that is deeper in the tree of bodies.
+  /// Adds the wheel that turns about the given hinge joint, if there is such a wheel. If two hinges
+  /// have the same axis, the wheel is assigned to the hinge that is deeper in the tree of bodies.
   void AddHinge(int joint, std::vector<FoundWheel>& wheels) const {
     const Vector axis = ToVector(d_.xaxis + 3 * joint);
     const Vector anchor = ToVector(d_.xanchor + 3 * joint);
@@ -72,15 +73,16 @@ class WheelFinder {
                      .name = ObjectName(m_, mjOBJ_JOINT, joint)};
     for (FoundWheel& other : wheels) {
       if ((other.round.center - wheel.round.center).norm() < 0.5 * wheel.round.radius) {
-        other = wheel;  // the joints of a child body come later than those of its parent
+        other = wheel;  // in MuJoCo's list of joints, the joints of a child body come later than
+                        // those of its parent
         return;
       }
     }
     wheels.push_back(std::move(wheel));
   }
 
-  /// Adds round geoms without a hinge as wheels, if fewer than four wheels have hinges. A wheel
-  /// without a hinge has a twin on the other side of the vehicle.
+  /// Adds round geoms without a hinge as wheels, if fewer than four wheels have hinges. A round
+  /// geom without a hinge counts as a wheel only if it has a twin on the other side of the vehicle.
   void AddFixed(std::vector<FoundWheel>& wheels) const {
     if (wheels.size() >= 4) {
       return;

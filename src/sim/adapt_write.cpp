@@ -11,16 +11,17 @@
 #include "trackbed/sim/linkage.h"
 
 // Writes the file of an adapted car, with the names and conventions of docs/models.md.
-// 1. Each function returns the MJCF text of one part: head, defaults, assets, chassis, wheels,
-//    steering linkage, numbers, actuators.
-// 2. Numbers that the model does not state are computed from its masses and sizes. The servo is
-//    critically damped. The bearing friction is a thousandth of the weight on the wheels.
-// 3. Comments in the file give the source of each number.
+// 1. Each function returns the MJCF text of one part of the file: head, defaults, assets, chassis,
+//    wheels, steering linkage, numbers, actuators.
+// 2. Numbers that the adapted model does not state are computed from its masses and sizes. The
+//    steering servo is critically damped. The bearing friction is a thousandth of the weight on the
+//    wheels.
+// 3. Comments in the written file state the source of each number.
 namespace trackbed::adapt {
 namespace {
 
-/// Time constant of the steering servo [s]. The servo is critically damped: with the inertia I that
-/// it turns, kp = 4 I/tau^2 and damping = 4 I/tau.
+/// Time constant of the steering servo [s]. For critical damping of the servo, kp = 4 I/tau^2 and
+/// damping = 4 I/tau, with the turned inertia I and the time constant tau.
 constexpr double kServoTime = 0.01;
 /// Magic Formula coefficients of rubber on dry ground, for forces relative to the wheel load.
 constexpr const char* kTyreCoefficients =
@@ -92,7 +93,7 @@ std::string Defaults(const FoundVehicle& vehicle, const Proposal& proposal) {
       "      <joint type=\"hinge\" axis=\"0 1 0\" frictionloss=\"{3:.3g}\" solreffriction=\"0.004 "
       "1\" solimpfriction=\"0.9999 0.9999 0.001\"/>\n    </default>\n  </default>\n",
       vehicle.radius, 0.5 * vehicle.width, proposal.limits.friction,
-      // bearing friction: a thousandth of the weight on the wheels
+      // The bearing friction force is a thousandth of the weight on the wheels.
       0.001 * proposal.masses.total.mass * proposal.gravity * vehicle.radius /
           static_cast<double>(vehicle.wheels.size()));
 }
@@ -129,7 +130,7 @@ std::string Wheel(const Proposal& proposal, std::size_t w, const std::string& na
       name, Text(at), Inertial(proposal.masses.wheels[w], hub), proposal.looks.wheels[w]);
 }
 
-/// Parameters of the car that the linkage depends on.
+/// Parameters of the car on which the steering linkage depends.
 VehicleParams LinkageParams(const FoundVehicle& vehicle, const Proposal& proposal) {
   VehicleParams params;
   params.wheelbase = vehicle.wheelbase;
@@ -139,8 +140,8 @@ VehicleParams LinkageParams(const FoundVehicle& vehicle, const Proposal& proposa
   return params;
 }
 
-/// Returns the slide joint of a suspension with the spring of the model. The preload carries the
-/// sprung mass at qpos0.
+/// Returns the slide joint of a suspension with the spring of the model. The preload of the springs
+/// carries the sprung mass at qpos0.
 std::string Spring(const FoundModel& found, const FoundVehicle& vehicle, const Proposal& proposal,
                    std::size_t w) {
   const mjModel& m = *found.model;
@@ -252,8 +253,8 @@ std::string WriteCar(const FoundModel& found, const FoundVehicle& vehicle, const
   for (std::size_t w = 0; w < 2; ++w) {
     turned += masses.wheels[w].inertia(2, 2) + masses.knuckles[w].inertia(2, 2);
   }
-  // The full lateral force of the front axle, with a trail of 0.1 wheel radii, deflects the servo
-  // by at most 0.005 rad.
+  // The full lateral force of the front axle, with a trail of 0.1 wheel radii, deflects the
+  // steering servo by at most 0.005 rad.
   const double least =
       10.0 * proposal.limits.friction * masses.total.mass * proposal.gravity * vehicle.radius;
   const double inertia = std::max(1.5 * turned, 0.25 * least * kServoTime * kServoTime);
@@ -279,9 +280,9 @@ std::string WriteWheelPair(const FoundVehicle& vehicle, const Proposal& proposal
   const double radius = vehicle.radius;
   const double track = vehicle.track[1];
   const double torque = 0.5 * proposal.limits.drive_torque;
-  // The inertia of a motor is an eighth of the vehicle's inertia at the wheel. While the wheel
-  // slips, the servo responds within two steps of 2 ms. The servos' integral term is critically
-  // damped against the yaw inertia.
+  // The inertia of a wheel motor is an eighth of the vehicle's mass times the squared wheel radius.
+  // While a wheel slips, its servo responds within two steps of 2 ms. The servos' integral term is
+  // critically damped against the yaw inertia.
   const double own = 0.125 * total.mass * radius * radius;
   const double armature = std::max(0.0, own - proposal.masses.wheels[0].inertia(1, 1));
   const double gain = std::max(own / 0.004, 4.0 * torque / proposal.limits.wheel_speed);

@@ -6,7 +6,7 @@
 
 namespace trackbed::adapt {
 
-/// Everything that the proposed file contains.
+/// Data from which the proposed car file is written.
 struct Proposal {
   std::string name;    ///< Name of the model.
   std::string source;  ///< Name of the file that was adapted.

@@ -21,8 +21,8 @@ constexpr std::uint32_t kMaxHeightSamples = 4096;
 constexpr std::uint32_t kMaxFaces = 200000;
 // Maximum number of facets along one side of a drawn sphere or plane.
 constexpr std::uint32_t kMaxFacets = 256;
-/// Maximum length of a word (a name or number) in the model file. MuJoCo copies words of the model
-/// file into error messages, in a buffer of about 500 characters.
+/// Maximum length of a word (a name or number) in the model file; the length is limited because
+/// MuJoCo copies words of the model file into error messages, in a buffer of about 500 characters.
 constexpr std::size_t kMaxWordLength = 200;
 
 std::string LowerExtension(const std::filesystem::path& file) {

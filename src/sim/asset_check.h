@@ -19,12 +19,12 @@ inline constexpr std::size_t kMaxAssets = 1900;
 inline constexpr std::size_t kMaxTotalAssetBytes = std::size_t{512} << 20;
 
 /// Checks the content of an asset file whose kind is `kind`, such as "mesh" or "texture". Returns
-/// the error as a predicate to append to the file name, such as "is no PNG picture"; empty if the
+/// the error as a phrase that follows the file name, such as "is no PNG picture"; empty if the
 /// content is valid.
 std::string AssetError(std::string_view kind, const std::filesystem::path& file,
                        std::string_view content);
 
-/// Checks an XML element of the composed model. Returns the error in the element as a sentence;
+/// Checks an XML element of the composed model. Returns the error in the XML element as a sentence;
 /// empty if the element is valid.
 std::string ElementError(const tinyxml2::XMLElement& element);
 

@@ -28,8 +28,8 @@ int SpringJoint(const mjModel& model, int wheel, int chassis) {
 
 /// Returns the roll stiffness of an axle's springs and anti-roll bars [N m/rad]. Without springs,
 /// the roll stiffness is infinite, because the wheels are fixed to the chassis or rest on the stops
-/// of their joints. To compute the stiffness, the left wheel is moved up by z and the right wheel
-/// down by z, so the roll angle is 2 z/track.
+/// of their joints. To compute the roll stiffness, the left wheel is moved up by z and the right
+/// wheel down by z, so the roll angle is 2 z/track.
 double SuspensionStiffness(const mjModel& model, int left, int right, double track) {
   if (left < 0 || right < 0) {
     return std::numeric_limits<double>::infinity();
@@ -63,8 +63,8 @@ LongitudinalForces Forces(const CarModel& car) {
   forces.brake_force =
       2.0 * (parts.brake_torque_front + parts.brake_torque_rear) / params.wheel_radius;
   // In VehicleParams, the limit of the braking deceleration does not include the rolling
-  // resistance. The limit of the driving acceleration is the limit after subtracting the rolling
-  // resistance.
+  // resistance. In VehicleParams, the limit of the driving acceleration is that after subtracting
+  // the rolling resistance.
   forces.rolling_mass = forces.brake_force / params.braking.by_force;
   forces.rolling_resistance =
       std::max(0.0, forces.drive_force - forces.rolling_mass * params.driving.by_force);

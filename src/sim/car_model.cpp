@@ -19,7 +19,7 @@
 namespace trackbed {
 namespace {
 
-/// Returns the parameters that the car would have if its payload had no mass.
+/// Returns the parameters that the car would have without the mass of its payload.
 VehicleParams Unladen(const mjModel& laden, int payload, const std::string& name) {
   const MujocoModel model = CopyMujocoModel(laden);
   const MujocoData data = MakeMujocoData(*model);
@@ -36,8 +36,8 @@ struct Stand {
 
 Stand RestPoseOn(const VehicleParams& params, const Pose2& pose, const Ground& ground) {
   // The ground's height is sampled at the positions that the wheels would have on level ground. On
-  // a slope, the wheels are horizontally closer together, but only by a second-order term, which is
-  // neglected.
+  // a slope, the wheels are horizontally closer together than on level ground, but only by a
+  // second-order term, which is neglected.
   const bool steered = params.kind == VehicleKind::kSteered;
   const double ahead_of_axle = steered ? params.wheelbase : params.length - params.rear_overhang;
   const double track_front = steered ? params.track_front : params.width;
@@ -61,8 +61,8 @@ Stand RestPoseOn(const VehicleParams& params, const Pose2& pose, const Ground& g
 }
 
 /// Returns yaw, pitch and roll of a trailer relative to its car, such that both wheels of the
-/// trailer touch the ground. The height and orientation of the car are given by `stand`. The
-/// ground's height is sampled at the positions that the wheels would have on level ground.
+/// trailer touch the ground. The argument `stand` contains the height and orientation of the car.
+/// The ground's height is sampled at the positions that the wheels would have on level ground.
 std::array<double, 3> RestingHitch(const TrailerParts& trailer, const Pose2& car, double angle,
                                    const Stand& stand, const Ground& ground) {
   if (IsFlat(ground)) {
@@ -74,8 +74,8 @@ std::array<double, 3> RestingHitch(const TrailerParts& trailer, const Pose2& car
       stand.turn * Eigen::Vector3d(-params.hitch, 0.0, params.hitch_height);
   const double left = GroundHeight(ground, ToWorld(axle, {0.0, 0.5 * params.track}));
   const double right = GroundHeight(ground, ToWorld(axle, {0.0, -0.5 * params.track}));
-  // The ground under the trailer axle is below the hitch by hitch_height minus tongue times the
-  // pitch, which is positive for a lowered nose.
+  // At the trailer axle, the ground is below the hitch by hitch_height minus tongue times the
+  // pitch; the pitch is positive for a lowered nose.
   const double below = stand.height + hitch.z() - 0.5 * (left + right);
   const double pitch = (params.hitch_height - below) / params.tongue;
   const double roll = (left - right) / params.track;
@@ -232,7 +232,7 @@ WheelSpeeds RollingSpeeds(const VehicleParams& params, double speed, double stee
     return WheelSpeeds{{rear.left, rear.right}};
   }
   const double yaw_rate = speed * CurvatureForSteering(params, steering);
-  // Ackermann angles: each front wheel points along the velocity of its hub.
+  // With Ackermann angles, each front wheel points along the velocity of its hub.
   const auto front_speed = [&](double y) {
     return std::copysign(std::hypot(speed - yaw_rate * y, yaw_rate * params.wheelbase), speed);
   };

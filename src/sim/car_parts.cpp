@@ -16,11 +16,11 @@
 #include "trackbed/core/error.h"
 
 // Reads the parts and parameters of a car with steered front wheels from its compiled model. First,
-// all parts are looked up by name; if parts are missing, only the missing parts are reported. After
-// this lookup, the types, positions, axes and ranges of the parts are checked against
-// docs/models.md. Finally, the parameters of the car are computed: masses, steering, tyres and
-// acceleration limits. Positions are evaluated in the model's initial configuration qpos0. All
-// problems are collected and thrown as one InputError.
+// all parts of the car are looked up by name; if parts are missing, only the missing parts are
+// reported. After this lookup, the types, positions, axes and ranges of the parts are checked
+// against docs/models.md. Finally, the parameters of the car are computed: masses, steering, tyres
+// and acceleration limits. Positions are evaluated in the model's initial configuration qpos0. All
+// problems of the car's parts are collected and thrown as one InputError.
 namespace trackbed {
 namespace {
 
@@ -68,9 +68,9 @@ class CarReader final : private PartsReader {
     params_.steering_ratio = Number("steering_ratio");
   }
 
-  /// Adds hints to the list of missing names. If the base has no free joint, a hint names the
-  /// joints that move the base. If the model has none of the names of wheels, a hint explains how
-  /// to make a car file.
+  /// Adds hints for the user to the list of missing names of parts. If the base body of the car has
+  /// no free joint, a hint names the joints that move this body. If the model has no wheel with a
+  /// required name, a hint explains how to make a car file.
   void ExplainForeignModel() {
     const int body = chassis_.chassis;
     if (free_ < 0 && body >= 0 && m_.body_jntnum[body] > 0) {
@@ -188,9 +188,9 @@ class CarReader final : private PartsReader {
     if (m_.actuator_trntype[steer] != mjTRN_JOINT || m_.actuator_trnid[2 * steer] != rack_) {
       AddError("steer", "must act on the joint 'rack'");
     }
-    // When the command of a servo changes at a constant rate, the joint lags behind by a constant
-    // time. This lag time is the total damping of the joints that the servo turns, divided by the
-    // servo's stiffness.
+    // When the command of the steering servo changes at a constant rate, the joint follows with a
+    // constant lag time. This lag time is the total damping of the joints that the servo turns,
+    // divided by the servo's stiffness.
     double damping = m_.dof_damping[m_.jnt_dofadr[rack_]];
     for (const int joint : steer_) {
       damping += m_.dof_damping[m_.jnt_dofadr[joint]];
@@ -304,7 +304,8 @@ class CarReader final : private PartsReader {
     const Towed towed = ReadTowed();
     rolling_mass += towed.rolling_mass;
     rolling += towed.rolling;
-    // `ahead` is the sign of the change of the front axle's load: 1 for braking, -1 for driving.
+    // The factor `ahead` is the sign of the change of the front axle's load: 1 for braking, -1 for
+    // driving.
     const auto limit = [&](double front_force, double ahead, double force) {
       AccelerationLimit own{.by_force = force / rolling_mass, .axles = {}};
       const std::array<double, 2> pushed{front_force, 1.0 - front_force};
@@ -336,15 +337,17 @@ class CarReader final : private PartsReader {
   struct Towed {
     double rolling_mass = 0.0;  // [kg]
     double rolling = 0.0;       // Rolling resistance [N].
-    // Increase of AxleGrip::weight of the front and the rear axle by the trailer's nose load.
+    // Increase of the load fractions AxleGrip::weight of the front and the rear axle by the
+    // trailer's nose load.
     std::array<double, 2> weight{};
-    // Additional load transfer factors of the front and the rear axle, as fractions of the car's
-    // mass; positive if the transfer grows.
+    // Additional load transfer factors of the front and the rear axle due to the trailer, as
+    // fractions of the car's mass; positive if the trailer increases the load transfer.
     std::array<double, 2> transfer{};
   };
 
-  /// The trailer has no brakes. While the car brakes with the deceleration a, the trailer of mass
-  /// m_t pushes the hitch forward with m_t a. The nose of the trailer becomes heavier by m_t a (z_t
+  /// The simulated trailer has no brakes. While the car brakes with the deceleration a, the trailer
+  /// of mass m_t pushes the hitch forward with the force m_t a. The nose of the trailer becomes
+  /// heavier by m_t a (z_t
   /// - h)/l, with its center of gravity height z_t, the hitch height h and the tongue length l.
   Towed ReadTowed() {
     const std::optional<TrailerParts> trailer = FindTrailer(m_);

@@ -24,8 +24,8 @@ inline constexpr const char* kNeededCoefficients =
 inline constexpr const char* kPayloadBody = "payload";
 inline constexpr const char* kLadenKeyframe = "laden";
 
-/// Returns the parts (wheels, joints, actuators) of a car. Throws InputError, naming the car's file
-/// and the feature `needed_by`, if the car has no steered wheels.
+/// Returns the parts (wheels, joints, actuators) of a car with steered wheels. Throws InputError,
+/// naming the car's file and the feature `needed_by`, if the car has no steered wheels.
 const CarParts& SteeredParts(const CarModel& car, std::string_view needed_by);
 
 /// Returns the tyre parameters of a car. Throws InputError, naming the car's file and the missing

@@ -15,12 +15,12 @@
 #include "trackbed/core/error.h"
 
 // Simulates a car with steered front wheels in MuJoCo. CarPlant implements three parts of a step:
-//   1. Act: the steering servo turns at a limited rate, or the steering angle is prescribed. The
+//   1. In Act, the steering servo turns at a limited rate, or the steering angle is prescribed. The
 //      motor or the brakes apply the torque that yields the commanded acceleration despite the
 //      driving resistance.
-//   2. ApplyWheelForces: Magic Formula tyres (magic_formula_tyres.h) and dry friction act on the
+//   2. In ApplyWheelForces, Magic Formula tyres (magic_formula_tyres.h) and dry friction act on the
 //      wheels. Driver aids (driver_aids.h) change the torques of brakes and differential.
-//   3. Finish: the front wheels are turned to the Ackermann angles of the rack angle or of the
+//   3. In Finish, the front wheels are turned to the Ackermann angles of the rack angle or of the
 //      prescribed angle. The plant disables the polynomial joint coupling of the front wheels in
 //      the model.
 namespace trackbed {
@@ -53,7 +53,7 @@ class CarPlant final : public MujocoPlant {
         trailer_tyres_.emplace(car(), model(), TyreWheelsOfTrailer(car(), model()));
       }
       for (const int spin : parts.spin_dof) {
-        // HoldWheels applies the bearing friction instead of MuJoCo
+        // the function HoldWheels applies the bearing friction instead of MuJoCo
         model().dof_frictionloss[spin] = 0.0;
       }
     }
@@ -154,7 +154,7 @@ class CarPlant final : public MujocoPlant {
   bool prescribed_;
   bool hold_ = false;                       // Whether the brakes hold the car at rest.
   bool linked_ = false;                     // Whether the front wheels are coupled to the rack.
-  FrontAngles slopes_;                      // Derivatives of the front wheel angles with respect
+  FrontAngles slopes_;                      // Derivatives of both front wheel angles with respect
                                             // to the rack angle.
   std::optional<MagicFormulaTyres> tyres_;  // Magic Formula tyres; nullopt if the car has contact
                                             // tyres.
@@ -208,8 +208,8 @@ bool CarPlant::ReleaseLinkage() {
   return true;
 }
 
-/// Applies the torques of the front wheels about their steering axes to the rack. These steering
-/// torques are those of the previous step.
+/// Applies the torques of the front wheels about their steering axes to the rack. The torques
+/// applied to the rack are those of the previous step.
 void CarPlant::LoadRack() {
   const CarParts& parts = car().parts();
   const mjtNum* acceleration = data().qacc;
@@ -329,7 +329,8 @@ void CarPlant::Help(const Road& road) {
   std::array<WheelMotion, 4> wheels;
   std::array<double, 4> brakes{};
   double loads = 0.0;
-  double carried = 0.0;  // Sum of the loads, each times the friction factor of the road.
+  double carried = 0.0;  // Sum of the wheel loads, each times the friction factor of the road under
+                         // the wheel.
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     wheels[w] = tyres_->Motion(w);
     wheels[w].spin = data().qvel[parts.spin_dof[w]];

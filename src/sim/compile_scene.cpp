@@ -25,9 +25,10 @@ namespace trackbed {
 namespace {
 
 constexpr std::size_t kGigabyte = std::size_t{1} << 30;
-/// Limits for the separate process that compiles a model.
-constexpr std::size_t kMemory = 2 * kGigabyte;  // Maximum memory of the process [bytes].
-constexpr int kSeconds = 60;                    // Maximum processor time of the process [s].
+/// Resource limits for the separate process that compiles a model.
+constexpr std::size_t kMemory = 2 * kGigabyte;  // Maximum memory of the compiling process [bytes].
+constexpr int kSeconds = 60;                    // Maximum processor time of the compiling process
+                                                // [s].
 /// Maximum size of a compiled model [bytes].
 constexpr std::int64_t kMaxBytes = kGigabyte;
 
@@ -49,7 +50,7 @@ void Add(mjVFS& vfs, const std::string& file, const std::string& content) {
   TRACKBED_CHECK(mj::AddToVfs(vfs, file, content) == 0, "cannot hand {} to MuJoCo", file);
 }
 
-/// A compiled model, or the error message of MuJoCo's compiler.
+/// A compiled model or, if the compilation failed, the error message of MuJoCo's compiler.
 struct Compiled {
   MujocoModel model;
   std::string error;
@@ -133,9 +134,9 @@ struct CompileError {
   int line = 0;      ///< Line of the composed model to which the error refers; 0 if unknown.
 };
 
-/// Splits an error text of MuJoCo into the message and the line number. At the end of the text,
-/// MuJoCo names the element: "Element 'joint', line 46" or "Object name = rack, id = 1, line = 63,
-/// column = -1"; since MuJoCo 3.1, "Element name 'rack', id 1, line 63".
+/// Splits an error text of MuJoCo into the message and the line number. At the end of its error
+/// text, MuJoCo names the element: "Element 'joint', line 46" or "Object name = rack, id = 1, line
+/// = 63, column = -1"; since MuJoCo 3.1, "Element name 'rack', id 1, line 63".
 CompileError ParseMujocoError(const std::string& message) {
   static const std::regex kind("^(XML )?Error: (Error: )?(Schema violation: )?");
   static const std::regex place(
@@ -155,7 +156,8 @@ CompileError ParseMujocoError(const std::string& message) {
 /// A word of MJCF that older versions of MuJoCo do not know.
 struct NewerWord {
   std::string_view word;
-  int version;  ///< First version, encoded like mjVERSION_HEADER (222: 2.2.2, 3010000: 3.10.0).
+  int version;  ///< First MuJoCo version that knows the word, encoded like mjVERSION_HEADER (222:
+                ///< 2.2.2, 3010000: 3.10.0).
   const char* text;
 };
 

@@ -7,8 +7,8 @@
 namespace trackbed {
 namespace {
 
-/// Returns the speed of a wheel at the end of a step in which the torque `added` acts on it
-/// [rad/s].
+/// Returns the speed of a wheel at the end of a step in which the additional torque `added` acts on
+/// the wheel [rad/s].
 double SpeedAfter(const AxleWheel& wheel, double added, double timestep) {
   const double per_torque = timestep / wheel.inertia;
   const double free = wheel.speed + (wheel.torque + added) * per_torque;
@@ -26,15 +26,16 @@ double CouplingTorque(const AxleWheel& left, const AxleWheel& right, double most
   if (unlocked == 0.0 || most <= 0.0) {
     return 0.0;
   }
-  // The transmitted torque opposes the difference of the wheel speeds. With c = sign x, the
-  // function x -> sign * difference(sign x) increases from a negative value at x = 0.
+  // The transmitted torque opposes the difference of the wheel speeds. With the torque c = sign x,
+  // the function sign * difference(sign x) increases with x, from a negative value at x = 0.
   const double sign = unlocked > 0.0 ? -1.0 : 1.0;
   const auto rising = [&](double x) { return sign * difference(sign * x); };
-  // Transmitted torques at which each wheel, without dry friction, would end the step at rest.
+  // Transmitted torques with which the left and the right wheel, without dry friction, would end
+  // the step at rest.
   const double to_rest_left = -(left.speed * left.inertia / timestep + left.torque);
   const double to_rest_right = right.speed * right.inertia / timestep + right.torque;
-  // Transmitted torque at which the difference of the wheel speeds has changed its sign in any
-  // case.
+  // Transmitted torque that is large enough to change the sign of the difference of the wheel
+  // speeds.
   const double enough =
       std::abs(to_rest_left) + left.friction + std::abs(to_rest_right) + right.friction;
   const double last = std::min(most, enough);

@@ -12,9 +12,10 @@
 namespace trackbed {
 namespace {
 
-// Default parameters of a limited-slip differential. The differential's ramp is a quarter of the
-// drive torque, as for the plate differentials of road cars. The preload is 0.02 m g R: 80 N m for
-// a car of 1300 kg.
+// Default parameters of a limited-slip differential. The differential's locking torque grows by a
+// quarter of the drive torque, as for the plate differentials of road cars. The preload torque of
+// the differential is 0.02 m g R, with the car's mass m and the wheel radius R: 80 N m for a car of
+// 1300 kg.
 constexpr double kPreload = 0.02;
 constexpr double kRamp = 0.25;
 
@@ -82,7 +83,7 @@ void DriverAids::Update(const CarMotion& motion, const std::array<WheelMotion, 4
   for (std::size_t w = 0; w < wheels.size(); ++w) {
     const double wanted = std::min(brakes[w] + asked[w], largest_[w]);
     if (options_.abs || asked[w] > 0.0) {
-      // Stability control knows the friction factor of the road. Stability control therefore keeps
+      // Stability control uses the road's friction factor as the least used friction. This keeps
       // the slip of the braked wheel at the peak of the tyre force, in turns too.
       const double least_use = asked[w] > 0.0 ? std::min(1.0, wheels[w].road) : 0.0;
       slip_[w].Update(wheels[w], wanted, pull / mass_, least_use, timestep);
@@ -102,9 +103,9 @@ void DriverAids::Update(const CarMotion& motion, const std::array<WheelMotion, 4
   }
 }
 
-/// Returns the largest brake torque of a front wheel [N m]. The brake torque of the wheel with more
-/// grip may exceed that of the other wheel by an excess that grows within a second. The slow growth
-/// gives the driver time to steer against the yaw moment.
+/// Returns the largest brake torque of a front wheel [N m]. The brake torque of the front wheel
+/// with more grip may exceed that of the other front wheel by an excess that grows within a second.
+/// The slow growth of the excess torque gives the driver time to steer against the yaw moment.
 double DriverAids::FrontTorque(double timestep) {
   constexpr double kYawDelay = 1.0;  // [s]
   const double low = std::min(slip_[0].limit(), slip_[1].limit());
@@ -123,7 +124,8 @@ double DriverAids::RearTorque() const {
 }
 
 double DriverAids::LargestCoupling(double drive) const {
-  // The difference between the torques of the wheels is twice the transmitted torque.
+  // The difference between the torques of the two wheels is twice the torque that the differential
+  // transmits, hence the factor 0.5.
   return options_.differential == Differential::kLocked
              ? kUnlimited
              : 0.5 * (preload_ + ramp_ * std::abs(drive));

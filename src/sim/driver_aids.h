@@ -19,11 +19,12 @@ class DriverAids {
   /// An axle whose two wheels are driven.
   struct DrivenAxle {
     std::size_t first = 0;     ///< Index of the left wheel; the right wheel has the next index.
-    double drive_share = 0.0;  ///< Torque on both wheels per unit of the drive control.
+    double drive_share = 0.0;  ///< Sum of the drive torques on both wheels, per unit of the drive
+                               ///< control.
   };
 
-  /// `data` is the state of the car at the start, after mj_forward. Throws InputError if the car
-  /// has no driven axle for the differential.
+  /// The argument `data` is the car's state at the start, after mj_forward. Throws InputError if
+  /// the car has no driven axle for the differential.
   DriverAids(const AidOptions& options, const CarModel& car, const mjModel_& model,
              const mjData_& data);
 
@@ -41,7 +42,8 @@ class DriverAids {
   /// Returns the largest torque [N m] that the differential transmits from one wheel to the other
   /// if the torque `drive` [N m] drives the axle.
   [[nodiscard]] double LargestCoupling(double drive) const;
-  /// Stores the sum of the torques that the differentials transmit to the left wheels [N m].
+  /// Stores the sum of the torques that the differentials transmit to the left wheels in the
+  /// present step [N m].
   void SetCoupling(double torque) { coupling_ = torque; }
 
   [[nodiscard]] AidState state() const;
@@ -52,7 +54,8 @@ class DriverAids {
 
   AidOptions options_;
   std::vector<DrivenAxle> coupled_;
-  double preload_ = 0.0;  // Largest torque difference of the two wheels without drive torque [N m].
+  double preload_ = 0.0;  // Preload torque: largest torque difference of the two wheels without
+                          // drive torque [N m].
   double ramp_ = 0.0;
   double coupling_ = 0.0;
   double mass_;
@@ -61,9 +64,11 @@ class DriverAids {
   // Permitted excess of one front wheel's brake torque over that of the other (FrontTorque) [N m].
   double front_excess_ = 0.0;
   std::optional<StabilityControl> esc_;
-  std::array<double, 4> esc_torque_{};  // Brake torque that stability control adds [N m].
+  std::array<double, 4> esc_torque_{};  // Brake torque that stability control adds at each wheel [N
+                                        // m].
   std::array<double, 4> torque_{};
-  std::array<bool, 4> limited_{};  // Whether a wheel's brake torque is limited below its command.
+  std::array<bool, 4> limited_{};  // For each wheel, whether its brake torque is limited below the
+                                   // command.
 };
 
 }  // namespace trackbed

@@ -15,7 +15,7 @@ namespace trackbed {
 /// and rate.
 VehicleParams Steered(const PlantSetup& setup);
 
-/// Converts the initial state of a run to a state of the rear axle.
+/// Converts the initial state of a run to the state of the car's rear axle.
 KinematicState InPlane(const StartState& start);
 
 /// A plant that wraps a planar car model (such as KinematicCar or SingleTrackCar) that follows its
@@ -72,7 +72,7 @@ class ExactPlant final : public Plant {
   }
 
   /// Whether a coordinate of the car exceeds the limit at which MuJoCo also reports divergence. An
-  /// unstable car model spins ever faster until a coordinate exceeds the limit.
+  /// unstable car model spins ever faster until a coordinate of the car exceeds this limit.
   [[nodiscard]] bool diverged() const override {
     constexpr double kMaxCoordinate = 1e10;
     const Pose2& pose = car_.state().pose;
@@ -91,7 +91,7 @@ class ExactPlant final : public Plant {
  private:
   const CarModel& model_;
   Car car_;
-  VehicleState state_;  // state of the car after the last step
+  VehicleState state_;  // state of the car after the last simulated step
   std::vector<double> spin_;
 };
 

@@ -10,7 +10,8 @@ using Eigen::Vector3d;
 
 void AddForce(const mjModel& model, mjData& data, int body, const Vector3d& point_W,
               const Vector3d& force_W, const Vector3d& moment_W) {
-  int moved = body;  // the nearest body that has joints: `body` itself or one of its ancestors
+  int moved = body;  // the nearest body with joints in the body tree: `body` itself or one of its
+                     // ancestors
   while (moved > 0 && model.body_dofnum[moved] == 0) {
     moved = model.body_parentid[moved];
   }

@@ -16,8 +16,8 @@
 
 // Simulates the tyres of a car by the Magic Formula with relaxation lengths.
 // 1. In each step, the slips follow the speeds of the contact patch with a first-order lag over the
-//    distance rolled; Relaxation solves this equation exactly.
-// 2. The forces follow from the slips, the load and the camber (magic_formula.h).
+//    distance rolled; the class Relaxation solves the lag's equation exactly.
+// 2. The tyre forces are computed from the slips, the load and the camber (magic_formula.h).
 // 3. Below walking pace, a tyre becomes a spring with critical damping, so that a car can stand on
 //    a slope.
 // 4. The constructor checks that explicit integration of the wheels is stable with the timestep.
@@ -36,8 +36,8 @@ std::size_t AxleIndex(std::size_t wheel) {
   return wheel < 2 ? 0 : 1;
 }
 
-/// Solves sigma s' = slip_speed - speed s exactly over one timestep, for the longitudinal and
-/// lateral slip s of a wheel.
+/// Solves sigma s' = slip_speed - speed s exactly over one timestep, for the longitudinal or
+/// lateral slip s of a wheel with the relaxation length sigma.
 class Relaxation {
  public:
   Relaxation(double speed, double sigma, double timestep)
@@ -46,7 +46,7 @@ class Relaxation {
     gain_ = timestep / sigma * (x > 1e-9 ? decay_ / x : 1.0);
   }
 
-  /// Advances the slip `s` by one timestep and returns s + tau s'.
+  /// Advances the slip `s` by one timestep and returns s + tau s', with the damping time `tau`.
   [[nodiscard]] double Step(double& s, double slip_speed, double tau) const {
     s += gain_ * slip_speed - decay_ * s;
     return s + tau / sigma_ * (slip_speed - speed_ * s);
@@ -60,11 +60,11 @@ class Relaxation {
 };
 
 /// Returns the damping time tau that critically damps an oscillation of angular frequency `omega`.
-/// Consider a mass on a spring with damping tau, integrated with timestep dt, and let W = omega dt.
-/// The eigenvalues of a step solve
+/// The eigenvalues l of a step of a mass on a spring with damping tau, integrated with the timestep
+/// dt, solve the following equation with W = omega dt:
 ///   l^2 - (2 - W^2 - W omega tau) l + 1 - W omega tau = 0.
-/// With omega tau = 2 - W, both eigenvalues are 1 - W. For W = omega dt > 1, tau is chosen such
-/// that omega tau = 1/W, which yields the eigenvalues 0 and 1 - W^2.
+/// For W = omega dt < 1, the damping omega tau = 2 - W makes both eigenvalues of a step equal to 1
+/// - W. For W >= 1, the damping omega tau = 1/W yields the eigenvalues 0 and 1 - W^2.
 double Damping(double omega, double timestep) {
   const double step = omega * timestep;
   return (step < 1.0 ? 2.0 - step : 1.0 / step) / omega;
@@ -76,13 +76,14 @@ double LongitudinalRelaxation(const MagicFormula& tyre) {
 }
 
 /// Returns the natural angular frequency of a wheel's rotation against its tyre's stiffness at a
-/// given load, R sqrt(C_kappa/(sigma I)) [rad/s].
+/// given load [rad/s]. This frequency is R sqrt(C_kappa/(sigma I)), with radius R, slip stiffness
+/// C_kappa, relaxation length sigma and spin inertia I.
 double SpinFrequency(const MagicFormula& tyre, double load, double radius, double inertia) {
   return radius * std::sqrt(SlipStiffness(tyre, load) / (LongitudinalRelaxation(tyre) * inertia));
 }
 
-/// Returns the slip at which the whole contact patch slides, equal to 3 mu F_z/C in the brush
-/// model.
+/// Returns the slip at which the whole contact patch slides: 3 mu F_z/C in the brush model with the
+/// slip stiffness C.
 double SlidingSlip(double friction, double load, double stiffness) {
   return 3.0 * friction * load / stiffness;
 }
@@ -163,9 +164,10 @@ MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, const mjModel& model,
 }
 
 /// Checks that the numerical integration of the tyres is stable. The rotation of a wheel against
-/// its tyre's stiffness is stable up to omega dt = sqrt(2). CheckTimestep assumes that one wheel
-/// carries the load of the whole axle. The vertical motion of a wheel of mass m, on a tyre of
-/// stiffness k and damping c, is stable up to k/m dt^2 + 2 c/m dt = 4.
+/// its tyre's stiffness is stable up to omega dt = sqrt(2), with the natural frequency omega and
+/// the timestep dt. CheckTimestep assumes that one wheel carries the load of the whole axle. The
+/// vertical motion of a wheel of mass m, on a tyre of stiffness k and damping c, is stable up to
+/// k/m dt^2 + 2 c/m dt = 4, with the timestep dt.
 void MagicFormulaTyres::CheckTimestep(const CarModel& car) const {
   double fastest = 0.0;                                      // [rad/s]
   double longest = std::numeric_limits<double>::infinity();  // [s]
@@ -209,8 +211,8 @@ TyreTouch MagicFormulaTyres::Touch(const mjData& data, std::size_t w) const {
 double MagicFormulaTyres::Load(std::size_t w, double gap, double opening) const {
   const TyreWheel& wheel = wheels_[w];
   const double pressed = wheel.load_at_rest - wheel.vertical_stiffness * gap;
-  // The total force is limited to 0 or more: damping must not pull a lifting tyre toward the road
-  // or load a tyre in the air.
+  // The total vertical tyre force is limited to 0 or more: damping must not pull a lifting tyre
+  // toward the road or load a tyre in the air.
   return pressed <= 0.0 ? 0.0 : std::max(0.0, pressed - wheel.vertical_damping * opening);
 }
 
@@ -298,8 +300,8 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data, std::span<cons
     const Eigen::Vector3d push = load * contact.up + state.longitudinal_force * contact.forward +
                                  state.lateral_force * contact.left;
     // The added moment makes the longitudinal force act with the lever arm R about the spin axis,
-    // whatever the height of the hub. With another lever arm, the road would do work on a wheel
-    // that has no slip.
+    // whatever the height of the hub. If the longitudinal force had another lever arm than R, the
+    // road would do work on a wheel without slip.
     const double arm = contact.up.dot(hub - contact.point);
     const Eigen::Vector3d moment =
         -(rolling + state.longitudinal_force * (radius - arm)) * contact.spin_axis;

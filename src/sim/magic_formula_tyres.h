@@ -35,31 +35,34 @@ std::vector<TyreWheel> TyreWheelsOfCar(const CarModel& car, const mjModel_& mode
 std::vector<TyreWheel> TyreWheelsOfTrailer(const CarModel& car, const mjModel_& model);
 
 /// Computes the tyre forces of a car or of its trailer. A tyre is modeled as a spring normal to the
-/// ground; its forces along the ground follow from the Magic Formula, with slips that have a
+/// ground. The Magic Formula yields the tyre's forces along the ground, from slips that lag by a
 /// relaxation length. The springs replace MuJoCo's contacts between tyres and ground
 /// (TyreSupport::kSprings), so MuJoCo has no contact constraints to solve for a car on the road.
 ///
 /// Normal to the ground, a tyre is a spring of stiffness k with damping c. The gap is the distance
-/// between the tyre's geom and the ground. While F_z0 > k gap, the load of the tyre is
+/// between the tyre's geom and the ground. While F_z0 > k gap, the tyre is on the ground and its
+/// load is
 ///   F_z = max(0, F_z0 - k gap - c d(gap)/dt);
-/// otherwise the load is 0. F_z0 is the wheel load at rest, where the tyre of the model just
+/// otherwise the tyre's load is 0. F_z0 is the wheel load at rest, where the tyre of the model just
 /// touches the ground (gap = 0).
 ///
 /// The longitudinal or lateral slip s approaches its steady value v_s/|v_x| over the relaxation
 /// length sigma, where v_s is the slip speed and v_x the rolling speed:
 ///   sigma ds/dt = v_s - |v_x| s.
 /// The equation of the slip is solved exactly over each timestep, with constant speeds. The exact
-/// solution is also valid at standstill, where s is the deflection of the tyre divided by sigma.
+/// solution of the slip s is also valid at standstill, where s is the deflection of the tyre
+/// divided by sigma.
 ///
-/// The argument of the Magic Formula is s + tau ds/dt. The term tau ds/dt represents the damping of
-/// the tyre's carcass, which has no effect in steady slip. In the longitudinal direction, the
-/// damping time tau critically damps the wheel's rotation against the tyre's stiffness at any
-/// speed. In the lateral direction, the damping time tau decreases to zero as the speed rises to
-/// walking pace, since rolling then damps lateral motion.
+/// The argument of the Magic Formula is the damped slip s + tau ds/dt. The term tau ds/dt, with the
+/// damping time tau, represents the damping of the tyre's carcass, which has no effect in steady
+/// slip. In the longitudinal direction, the damping time tau critically damps the wheel's rotation
+/// against the tyre's stiffness at any speed. In the lateral direction, the damping time tau
+/// decreases to zero as the speed rises to walking pace, since rolling then damps lateral motion.
 class MagicFormulaTyres {
  public:
-  /// `wheels` has at most four wheels, on one or two axles, each with the left wheel before the
-  /// right one. Throws InputError if the car's timestep is too long for a stable integration.
+  /// The list `wheels` has at most four wheels, on one or two axles, each with the left wheel
+  /// before the right one. Throws InputError if the car's timestep is too long for a stable
+  /// integration.
   MagicFormulaTyres(const CarModel& car, const mjModel_& model, std::vector<TyreWheel> wheels);
 
   /// Adds the tyre forces of the coming step to the joint forces in `data`. Apply() must be called

@@ -15,22 +15,23 @@
 #include "trackbed/core/error.h"
 
 // Checks every number of a compiled model against a table of bounds. The arrays to check come from
-// MuJoCo's macro MJMODEL_POINTERS; numbers under <custom> are checked by name. After the arrays,
-// checks the options, the joint names and the actuators. Throws one InputError that lists up to 20
-// problems, each with the name of its object.
+// MuJoCo's macro MJMODEL_POINTERS; numbers under <custom> are checked by name. After the arrays of
+// the model, CheckModel checks the options, the joint names and the actuators. Throws one
+// InputError that lists up to 20 problems, each with the name of its object.
 namespace trackbed {
 namespace {
 
 /// Largest magnitude of a number that MuJoCo accepts in a simulation.
 constexpr double kMaxMagnitude = 1e10;
 
-/// Largest accepted magnitude of the numbers with this name, far beyond that of any vehicle.
+/// Largest accepted magnitude of the model's numbers with this name, far beyond that of any
+/// vehicle.
 struct Bound {
   std::string_view name;
   double largest;
 };
 
-/// Bounds of the numbers under <custom>, in SI units.
+/// Bounds of the model's numbers under <custom>, in SI units.
 constexpr std::array kCustomBounds{
     Bound{"steering_ratio", 1e3}, Bound{"steering_wheel_rate", 1e3}, Bound{"steering_rate", 1e3},
     Bound{"turning_radius", 1e3}, Bound{"brake_torque", 1e5}, Bound{"brake_torque_front", 1e5},
@@ -44,9 +45,10 @@ constexpr std::array kCustomBounds{
 // bound of a tyre's Magic Formula coefficients, such as "p_cx1"
 constexpr double kMaxCoefficient = 1e3;
 
-/// Bounds for the arrays of the compiled model whose numbers come from the model file, in SI units.
-/// MuJoCo computes all other arrays from the arrays in this table, or uses them only for drawing.
-/// Arrays that the installed version of MuJoCo does not have are skipped.
+/// Bounds of the numbers in arrays of the compiled model, in SI units; the table contains the
+/// arrays whose numbers come from the model file. MuJoCo computes all other arrays from the arrays
+/// in this table, or uses them only for drawing. Arrays that the installed version of MuJoCo does
+/// not have are skipped.
 constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
                                   Bound{"qpos_spring", kMaxMagnitude},
                                   Bound{"body_pos", 1e5},
@@ -171,7 +173,8 @@ class ModelChecker {
   }
 
  private:
-  /// Keeps only the first problems, since an invalid number is often repeated in many rows.
+  /// Keeps only the first problems of an array, since an invalid number is often repeated in many
+  /// of its rows.
   static std::vector<Problem> FirstOf(std::vector<Problem> problems) {
     constexpr std::size_t kMaxProblems = 20;
     problems.resize(std::min(problems.size(), kMaxProblems));
@@ -226,7 +229,7 @@ class ModelChecker {
     const bool is_inertia = array == "body_mass" || array == "body_inertia";
     for (int i = 0; i < row_count * columns; ++i) {
       const double number = numbers[i];
-      // Bodies that are fixed to the world, such as walls, never accelerate.
+      // Skip bodies that are fixed to the world, such as walls: they never accelerate.
       if (is_inertia && m_.body_weldid[i / columns] == 0 && std::isfinite(number)) {
         continue;
       }
@@ -239,13 +242,14 @@ class ModelChecker {
     }
   }
 
-  /// Skips arrays that contain indices or flags, or numbers used only for drawing.
+  /// Skips arrays of the model that contain indices, flags, or numbers used only for drawing.
   template <typename Other>
   void CheckArray(std::string_view, std::string_view, const Other*, int, int) {}
 
   void CheckArrays() {
     const mjModel* m = &m_;
-    // Since MuJoCo 3.11, the sizes in mjModel have 64 bits, but the macro still uses 32-bit sizes.
+    // Since MuJoCo 3.11, the sizes in mjModel have 64 bits, but the macro MJMODEL_POINTERS still
+    // uses 32-bit sizes.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
     MJMODEL_POINTERS_PREAMBLE(m)

@@ -11,12 +11,12 @@
 #include <string>
 
 /// Hides the API differences between MuJoCo versions from the simulation code. The supported MuJoCo
-/// versions are 2.2.2, 3.3 and newer, and 4.0.1. If a struct member exists only in some versions, a
-/// template tests for the member with `requires`, since only a template may name a missing member.
-/// If enumerators differ, preprocessor conditions on the version number select the code.
+/// versions are 2.2.2, 3.3 and newer, and 4.0.1. If a struct member exists only in some MuJoCo
+/// versions, a template tests for the member with `requires`, since only a template may name a
+/// missing member. If enumerators differ between versions, preprocessor conditions select the code.
 namespace trackbed::mj {
 
-/// Adds a file to MuJoCo's virtual file system. Returns 0 if the file was added.
+/// Adds a file to MuJoCo's virtual file system. AddToVfs returns 0 if the file was added.
 template <std::same_as<mjVFS> Vfs>
 int AddToVfs(Vfs& vfs, const std::string& file, const std::string& content) {
   const auto size = static_cast<int>(content.size());
@@ -62,8 +62,8 @@ bool HasOneControlEach(const Model& model) {
 }
 
 /// Returns the index of an actuator's state in mjData::act; -1 if the actuator has no state. Before
-/// MuJoCo 2.3, the actuators with a state were the last ones in the model, and each had a single
-/// state.
+/// MuJoCo 2.3, the actuators with a state were the last actuators in the model, and each had a
+/// single state variable.
 template <std::same_as<mjModel> Model>
 int ActivationAddress(const Model& model, int actuator) {
   if constexpr (requires { model.actuator_actadr; }) {
@@ -75,7 +75,7 @@ int ActivationAddress(const Model& model, int actuator) {
 }
 
 /// Returns the largest torque that all actuators together may exert on a joint; infinite without a
-/// limit. MuJoCo has this limit of the torque on a joint since version 2.3.7.
+/// limit. Models can contain a torque limit of a joint since MuJoCo 2.3.7.
 template <std::same_as<mjModel> Model>
 mjtNum JointForceLimit([[maybe_unused]] const Model& model, [[maybe_unused]] int joint) {
   if constexpr (requires { model.jnt_actfrclimited; }) {
@@ -104,14 +104,15 @@ mjtNum ActuatorMoment([[maybe_unused]] const mjModel& model, const Data& data, i
   }
 }
 
-/// Locks the joints `dofs` by giving them a large armature inertia. The state of the model must be
-/// at rest in its initial configuration.
+/// Locks the joints `dofs` by giving them a large armature inertia. LockJoints requires a model at
+/// rest in its initial configuration.
 ///
 /// MuJoCo's constraint solver scales its tolerance by the trace of the inertia matrix. Since MuJoCo
 /// 3.17, the trace of the inertia matrix includes an armature inertia that is set after
-/// compilation; in earlier versions, the trace excludes this inertia. LockJoints therefore divides
-/// the solver's tolerance by the factor by which the inertia matrix's trace grows. Without this
-/// correction of the tolerance, contacts would be solved a thousand times less accurately.
+/// compilation; in earlier versions, the trace excludes this inertia. To compensate for the larger
+/// trace, LockJoints divides the solver's tolerance by the factor by which the inertia matrix's
+/// trace grows. Without this correction of the tolerance, contacts would be solved a thousand times
+/// less accurately.
 inline void LockJoints(mjModel& model, std::span<const int> dofs, double armature) {
 #if mjVERSION_HEADER >= 3017000
   const double trace = std::accumulate(model.dof_M0, model.dof_M0 + model.nv, 0.0);
@@ -127,15 +128,16 @@ inline void LockJoints(mjModel& model, std::span<const int> dofs, double armatur
 template <std::same_as<mjData> Data>
 int SolverIterations(const Data& data) {
   if constexpr (requires { data.solver_niter; }) {
-    // with islands disabled, the first entry of solver_niter is the count for all constraints
+    // with constraint islands disabled, the first entry of solver_niter is the count for all
+    // constraints
     return data.solver_niter[0];
   } else {
     return data.solver_iter;
   }
 }
 
-/// Returns the text of a warning from MuJoCo's simulation. The type of `info` was int before MuJoCo
-/// 3.0.
+/// Returns the text of a warning from MuJoCo's simulation. The parameter `info` of mju_warningText
+/// had the type int before MuJoCo 3.0.
 inline const char* WarningText(int warning, int info) {
   return [&]<typename Info>(const char* (*text)(int, Info)) {
     return text(warning, static_cast<Info>(info));
@@ -144,12 +146,12 @@ inline const char* WarningText(int warning, int info) {
 
 /// Sets options such that all MuJoCo versions compute the same motion.
 ///
-/// Constraint islands, which are on by default since MuJoCo 3.3.6, are disabled. With islands, the
-/// solver stops separately for each island. A laden car would creep, and runs would differ from
-/// those of MuJoCo 2.2.2 by millimeters instead of rounding errors. The mid-phase of collision
-/// detection, introduced in MuJoCo 2.3.3, is also disabled. The mid-phase uses the bounding boxes
-/// of the compiled model; as RoadContact moves planes out of these boxes, a car on contact tyres
-/// would fall through terrain.
+/// Constraint islands, which are on by default since MuJoCo 3.3.6, are disabled. With constraint
+/// islands, the constraint solver stops iterating separately for each island. With constraint
+/// islands, a laden car at rest would creep, and runs would differ from those of MuJoCo 2.2.2 by
+/// millimeters instead of rounding errors. The mid-phase of collision detection, introduced in
+/// MuJoCo 2.3.3, is also disabled. The mid-phase uses the bounding boxes of the compiled model; as
+/// RoadContact moves planes out of these boxes, a car on contact tyres would fall through terrain.
 inline void SetCommonOptions([[maybe_unused]] mjModel& model) {
 #if mjVERSION_HEADER >= 233
   model.opt.disableflags |= mjDSBL_MIDPHASE;

@@ -4,12 +4,12 @@
 
 #include "trackbed/core/error.h"
 
-// Functions of MuJoCo that set the error and warning handlers of the calling thread. The handlers
-// of a thread take precedence over the global handlers. MuJoCo exports these functions, for example
-// for its Python bindings, but mujoco.h does not declare them.
+// Functions of MuJoCo that set the error and warning handlers of the calling thread. In MuJoCo, the
+// handlers of a thread take precedence over the global handlers. MuJoCo exports these functions,
+// for example for its Python bindings, but mujoco.h does not declare them.
 extern "C" {
 #if mjVERSION_HEADER >= 3010000
-// returns the thread's previous handler
+// each function returns the thread's previous handler
 mjfLogHandler _mjPRIVATE_setTlsLogHandler(mjfLogHandler handler);
 #else
 void (*_mjPRIVATE__get_tls_error_fn(void))(const char*);

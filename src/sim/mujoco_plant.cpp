@@ -14,14 +14,14 @@
 #include "trackbed/sim/mujoco_error.h"
 
 // Simulates a vehicle with MuJoCo. A step of the plant has five parts:
-//   1. The derived class sets actuators and brakes (Act). The planes under the tyres are moved
-//      along the ground. Moving obstacles are set to their planned state, and the tyre contacts to
+//   1. The derived plant class sets actuators and brakes (Act). The planes under the tyres are
+//      moved along the ground. Moving obstacles get their planned state, and the tyre contacts get
 //      the road's friction.
 //   2. MuJoCo's mj_step1 computes the positions and velocities on which the forces of part 3
 //      depend.
 //   3. The forces of the air, of the lateral push and of the wheels (ApplyWheelForces) are applied.
 //   4. MuJoCo's mj_step2 integrates the motion.
-//   5. The derived class ends the step (Finish).
+//   5. The derived plant class ends the step (Finish).
 namespace trackbed {
 namespace {
 
@@ -303,7 +303,7 @@ void MujocoPlant::ApplyPendingLateralForce() {
   const Vector3d force_W(force.x(), force.y(), 0.0);
   const int chassis = car_.chassis().chassis;
   const Vector3d cg_V(car_.params().cg_to_rear, 0.0, car_.chassis().cg_height);
-  // The subtree of the chassis contains the trailer.
+  // In MuJoCo, the subtree of the chassis also contains the trailer.
   const Vector3d cg_W = car_.trailer() ? Vec(ChassisPosition()) + ChassisRotation() * cg_V
                                        : Vec(data_->subtree_com + 3 * chassis);
   AddForce(*model_, *data_, chassis, cg_W, force_W);

@@ -15,8 +15,8 @@
 
 namespace trackbed {
 
-/// A MuJoCo simulation: data, and a copy of the model for this simulation alone, because brakes and
-/// road modify the model. A copy of the object is an independent simulation in the same state.
+/// A MuJoCo simulation: its data and its own copy of the model, because brakes and road modify the
+/// model during a run. A copy of the object is an independent simulation in the same state.
 class MujocoSimulation {
  protected:
   explicit MujocoSimulation(const mjModel& model)
@@ -54,8 +54,9 @@ class MujocoPlant : public Plant, private MujocoSimulation {
   using Road = std::array<double, 4>;
   /// Steering and wheel states of the car, as observed by the derived class.
   struct Wheels {
-    double actuator = 0.0;  ///< Value for VehicleState::steering_actuator.
-    double steering = 0.0;  ///< Value for VehicleState::steering.
+    double actuator = 0.0;  ///< Angle of the steering actuator, for
+                            ///< VehicleState::steering_actuator.
+    double steering = 0.0;  ///< Steering angle at the wheels, for VehicleState::steering.
     std::optional<std::array<WheelState, 4>> forces;
   };
 
@@ -77,11 +78,11 @@ class MujocoPlant : public Plant, private MujocoSimulation {
   /// step.
   void Begin();
 
-  /// Sets the actuators and brakes for the coming step; called before the step.
+  /// Sets the vehicle's actuators and brakes for the coming step; called before mj_step1.
   virtual void Act(const Command& command) = 0;
   /// Adds the wheel forces of a step to qfrc_applied; called between mj_step1 and mj_step2.
   virtual void ApplyWheelForces(const Road& /*road*/) {}
-  /// Ends a step of the derived plant; called after mj_step2.
+  /// Ends a simulation step of the derived plant; called after mj_step2.
   virtual void Finish(const Command& /*command*/) {}
   [[nodiscard]] virtual Wheels ObserveWheels() const = 0;
 
@@ -106,7 +107,7 @@ class MujocoPlant : public Plant, private MujocoSimulation {
     int dof = -1;
   };
 
-  /// The joints along which an obstacle of the world moves.
+  /// The joints of the model along which an obstacle of the world moves.
   struct Mover {
     std::size_t obstacle = 0;
     MovedJoint x;

@@ -162,7 +162,7 @@ void PartsReader::CheckOrigin(const char* axle, const char* wheels, int left, in
 
 void PartsReader::CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius) {
   // Scenes with hilly ground (WithGround) are not checked, because the car stands at a different
-  // height there. The level ground of the original model was checked before.
+  // height there. The original model with its level ground was checked before the hills were added.
   if (mj_name2id(&m_, mjOBJ_GEOM, ("ground_" + wheel).c_str()) >= 0) {
     return;
   }

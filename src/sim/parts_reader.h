@@ -12,8 +12,8 @@
 
 namespace trackbed {
 
-/// Base class of the classes that read a vehicle from its compiled model. Finds parts by name and
-/// collects all errors.
+/// Base class of the classes that read a vehicle from its compiled model. PartsReader finds the
+/// vehicle's parts by name and collects all errors.
 class PartsReader {
  protected:
   /// Tolerance for rounded decimal numbers in a model file: lengths [m], components of axes and
@@ -28,8 +28,8 @@ class PartsReader {
   void AddError(std::string name, std::string message);
   void ThrowIfAnything() const;
 
-  /// Returns the index of the object with the given name. If the object does not exist, adds an
-  /// error and returns -1.
+  /// Returns the index of the object with the given name. If the model has no such object, Find
+  /// adds an error and returns -1.
   int Find(int type, const char* kind, const std::string& name);
   /// Returns the index of the joint with the given name. If the joint does not exist or has another
   /// type, adds an error and returns -1.
@@ -53,11 +53,12 @@ class PartsReader {
   /// Checks that the origin of the chassis lies below the middle of the wheels of `axle`. `wheels`
   /// is the name of the two wheels in error messages.
   void CheckOrigin(const char* axle, const char* wheels, int left, int right);
-  /// Checks the axis and the tyre of the wheel whose joint is spin_`wheel`. Adds the error "`all`
-  /// must be equal" if the size of the tyre differs from that of the geom `first`.
+  /// Checks the axis and the tyre geom of the wheel whose joint is spin_`wheel`. If the tyre's size
+  /// differs from that of the geom `first`, adds the error "`all` must be equal".
   void CheckWheel(const std::string& wheel, int spin, int tyre, int first, const char* all);
   /// Checks that in the configuration qpos0 the wheel touches the model's own ground, with a
-  /// tolerance of half the wheel's radius. CheckStand skips ground that is not level.
+  /// tolerance of half the wheel's radius. CheckStand does not check the wheel if the model's
+  /// ground is not level.
   void CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius);
   void ReadFootprint(int site);
   void ReadAerodynamics();

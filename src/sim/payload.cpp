@@ -34,8 +34,8 @@ class Settling {
     }
   }
 
-  /// Simulates the car until it is at rest. Returns false if the car is not at rest after 30 s of
-  /// simulated time.
+  /// Simulates the car until it is at rest. Run returns false if the car is not at rest after 30 s
+  /// of simulated time.
   bool Run() {
     const MujocoErrorScope errors;
     // Maximum simulated time until the car must be at rest [s].

@@ -20,7 +20,8 @@ std::unique_ptr<Plant> MakeMujocoWith(const PlantSetup& setup) {
   return MakeMujocoPlant(own);
 }
 
-/// Returns the registry of all plants; each line of the initializer defines one plant.
+/// Returns the registry of all plants (vehicle models); each line of the initializer defines one
+/// plant.
 Registry<PlantEntry>& Table() {
   static Registry<PlantEntry> table(
       "plant",

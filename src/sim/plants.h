@@ -5,7 +5,7 @@
 namespace trackbed {
 
 // The actuators of planar plants follow each command immediately. The wrapper in
-// steering_filter_plant.h adds the car's steering response.
+// steering_filter_plant.h adds the car's steering response to a planar plant.
 
 std::unique_ptr<Plant> MakeIdealKinematicPlant(const PlantSetup& setup);
 

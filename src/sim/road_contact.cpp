@@ -21,8 +21,8 @@ using Eigen::Vector3d;
 /// contact at a micrometer gap, and the suspension spring would hammer the tyre back onto the
 /// ground.
 constexpr double kContactGap = 5e-4;
-/// Distance between tyre and plane that is set instead of a small gap [m]; a penetration as small
-/// as a rounding error.
+/// Distance between tyre and plane that replaces a small gap [m]; negative, that is, a penetration
+/// as small as a rounding error.
 constexpr double kContactDistance = -1e-9;
 
 bool IsRoad(const mjModel& model, int geom) {
@@ -96,9 +96,10 @@ void RoadContact::Place(mjModel& model, mjData& data) const {
     const Matrix3d R_WT =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data.geom_xmat + 9 * tyre);
     const double gap = shape_[w].On(ground, center_W, R_WT).gap;
-    // The plane gets the slope that the ground has at the middle of the step. A tyre that moves
-    // along this plane ends the step on the ground, up to second-order errors. The distance between
-    // tyre and plane equals the present distance between tyre and ground.
+    // The plane under a tyre gets the slope that the ground has at the middle of the step. A tyre
+    // that moves along its plane ends the step on the ground, up to second-order errors. The plane
+    // is placed such that its distance from the tyre equals the present distance between tyre and
+    // ground.
     const Vector3d half_step_motion =
         0.5 * model.opt.timestep * (Vector3d(velocity) + w_W.cross(center_W - origin_W));
     const TyreTouch ahead = shape_[w].On(ground, center_W + half_step_motion, R_WT);

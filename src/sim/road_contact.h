@@ -13,8 +13,9 @@ namespace trackbed {
 /// Largest number of wheels of a car and its trailer together.
 inline constexpr std::size_t kMaxWheels = 6;
 
-/// Returns the collision bit (conaffinity) of the plane under a wheel. The wheels 4 and 5 are those
-/// of a trailer. The models of cars must not use the collision bits of the planes under the wheels.
+/// Returns the collision bit (conaffinity) of the plane that is kept under a wheel. The wheel
+/// indices 4 and 5 are those of a trailer. The models of cars must not use the collision bits of
+/// the planes under the wheels.
 constexpr int WheelPlaneBit(std::size_t wheel) {
   return 1 << (wheel < 4 ? 24 + wheel : 25 + wheel);  // bit 28 is kOtherGeomsBit
 }
@@ -25,15 +26,15 @@ enum class TyreSupport {
   kSprings,   ///< The springs of MagicFormulaTyres support the tyres.
 };
 
-/// Lets tyres roll on the exact ground instead of the facets of its height fields.
+/// Lets tyres roll on the exact ground instead of the flat facets of MuJoCo's height fields.
 ///
 /// In MuJoCo, a height field consists of prisms with flat facets, and a rigid tyre bounces from
-/// facet to facet. Consider a car at 10 m/s on a hump of 8 m length and 0.1 m height, with steps of
-/// 2 ms. From one step to the next, wheel loads jump by 832 N on the facets, but only by 7 N on the
-/// exact ground. On the facets of a height field, the car also loses twice as much speed as on the
-/// exact ground. With RoadContact, each tyre touches only a single plane (`ground_fl`, …). Before
-/// every step, the plane is moved to be tangent to the exact ground under the tyre. MuJoCo still
-/// computes the contacts, friction and forces.
+/// facet to facet. For example, a car crosses a hump of 8 m length and 0.1 m height at 10 m/s, with
+/// timesteps of 2 ms. Its wheel loads jump by up to 832 N per timestep on the facets, but only by 7
+/// N on the exact ground. On the facets of a height field, the car also loses twice as much speed
+/// as on the exact ground. With RoadContact, each tyre touches only a single plane (`ground_fl`,
+/// …). Before every step, the plane is moved to be tangent to the exact ground under the tyre.
+/// MuJoCo still computes the contacts, friction and forces between tyres and planes.
 ///
 /// With TyreSupport::kSprings, MuJoCo computes no contacts between tyres and ground.
 class RoadContact {

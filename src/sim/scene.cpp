@@ -57,7 +57,8 @@ void CheckElements(const XMLElement& root, const fs::path& file) {
   });
 }
 
-/// Finds the first element named `name` in the sections `section` of the root element.
+/// Finds the first element with the name `name` in the MJCF sections `section`, the children of the
+/// root element.
 XMLElement* FindNamed(XMLElement& root, const char* section, std::string_view name) {
   for (XMLElement* part = root.FirstChildElement(section); part != nullptr;
        part = part->NextSiblingElement(section)) {
@@ -81,9 +82,9 @@ bool HasOnly(const XMLElement* element, std::string_view name, const char* attri
          element->Attribute(attribute) != nullptr && element->Attribute(attribute) == value;
 }
 
-/// Sets the maximum steering rate in the model. For a car, the maximum steering rate is the control
-/// range of the steering actuator. A vehicle with differential drive has no steering actuator, so
-/// its steering rate is a number under <custom>.
+/// Sets the vehicle's maximum steering rate in the MJCF model. For a car, the maximum steering rate
+/// is the control range of the steering actuator. A vehicle with differential drive has no steering
+/// actuator, so its steering rate is a number under <custom>.
 void SetSteeringRate(XMLElement& root, double rate) {
   if (XMLElement* steer = FindNamed(root, "actuator", "steer")) {
     steer->SetAttribute("ctrlrange", Numbers({-rate, rate}).c_str());
@@ -189,7 +190,7 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
 
   scene.xml = Print(document);
   ForEachElement(root, [&](const XMLElement& element) {
-    scene.lines.push_back(element.GetLineNum());  // 0 for an included or added element
+    scene.lines.push_back(element.GetLineNum());  // line 0 for an included or added element
   });
   return scene;
 }

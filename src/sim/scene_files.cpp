@@ -25,7 +25,8 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-/// Removes text nodes from an XML document, since MJCF consists only of elements and attributes.
+/// Removes text nodes from the XML document of a model, since MJCF consists only of elements and
+/// attributes.
 void RemoveText(tinyxml2::XMLNode& parent) {
   for (tinyxml2::XMLNode *node = parent.FirstChild(), *next = nullptr; node != nullptr;
        node = next) {
@@ -38,7 +39,7 @@ void RemoveText(tinyxml2::XMLNode& parent) {
   }
 }
 
-/// Whether `content` equals that of a file shipped with Trackbed.
+/// Whether the text `content` equals the content of a file shipped with Trackbed.
 bool IsShipped(std::string_view content) {
   const std::string hash = Sha256(content);
   return std::find(kShippedHashes.begin(), kShippedHashes.end(), hash) != kShippedHashes.end();
@@ -48,8 +49,8 @@ bool IsSameButForCase(std::string_view a, std::string_view b) {
   return a.size() == b.size() && ::strncasecmp(a.data(), b.data(), a.size()) == 0;
 }
 
-/// Resolves `name` relative to the folder of the car's file. Throws InputError, with the line of
-/// `element` in `file`, if the resulting path must not be read.
+/// Resolves the file name `name` relative to the folder of the car's file. If the resulting file
+/// must not be read, throws InputError with the line of `element` in `file`.
 fs::path Find(const fs::path& name, const Origin& origin, const fs::path& file,
               const XMLElement& element) {
   fs::path found = origin.folder / name;
@@ -104,7 +105,7 @@ void Load(const fs::path& file, XMLDocument& document, bool& shipped) {
     if (document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) {
       Fail(file, 0, "the file is empty; expected a <mujoco> element");
     }
-    // If the text is truncated, tinyxml2 reports a line number after the last line.
+    // If the XML text is truncated, tinyxml2 reports a line number after the last line.
     const auto lines = std::count(text.begin(), text.end(), '\n') + (text.ends_with('\n') ? 0 : 1);
     const int line = std::min(document.ErrorLineNum(), static_cast<int>(lines));
     Fail(file, line, XmlProblem(text, document.ErrorName()));
@@ -173,10 +174,11 @@ void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
           Fail(origin.file, asset->GetLineNum(),
                fmt::format("<{}> refers to {}, which {}", kind, source.string(), why));
         }
-        // The number in the new name distinguishes files of the same name from different folders.
+        // The number in the new asset file name distinguishes files of the same name from different
+        // folders.
         const std::string number = fmt::format("asset{}_", scene.assets.size());
         const std::string own = FileNameOf(source.filename().string());
-        // Assets of a model that was composed before already have such numbered names.
+        // The assets of a model that was composed earlier already have numbered names.
         const std::string name = own.starts_with(number) ? own : number + own;
         // MuJoCo names an unnamed asset after its file, so the asset is given the name of the
         // original file.

@@ -45,7 +45,7 @@ XMLElement* FindInWorld(XMLElement& parent, std::string_view kind, std::string_v
 
 namespace {
 
-/// Whether an element or the elements in it are joints.
+/// Whether an MJCF element is a joint or contains a joint.
 bool HasJoint(const XMLElement& element) {
   const std::string_view kind = element.Name();
   if (kind == "joint" || kind == "freejoint") {

@@ -8,7 +8,7 @@
 namespace trackbed {
 namespace {
 
-/// Calls `call` with each joint between a wheel and the chassis that is a spring.
+/// Calls `call` with each spring joint between a wheel and the chassis.
 template <typename Call>
 void ForEachSpring(const CarModel& car, std::size_t wheel, const Call& call) {
   const mjModel& model = *car.get();

@@ -10,8 +10,8 @@
 namespace trackbed {
 
 /// Changes the preload of the suspension springs in the car's MJCF so that they carry the
-/// additional wheel loads `more` [N], in the order of kWheels. Throws InputError with the key `key`
-/// if a spring has no name.
+/// additional wheel loads `more` [N], in the order of kWheels. If a suspension spring has no name,
+/// throws InputError with the key `key`.
 void PreloadSprings(const CarModel& car, tinyxml2::XMLElement& root,
                     const std::array<double, 4>& more, const std::string& key);
 

@@ -10,27 +10,29 @@ namespace {
 
 /// Largest yaw rate reference, as a fraction of mu g/v (Rajamani 2012, 8.3).
 constexpr double kLargestReference = 0.85;
-/// Half width of the band about the reference in which the control does not act, as a fraction of
-/// mu g/v.
+/// Half width of the band about the yaw rate reference in which the control does not act, as a
+/// fraction of mu g/v.
 constexpr double kBand = 0.05;
 /// Factor in the sideslip limit atan(kSideslip mu g) [s^2/m] (Rajamani 2012, 8.3).
 constexpr double kSideslip = 0.02;
-/// Time in which the commanded yaw moment would remove the excess of the yaw rate [s].
+/// Time in which the commanded yaw moment would remove the yaw rate's excess over the permitted
+/// band [s].
 constexpr double kMomentTime = 0.02;
 /// Times in which the drive torque decreases to 0 and increases to its full value [s].
 constexpr double kCutTime = 0.1;
 constexpr double kRestoreTime = 0.5;
 
-/// Returns the part of `value` beyond the interval from -limit to limit.
+/// Returns the amount by which `value` is outside the interval from -limit to limit.
 double Excess(double value, double limit) {
   return value - std::clamp(value, -limit, limit);
 }
 
 /// Returns the delay of the yaw rate behind the steering angle at low frequencies, at the speed v
-/// [s]. The linear single-track model has the transfer function
+/// [s]. From steering angle delta to yaw rate r, the linear single-track model has the transfer
+/// function
 ///   r/delta = (b_0 + b_1 s)/(a_0 + a_1 s + s^2),
-/// whose delay is a_1/a_0 - b_1/b_0. The returned delay is at most the time constant of the yaw
-/// damping, which limits the delay near the critical speed of a car that oversteers.
+/// whose delay is a_1/a_0 - b_1/b_0. The returned yaw delay is at most the time constant of the yaw
+/// damping. This limit is needed near the critical speed of a car that oversteers.
 double YawLag(const VehicleParams& car, double v) {
   const double front = car.cornering_stiffness_front;
   const double rear = car.cornering_stiffness_rear;

@@ -10,8 +10,8 @@
 namespace trackbed {
 namespace {
 
-/// Maximum dead time and time constant of a steering actuator [s]. With a larger dead time or time
-/// constant, the car could not be steered.
+/// Maximum dead time and time constant of a steering actuator [s]. With a dead time or time
+/// constant above this maximum, the car could not be steered.
 constexpr double kMaxResponseTime = 10.0;
 
 void ReadWithin(const Numerics& numerics, const std::string& name, double max, const char* unit,
@@ -67,7 +67,7 @@ void AddOffset(const Numerics& numerics, double limit, std::vector<Vec2>& curve)
     return;
   }
   if (curve.empty()) {
-    // Use points on a straight line, because the monotone curve through such points is the line.
+    // Use points on a straight line: the monotone curve through such points is this line.
     for (const double part : {-1.0, -1.0 / 3.0, 1.0 / 3.0, 1.0}) {
       curve.emplace_back(part * std::abs(limit), part * std::abs(limit));
     }

@@ -26,7 +26,7 @@ std::string ErrnoText(int error) {
   return std::generic_category().message(error);
 }
 
-/// Writes all of the data to a pipe. Returns false if the reader has closed the pipe.
+/// Writes all of the data to a pipe. Returns false if the reading process has closed the pipe.
 bool WriteAll(int pipe, const char* data, std::size_t size) {
   while (size > 0) {
     const ssize_t written = ::write(pipe, data, size);
@@ -87,7 +87,7 @@ std::size_t AddressSpace() {
   std::memcpy(header.data(), &size, sizeof size);
   const bool written =
       WriteAll(pipe, header.data(), header.size()) && WriteAll(pipe, result.data(), result.size());
-  // ends the process without running exit handlers or flushing buffers copied from the parent
+  // ends the child process without running exit handlers or flushing buffers copied from the parent
   ::_exit(written ? 0 : 1);
 }
 

@@ -5,7 +5,7 @@
 
 namespace trackbed {
 
-/// Result of a computation in a separate process.
+/// Result of a computation that runs in a separate process.
 struct SubProcessOutcome {
   bool finished = false;  ///< Whether `compute` returned; if so, `result` is its return value.
   std::string result;
@@ -18,8 +18,8 @@ struct SubProcessOutcome {
 /// crash in the copied process does not affect this process. The terminal output of the copied
 /// process is discarded.
 ///
-/// `compute` must not throw, and must not use a lock that another thread may hold. InSubProcess
-/// throws RunError if no process can be started. In builds with sanitizers, which reserve terabytes
+/// `compute` must not throw, and must not use a lock that another thread may hold. If no process
+/// can be started, InSubProcess throws RunError. In builds with sanitizers, which reserve terabytes
 /// of address space, the memory is not limited.
 SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std::size_t memory,
                                int seconds);

@@ -20,7 +20,7 @@ inline constexpr std::array kHitchJoints{"hitch_yaw", "hitch_pitch", "hitch_roll
 /// Finds the parts of the trailer that WithTrailer added to a model; nullopt without a trailer.
 std::optional<TrailerParts> FindTrailer(const mjModel_& model);
 
-/// Whether a body of the model belongs to the trailer.
+/// Returns whether the given body of the model belongs to the trailer.
 bool IsOfTrailer(const mjModel_& model, const TrailerParts& trailer, int body);
 
 /// Returns the trailer's mass plus the rotational inertia of its wheels as an equivalent mass [kg].

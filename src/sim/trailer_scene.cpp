@@ -16,20 +16,22 @@
 #include "trackbed/core/error.h"
 
 // Adds a trailer with one axle to the MJCF of its car.
-// 1. The body of the trailer has three hinges at the hitch. Positions are relative to the hitch.
+// 1. The body of the trailer has three hinges at the hitch. Positions of its parts are relative to
+//    the hitch.
 // 2. Wheels, tyres and springs are copies of those of the car's rear axle, with masses and sizes
 //    scaled to the trailer.
 // 3. The mass, center of gravity and yaw inertia of the body are computed such that the whole
 //    trailer has the specified values.
-// 4. Stiffness and damping are computed from a deflection at rest and a damping ratio.
+// 4. Stiffness and damping of the trailer's springs are computed from a deflection at rest and a
+//    damping ratio.
 namespace trackbed {
 namespace {
 
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// Deflection of a spring at rest, as a fraction of the wheel's radius. For a radius of 0.31 m, the
-/// natural frequency is 1.5 Hz.
+/// Deflection of a trailer spring at rest, as a fraction of the wheel's radius. For a wheel radius
+/// of 0.31 m, the trailer's natural frequency on its springs is 1.5 Hz.
 constexpr double kSpringDeflection = 0.35;
 constexpr double kDampingRatio = 0.3;
 /// Travel of the suspension in each direction, as a fraction of the wheel's radius.
@@ -37,7 +39,8 @@ constexpr double kTravel = 0.25;
 /// Ratio of half width to radius for a tyre whose geom in the car's file is not an ellipsoid.
 constexpr double kTyreWidth = 0.3;
 
-/// Adds the MJCF of a trailer to that of its car. Positions are relative to the hitch.
+/// Adds the MJCF of a trailer to that of its car. Positions of the trailer's parts are relative to
+/// the hitch.
 class TrailerWriter {
  public:
   TrailerWriter(const CarModel& car, const TrailerParams& trailer)
@@ -86,8 +89,8 @@ class TrailerWriter {
     return *body;
   }
 
-  /// Adds a joint without forces. All attributes of the joint are set, so that the defaults in the
-  /// car's file do not apply.
+  /// Adds a joint of the trailer that exerts no forces. All attributes of this joint are set, so
+  /// that the defaults in the car's file do not apply.
   static XMLElement& AddJoint(XMLElement& body, const std::string& name, const char* type,
                               const char* axis) {
     XMLElement* joint = body.InsertNewChildElement("joint");
@@ -263,8 +266,10 @@ class TrailerWriter {
   const mjModel& model_;
   TrailerParams trailer_;
   bool sprung_;
-  double scale_;               // Unsprung mass per trailer wheel over that of the car's rear wheel.
-  double size_;                // Radius of a trailer wheel, divided by that of the car's wheel.
+  double scale_;               // Unsprung mass per trailer wheel, divided by that per rear wheel of
+                               // the car.
+  double size_;                // Radius of a trailer wheel, divided by that of the car's rear
+                               // wheel.
   double hub_z_;               // Height of the wheel centers above the hitch [m].
   double wheel_mass_ = 0.0;    // [kg]
   double carrier_mass_ = 0.0;  // Mass of the body that carries a wheel [kg].

@@ -111,8 +111,8 @@ std::optional<CarTyres> ReadTyres(const Numerics& numerics) {
       numerics.Read(both, value);
       numerics.Read(own[axle], value);
       const bool given = numerics.Has(both) || numerics.Has(own[axle]);
-      // The model describes a tyre if it has a coefficient of the Magic Formula; other numbers such
-      // as the relaxation length are not enough.
+      // The model describes a tyre if it has a coefficient of the Magic Formula; other tyre numbers
+      // such as the relaxation length alone do not describe a tyre.
       any = any || (given && (both.starts_with("p_") || both.starts_with("r_")));
       if (field.required && !given) {
         missing.push_back(own[axle]);

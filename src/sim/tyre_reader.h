@@ -26,7 +26,7 @@ class Numerics {
   /// element.
   [[nodiscard]] std::span<const double> List(const std::string& name) const;
   /// Sets `value` to the number of the <numeric> element with this name. If the model has no
-  /// <numeric> element with this name, `value` is unchanged.
+  /// <numeric> element with this name, leaves `value` unchanged.
   void Read(const std::string& name, double& value) const;
 
   [[nodiscard]] const mjModel_& model() const { return model_; }
@@ -39,7 +39,7 @@ class Numerics {
   ErrorCallback add_error_;
 };
 
-/// Reads the tyre parameters of a car; nullopt if the model has no tyre coefficients.
+/// Reads the tyre parameters of a car; returns nullopt if the model has no tyre coefficients.
 std::optional<CarTyres> ReadTyres(const Numerics& numerics);
 
 }  // namespace trackbed

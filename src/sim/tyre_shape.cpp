@@ -28,8 +28,9 @@ TyreTouch TyreShape::On(const Ground& ground, const Vector3d& center_W,
   double share = 1.0;
   Vec2 last = Vec2::Zero();
   // Finds the lowest point of the tyre by fixed-point iteration. Each iteration multiplies the
-  // error by the ratio of the tyre's radius to the ground's radius of curvature. On a crest whose
-  // radius is smaller than that of the tyre, the iteration would oscillate, so the step is halved.
+  // error of the lowest point by the ratio of the tyre's radius to the ground's radius of
+  // curvature. On a crest whose radius is smaller than that of the tyre, the iteration would
+  // oscillate, so its step is halved.
   for (int i = 0; i < 20; ++i) {
     touch.normal_W = GroundNormal(ground, under);
     const Vector3d normal_T = R_WT.transpose() * touch.normal_W;

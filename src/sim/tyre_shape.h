@@ -11,7 +11,7 @@ namespace trackbed {
 /// The point of a tyre that is nearest to the ground or deepest in the ground, in the world frame.
 struct TyreTouch {
   Eigen::Vector3d lowest_W;  ///< Lowest point of the tyre, measured along the ground's normal.
-  Eigen::Vector3d normal_W;  ///< Normal of the ground at the lowest point.
+  Eigen::Vector3d normal_W;  ///< Unit normal of the ground at the tyre's lowest point.
   /// Distance of the tyre's lowest point from the ground, along the normal [m].
   double gap = 0.0;
 };
@@ -19,14 +19,14 @@ struct TyreTouch {
 /// Shape of a tyre: an ellipsoid of revolution about the tyre's y axis, equal to the tyre's geom in
 /// MuJoCo.
 ///
-/// The computed contact is exact if the ground's radius of curvature exceeds the tyre's radius. In
-/// a dip whose radius is smaller than the tyre's, a real tyre touches the ground at two points, but
-/// the computed contact is a single point.
+/// The computed contact between tyre and ground is exact if the ground's radius of curvature
+/// exceeds the tyre's radius. In a dip whose radius is smaller than the tyre's, a real tyre touches
+/// the ground at two points, but the computed contact is a single point.
 class TyreShape {
  public:
   TyreShape() = default;
-  /// Uses the shape of a geom of `model`. A geom other than a sphere or an ellipsoid is treated as
-  /// a thin disk.
+  /// Makes the shape of a tyre from a geom of `model`. A tyre geom other than a sphere or an
+  /// ellipsoid is treated as a thin disk.
   TyreShape(const mjModel_& model, int geom);
 
   /// Returns the point of contact with the ground of a tyre whose center is at `center_W` and whose

@@ -12,8 +12,8 @@ struct Traction {
 };
 
 /// Returns the top speed of the vehicle, at which the traction equals the drag in still air [m/s].
-/// The traction at speed v is min(force, power/v - rolling). Returns 0 if the top speed is
-/// unlimited.
+/// The traction at speed v is min(force, power/v - rolling), with the maximum drive force, the
+/// drive power and the rolling resistance. Returns 0 if the top speed is unlimited.
 double TopSpeed(const Traction& traction);
 
 }  // namespace trackbed

@@ -66,7 +66,7 @@ const char* TypeName(int type) {
     case mjGEOM_MESH:
       return "mesh";
     default:
-      return nullptr;  // a plane or height field does not belong to a vehicle
+      return nullptr;  // a plane or height field is ground and does not belong to a vehicle
   }
 }
 

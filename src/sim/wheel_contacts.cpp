@@ -24,8 +24,8 @@ bool IsRoad(const mjModel& model, int geom) {
 }
 
 /// Calls `call` for each contact of a wheel with the road; the arguments are the wheel, the
-/// contact, the contact's index, and a sign. MuJoCo's contact force is the force on the second
-/// geom; multiplied by the sign, it is the force on the wheel.
+/// contact, the contact's index, and a sign. MuJoCo's contact force acts on the second geom of the
+/// contact; multiplied by the sign, it is the force on the wheel.
 template <typename Call>
 void ForEachRoadContact(const CarModel& car, const mjModel& model, const mjData& data,
                         const Call& call) {
@@ -52,7 +52,8 @@ WheelContact ContactAt(const CarModel& car, const mjModel& model, const mjData& 
 WheelContact ContactAt(const mjModel& model, const mjData& data, int body, double radius,
                        const Vector3d& point, const Vector3d& up) {
   const mjtNum* rotation = data.xmat + 9 * body;
-  std::array<mjtNum, 6> velocity{};  // components: angular velocity, then linear velocity
+  std::array<mjtNum, 6> velocity{};  // components of the spatial velocity: angular velocity, then
+                                     // linear velocity
   mj_objectVelocity(&model, &data, mjOBJ_BODY, body, velocity.data(), 0);
   WheelContact wheel;
   wheel.touches = true;
@@ -107,7 +108,7 @@ std::array<Vector3d, 4> RoadForces(const CarModel& car, const mjModel& model, co
       car, model, data, [&](std::size_t w, const mjContact& contact, int i, double sign) {
         std::array<mjtNum, 6> force{};
         mj_contactForce(&model, &data, i, force.data());
-        // the rows of the contact's frame are the axes of the components of MuJoCo's contact force
+        // the rows of the frame matrix are the axes along which MuJoCo states the contact force
         for (int axis = 0; axis < 3; ++axis) {
           forces[w] += sign * force[static_cast<std::size_t>(axis)] * Vec(contact.frame + 3 * axis);
         }
@@ -122,15 +123,16 @@ std::array<WheelState, 4> ContactWheelStates(const CarModel& car, const mjModel&
   std::array<WheelState, 4> wheels;
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const WheelContact& contact = contacts[w];
-    // Slip is the slip speed divided by the rolling speed, or by the standstill threshold if the
-    // wheel rolls more slowly.
+    // Slip is the slip speed divided by the rolling speed; if the wheel rolls more slowly than the
+    // standstill threshold, by this threshold.
     const double reference = std::max(std::abs(contact.rolling_speed), kAtRestSpeed);
     wheels[w] = {.normal_force = std::max(0.0, contact.up.dot(forces[w])),
                  .longitudinal_force = contact.forward.dot(forces[w]),
                  .lateral_force = contact.left.dot(forces[w]),
                  .slip_angle = std::atan2(contact.slip_speed_y, reference),
                  .slip_ratio = contact.slip_speed_x / reference};
-    // MujocoPlant multiplies the friction of the tyre's geom by the road's factor.
+    // MujocoPlant has multiplied the friction coefficient of the tyre's geom by the road's friction
+    // factor.
     const double most = ContactFriction(model, car.parts().tyre[w]) * wheels[w].normal_force;
     wheels[w].friction_use =
         most > 0.0 ? std::hypot(wheels[w].longitudinal_force, wheels[w].lateral_force) / most : 0.0;

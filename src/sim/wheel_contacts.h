@@ -27,8 +27,8 @@ struct WheelContact {
   double rolling_speed = 0.0;        ///< Forward speed v_x of the wheel's hub [m/s].
   /// Angular speed Omega of the wheel about its spin axis, positive for forward rolling [rad/s].
   double spin = 0.0;
-  /// Longitudinal slip speed Omega R - v_x [m/s], which is minus the forward speed of the contact
-  /// patch over the road.
+  /// Longitudinal slip speed Omega R - v_x [m/s] with the wheel radius R: the backward speed of the
+  /// contact patch over the road.
   double slip_speed_x = 0.0;
   /// Lateral speed v_y of the contact patch over the road, positive to the left [m/s].
   double slip_speed_y = 0.0;
@@ -46,7 +46,7 @@ WheelContact ContactAt(const CarModel& car, const mjModel_& model, const mjData_
                        std::size_t wheel, const Eigen::Vector3d& point, const Eigen::Vector3d& up);
 
 /// Returns the contacts of all wheels with the road, as found by MuJoCo. For a wheel in the air,
-/// the returned contact is that with a level road below the wheel.
+/// the returned contact assumes a level road below the wheel.
 std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel_& model,
                                               const mjData_& data);
 
@@ -55,8 +55,8 @@ std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel
 std::array<Eigen::Vector3d, 4> RoadForces(const CarModel& car, const mjModel_& model,
                                           const mjData_& data);
 
-/// Returns the states of all wheels of a car on contact tyres. The friction of the tyres' geoms in
-/// `model` includes the road's factor.
+/// Returns the states of all wheels of a car on contact tyres. The friction coefficients of the
+/// tyres' geoms in `model` already include the road's friction factor.
 std::array<WheelState, 4> ContactWheelStates(const CarModel& car, const mjModel_& model,
                                              const mjData_& data);
 

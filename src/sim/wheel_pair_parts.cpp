@@ -8,19 +8,20 @@
 #include "src/sim/parts_reader.h"
 
 // Reads the parts and parameters of a vehicle with differential drive from its compiled model.
-// 1. Find and Joint look up the required names, and collect all problems before they throw.
-// 2. The limits of speed and acceleration follow from the speed servos of the two wheels, and the
-//    steering limit from the turning radius.
-// 3. Supports such as caster wheels are the other round geoms that touch the ground at qpos0; their
-//    positions bound the braking and driving forces.
+// 1. The functions Find and Joint look up the required names; all problems are collected before one
+//    error is thrown.
+// 2. The limits of speed and acceleration are computed from the speed servos of the two wheels, and
+//    the steering limit from the turning radius.
+// 3. Supports such as caster wheels are the other round geoms that touch the ground at qpos0; the
+//    positions of the supports bound the braking and driving forces.
 namespace trackbed {
 namespace {
 
 /// Parameters of a wheel's speed servo, as described by its actuator.
 struct Servo {
-  double gain = 0.0;    ///< Torque of the servo per unit of speed error [N m s/rad].
-  double torque = 0.0;  ///< Maximum torque of the servo [N m].
-  double speed = 0.0;   ///< Largest speed [rad/s].
+  double gain = 0.0;    ///< Torque of the wheel's speed servo per unit of speed error [N m s/rad].
+  double torque = 0.0;  ///< Maximum torque of the wheel's speed servo [N m].
+  double speed = 0.0;   ///< Largest wheel speed of the servo [rad/s].
 };
 
 class WheelPairReader final : private PartsReader {
@@ -141,7 +142,7 @@ class WheelPairReader final : private PartsReader {
   }
 
   void ReadLimits() {
-    // If the turning radius is half the track, the inner wheel does not move.
+    // If the turning radius is half the track width, the inner wheel does not move.
     if (!(turning_radius_ >= 0.5 * params_.track_rear)) {
       AddError("turning_radius", fmt::format("must be at least half the track, {:.4g} m, so that "
                                              "the inner wheel does not reverse; found {:.4g}",
@@ -192,9 +193,9 @@ class WheelPairReader final : private PartsReader {
 
   /// Returns the positions of all other supports that touch the ground in the configuration qpos0,
   /// such as caster wheels [m]; positions are measured forward from the driven wheels. Only
-  /// spheres, ellipsoids and capsules are recognized as supports. Each support is treated as if
-  /// there were no other supports, because the distribution of the load among several supports
-  /// would depend on springs.
+  /// spheres, ellipsoids and capsules are recognized as supports of the vehicle. The position of
+  /// each support is used as if there were no other supports, because the distribution of the load
+  /// among several supports would depend on springs.
   [[nodiscard]] std::vector<double> OtherSupports() const {
     constexpr double kMaxGroundGap = 1e-3;  // [m]
     std::vector<double> ahead;

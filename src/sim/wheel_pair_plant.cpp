@@ -13,9 +13,9 @@ namespace trackbed {
 namespace {
 
 /// A vehicle with two driven wheels, each controlled by a speed servo with an integral part. In a
-/// turn, the motors must apply the yaw moment m l_g v psi', because the center of gravity is at a
-/// distance l_g from the axle. A servo without integral part would apply this yaw moment only at a
-/// speed error, so turns would be too wide.
+/// turn, the motors must apply the yaw moment m l_g v psi', because the center of gravity of the
+/// mass m is at a distance l_g from the axle. A servo without integral part would apply this yaw
+/// moment only at a speed error, so turns would be too wide.
 class WheelPairPlant final : public MujocoPlant {
  public:
   explicit WheelPairPlant(const PlantSetup& setup)
@@ -51,7 +51,7 @@ class WheelPairPlant final : public MujocoPlant {
     for (std::size_t w = 0; w < parts.spin_dof.size(); ++w) {
       const double wanted = speeds[static_cast<Eigen::Index>(w)] / params.wheel_radius;
       const double missing = wanted - data().qvel[parts.spin_dof[w]];
-      // Anti-windup: the integral part of the servo is limited to the value that yields the full
+      // Anti-windup limits the integral part of the speed servo to the value that yields the full
       // torque.
       integral_[w] = hold ? 0.0
                           : std::clamp(integral_[w] + missing * timestep / parts.integral_time,
@@ -78,16 +78,17 @@ class WheelPairPlant final : public MujocoPlant {
   [[nodiscard]] double NextSpeed(int gear, double acceleration, double speed) const {
     const WheelPairParts& parts = car().wheel_pair();
     const double radius = car().params().wheel_radius;
-    // A servo's torque saturates if commanded and actual speed differ by more than this slack.
-    // Limiting the speed difference to the slack avoids windup.
+    // The servos' torque saturates if commanded and actual vehicle speed differ by more than this
+    // slack. Limiting the speed difference to the slack avoids windup of the servos.
     const double slack = parts.servo_slack * radius;
     const double wanted = gear * wanted_speed_;
     const double change = acceleration * model().opt.timestep;
     const double next = change > 0.0 ? std::min(wanted + change, std::max(wanted, speed + slack))
                                      : std::max(wanted + change, std::min(wanted, speed - slack));
     // Limits the vehicle's speed so that both motors stay below their maximum speed, with a reserve
-    // for the servos' integral part. The speed limit makes the vehicle slow down in a turn instead
-    // of leaving its curve. The outer wheel is 1 + |tan delta|/2 times as fast as the vehicle.
+    // for the servos' integral part. This speed limit makes the vehicle slow down in a turn instead
+    // of leaving the commanded curve. In a turn, the outer wheel is 1 + |tan delta|/2 times as fast
+    // as the vehicle.
     const double fastest =
         (parts.wheel_speed * radius - slack) / (1.0 + 0.5 * std::abs(std::tan(ratio_)));
     return std::clamp(next, 0.0, fastest);
@@ -99,9 +100,9 @@ class WheelPairPlant final : public MujocoPlant {
     const double left = radius * data().qvel[spin[0]];
     const double right = radius * data().qvel[spin[1]];
     const double speed = 0.5 * (left + right);
-    // Speed below which the measured value of tan(delta) is blended into the commanded value [m/s].
-    // The measured tan(delta) is the difference of the wheel speeds divided by the vehicle's speed,
-    // so at rest it would consist of rounding errors.
+    // Speed below which the commanded value of tan(delta) gradually replaces the measured value
+    // [m/s]. The measured tan(delta) is the difference of the wheel speeds divided by the vehicle's
+    // speed; at rest, this quotient would consist of rounding errors.
     constexpr double kCrawl = 0.1;
     const double wanted = std::tan(ratio_);
     const double missing = right - left - speed * wanted;
@@ -111,7 +112,7 @@ class WheelPairPlant final : public MujocoPlant {
 
   double wanted_speed_;                       // Commanded speed [m/s].
   double ratio_;                              // Steering angle delta after the rate limit [rad].
-  std::array<double, 2> integral_{};          // Integral part of each wheel's servo [rad/s].
+  std::array<double, 2> integral_{};          // Integral part of each wheel's speed servo [rad/s].
   std::array<double, 2> bearing_friction_{};  // Friction torque of each wheel's bearing [N m].
 };
 

@@ -7,14 +7,14 @@
 namespace trackbed {
 namespace {
 
-/// Time constant with which the slip approaches its target [s].
+/// Time constant with which the brake slip approaches its target [s].
 constexpr double kSlipTime = 0.02;
-/// Fraction of the largest target slip that does not depend on the used friction. The fixed part of
-/// the target slip lets the wheel slip before the tyre force has built up over the relaxation
-/// length.
+/// Part of the target slip that does not depend on the used friction, as a fraction of the largest
+/// target slip. This fixed part of the target slip lets the wheel slip before the tyre force has
+/// built up over the relaxation length.
 constexpr double kSlipAtOnce = 0.1;
 /// Longest time in which a tyre rolls over its relaxation length while slip control acts [s]. For a
-/// relaxation length of 0.3 m, slip control acts from 1.5 m/s on.
+/// tyre with a relaxation length of 0.3 m, slip control acts from 1.5 m/s on.
 constexpr double kLongestRelaxation = 0.2;
 
 }  // namespace
@@ -46,7 +46,8 @@ void WheelSlipControl::Update(const WheelMotion& motion, double wanted, double a
     active_ = false;
     return;
   }
-  // The following quantities are positive if the wheel rolls and brakes, in either direction.
+  // For a wheel that rolls and brakes, the quantities below are positive in either direction of
+  // travel.
   const double ahead = motion.rolling_speed > 0.0 ? 1.0 : -1.0;
   const double spin = ahead * motion.spin;
   const double force = std::max(0.0, -ahead * motion.longitudinal_force);

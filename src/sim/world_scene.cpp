@@ -40,14 +40,14 @@ struct HeightField {
   std::string file;
 };
 
-/// Returns the number of grid cells along a side of a height field.
+/// Returns the number of grid cells along a side of a height field with the length `side` [m].
 int CellsAlong(double side) {
   constexpr double kCell = 0.05;  // [m]
   return std::clamp(static_cast<int>(std::ceil(side / kCell)), 16, 256);
 }
 
-/// Samples ground heights on a grid with `columns` points along the box's length and `rows` points
-/// along its width.
+/// Samples ground heights on a grid over a box, with `columns` points along its length and `rows`
+/// points along its width.
 HeightField Sample(const OrientedBox& box, std::int32_t columns, std::int32_t rows,
                    const std::function<double(const Vec2& point_W)>& height_at) {
   std::vector<double> heights;
@@ -103,7 +103,7 @@ bool IsInRefined(const Terrain& terrain, const Vec2& point_W) {
 
 /// Calls `add(box, field)` for each height field that represents a part of a terrain. Each refined
 /// block becomes one height field, with a sample at each node of the block. Coarse height fields
-/// cover the remaining terrain and are lowered where they overlap refined blocks.
+/// cover the whole rest of the terrain and are lowered where they overlap refined blocks.
 void SampleTerrain(
     const Terrain& terrain,
     const std::function<void(const OrientedBox& box, const HeightField& field)>& add) {
@@ -176,7 +176,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   int count = 0;
   const auto add = [&](const OrientedBox& box, const HeightField& field, const char* rgba) {
     if (field.highest == field.lowest) {
-      return;  // the height field is flat, for example at a side slope of 0
+      return;  // skips a height field that is flat, for example at a side slope of 0
     }
     const std::string name = fmt::format("ground_{}", count);
     const std::string file = name + ".hfield";
@@ -203,7 +203,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     });
   }
   for (const Bump& bump : ground.bumps) {
-    // The bump has a distinct color, so that it is visible.
+    // The height field of a bump has a distinct color, so that the bump is visible.
     add(Extent(bump), Sample(bump, ground), "1 0.93 0.68 1");
   }
   for (const Superelevation& side_slope : ground.side_slopes) {
@@ -233,7 +233,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
 /// Mass of an obstacle [kg], so large that no car can move the obstacle.
 constexpr double kHeavy = 1e6;
 
-/// A joint along which an obstacle moves.
+/// A joint of an obstacle, along which the obstacle moves.
 struct ObstacleJoint {
   const char* suffix;
   const char* type;
@@ -249,8 +249,8 @@ std::vector<ObstacleJoint> JointsOf(const Obstacle& obstacle) {
   return joints;
 }
 
-/// Inserts a body that can move over the ground along joints such as `name`_x. All joint attributes
-/// are set explicitly, so that the defaults in the car's file do not apply.
+/// Inserts a body that can move over the ground along joints such as `name`_x. All attributes of
+/// the obstacle's joints are set, so that the defaults in the car's file do not apply.
 XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2& place,
                          const std::vector<ObstacleJoint>& joints) {
   XMLElement* body = bodies.InsertNewChildElement("body");
@@ -346,10 +346,10 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
   XMLElement* chassis = FindInWorld(root, "body", "chassis");
   TRACKBED_CHECK(chassis != nullptr, "the car has no body 'chassis'");
 
-  // In the collision bits contype and conaffinity, 1 is the default of all geoms, and 2 is used
-  // only for the car's shell. The car's shell can therefore touch obstacles, but not, for example,
-  // the car's own wheels. The lower end of the shell is a tenth of the car's height above the
-  // ground, so that the shell does not scrape the ground on soft springs.
+  // Of the collision bits contype and conaffinity, bit 1 is the default of all geoms, and bit 2 is
+  // used only for the car's shell. With its own collision bit, the car's shell can touch obstacles,
+  // but not, for example, the car's own wheels. The lower end of the car's shell is a tenth of the
+  // car's height above the ground, so that the shell does not scrape the ground on soft springs.
   const double half_height = 0.45 * vehicle.height;
   XMLElement* shell = chassis->InsertNewChildElement("geom");
   shell->SetAttribute("name", "shell");

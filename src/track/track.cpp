@@ -13,9 +13,9 @@
 
 // A closed track: a smooth center line with edges.
 // 1. A closed B-spline of degree 5 over the chord length smooths the points (closed_spline.h).
-// 2. CenterLine samples the spline, and computes station, yaw and curvature of each sample. The arc
-//    length is integrated by Gauss quadrature.
-// 3. BuildPath makes a path of one lap that extends beyond both ends of the lap.
+// 2. CenterLine samples the spline, and computes station, yaw and curvature of each sample. The
+//    spline's arc length is integrated by Gauss quadrature.
+// 3. BuildPath makes a path that covers one lap and extends beyond the lap's start and end.
 // 4. PlaceEdges corrects the widths by the distance by which smoothing moved the center line.
 // 5. FindFold finds places where an edge lies beyond the center of curvature, and thus folds over.
 namespace trackbed {
@@ -50,10 +50,10 @@ double Wrapped(double s, double length) {
 /// The smoothed center line, as points along a lap from which the path is built.
 struct Track::CenterLine {
   double smoothing = 0.0;          // Wavelength that determines the strength of the smoothing [m].
-  std::vector<double> deviations;  // Deviation of each track point from the line, positive to the
-                                   // left of the line [m].
+  std::vector<double> deviations;  // Deviation of each track point from the smoothed line, positive
+                                   // to the left [m].
   std::vector<double> stations;    // Station of each track point on the smoothed line [m].
-  std::vector<std::size_t> first;  // Index in `lap` of the sample at each track point.
+  std::vector<std::size_t> first;  // Index in the list `lap` of the sample at each track point.
   // Points of the smoothed line along a lap, beginning at the start line.
   std::vector<CurvePoint> lap;
   CurvePoint end;        // Point of the smoothed line at the start line after one lap.
@@ -133,7 +133,8 @@ void Track::BuildPath(const CenterLine& line) {
   for (auto point = lap.begin(); point->s <= extra; ++point) {
     all.push_back({point->s + length_, point->yaw + turn, point->curvature});
   }
-  // Shift the path such that the path and the curve have the same position at the start line.
+  // Shift the path such that the path and the spline curve have the same position at the start
+  // line.
   const std::vector<Segment> segments = SegmentsThrough(all);
   const Path from_origin({0.0, 0.0, all.front().yaw}, segments);
   const Vec2 shift = line.start - from_origin.At(extra_).pose.position();
@@ -144,9 +145,9 @@ void Track::PlaceEdges(const CenterLine& line) {
   const double pieces = static_cast<double>(line.lap.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     // Compute the lateral offset of each track point from the smoothed line, because the smoothing
-    // moves the line. The station of the foot point differs from the track point's station by at
-    // most twice the track point's deviation. This bound of the foot point's station holds if the
-    // radius of curvature of the line exceeds the deviation.
+    // moves the line. The foot point is the point of the smoothed line nearest to a track point. If
+    // the line's radius of curvature exceeds the track point's deviation, the stations of foot
+    // point and track point differ by at most twice the deviation.
     const double reach = 4.0 * std::abs(line.deviations[i]) + 4.0 * length_ / pieces;
     const double own = LocateWithin(points_[i].position, stations_[i], reach).offset;
     edges_.push_back({own + points_[i].width_left, own - points_[i].width_right});
@@ -272,7 +273,8 @@ std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
                        : points[at].width_right - line.deviations[at];
       };
       const double inner = std::min(width(i), width(next));
-      // Ignore smaller folds here, because FindFold finds them when it checks the finished track.
+      // Ignore smaller folds of the edges in this search, because FindFold finds them when it
+      // checks the finished track.
       if (bend.turn > kPi || bend.curvature * inner > 1.0) {
         return TrackFold{i, 1.0 / bend.curvature, inner, bend.turn};
       }

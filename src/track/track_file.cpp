@@ -30,7 +30,7 @@ namespace {
 constexpr std::uintmax_t kMaxTrackFileBytes = std::uintmax_t{16} << 20U;
 constexpr double kMaxLapLength = 200e3;  // Largest permitted length of the lap [m].
 // Largest permitted change of direction at a point [deg]; beyond this angle, the center line counts
-// as turning back.
+// as turning back at the point.
 constexpr double kMaxTurn = 150.0;
 constexpr const char* kFirstColumn = "# x_m";
 
@@ -96,8 +96,8 @@ std::string DescribeFold(const TrackFold& fold, double given) {
                    fold.radius, given, kMaxRadiusFraction);
 }
 
-/// Returns the points with half of their widths. The edges may be narrowed to half of the widths,
-/// but not further.
+/// Returns the track points with half of their widths. The edges may be narrowed to half of the
+/// given widths, but not further.
 std::vector<TrackPoint> Halved(std::vector<TrackPoint> points) {
   for (TrackPoint& point : points) {
     point.width_left *= 0.5;
@@ -106,7 +106,7 @@ std::vector<TrackPoint> Halved(std::vector<TrackPoint> points) {
   return points;
 }
 
-/// Refuses points at which an edge would have to be narrowed to less than half of its width.
+/// Rejects track points at which an edge would have to be narrowed to less than half of its width.
 void CheckFolds(TrackRows& rows, std::optional<double> smoothing) {
   if (std::optional<TrackFold> fold = FindFold(Halved(rows.points), smoothing)) {
     rows.Add(fold->point, "", DescribeFold(*fold, 2.0 * fold->width));
@@ -114,9 +114,9 @@ void CheckFolds(TrackRows& rows, std::optional<double> smoothing) {
   rows.problems.ThrowIfAny();
 }
 
-/// Limit for a default smoothing, as a fraction of the narrowest width of the track. The smoothing
-/// limit applies to the shift of each point, and to the deviation of the smoothed line from the
-/// straight line of a long step.
+/// Limit of the displacement by a default smoothing, as a fraction of the narrowest width of the
+/// track. This displacement limit applies to the shift of each point, and to the deviation of the
+/// smoothed line from the straight line of a long step.
 constexpr double kMaxShift = 0.1;
 
 /// Returns the largest distance by which a default smoothing may move a point of this track [m].
@@ -222,11 +222,12 @@ std::optional<SmoothedTrack> FitSmoothing(TrackRows& rows) {
   return std::nullopt;
 }
 
-/// Largest offset of an edge at each surveyed point at which the edge does not fold over [m].
+/// For each surveyed point, the largest offset of the edges at which they do not fold over [m].
 struct EdgeLimits {
   std::vector<double> left;
   std::vector<double> right;
-  std::vector<double> radius;  // Smallest radius of the center line next to the point [m].
+  std::vector<double> radius;  // Smallest radius of curvature of the center line next to each point
+                               // [m].
 };
 
 EdgeLimits FindEdgeLimits(const Track& track) {
@@ -239,7 +240,8 @@ EdgeLimits FindEdgeLimits(const Track& track) {
     for (int k = 0; k < kFoldSamples; ++k) {
       const double s = StationOfSample(track, i, k);
       const double curvature = track.At(s).curvature;
-      // Factor slightly below 1, because the edge is interpolated with rounding errors.
+      // This factor is slightly below 1, because the track edge is interpolated with rounding
+      // errors.
       constexpr double kRounding = 1.0 - 1e-9;
       const double limit = kRounding * kMaxRadiusFraction / std::abs(curvature);
       std::vector<double>& side = curvature > 0.0 ? limits.left : limits.right;
@@ -313,7 +315,7 @@ class NarrowedPlaces {
   double station_ = 0.0;
 };
 
-/// Narrows the edges that fold over; returns the points with their new widths.
+/// Narrows the track edges that fold over; returns the track points with their new widths.
 std::vector<TrackPoint> Narrow(const Track& track, TrackRows& rows) {
   const EdgeLimits limits = FindEdgeLimits(track);
   NarrowedPlaces left(rows, "left");
@@ -365,7 +367,8 @@ TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& r
   }
   Track track = std::move(fitting->track);
   if (FindFold(track)) {
-    // Keep the smoothing, because the default for the narrower track may be different.
+    // Keep the smoothing wavelength, because the default wavelength for the narrower track may be
+    // different.
     const double smoothing = track.smoothing();
     track = Track(Narrow(track, rows), smoothing);
     chosen = reading.smoothing ? std::nullopt : std::optional(smoothing);

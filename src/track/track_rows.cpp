@@ -12,9 +12,10 @@
 
 #include "trackbed/core/csv_rows.h"
 
-// Reads the rows of a track. The columns are found by their usual names. Without names, four
-// columns are read in the order of TUM's track files, and two columns are x and y. Missing widths
-// come from the scenario. All faults of the rows are collected before the file is refused.
+// Reads the rows of a track. The columns of the track file are found by their usual names. Without
+// column names, four columns are read in the order of TUM's track files, and two columns are x and
+// y. Missing track widths are taken from the scenario. All faults of the rows are collected before
+// the file is rejected.
 
 namespace trackbed {
 namespace {
@@ -27,8 +28,8 @@ constexpr double kMaxWidth = 1000.0;  // Largest permitted track width on either
 /// Quantities in the columns of a track.
 enum Quantity { kX, kY, kRight, kLeft, kWidth };
 
-/// Usual names of the columns of each quantity, in order of preference. The first name of each
-/// quantity is that of TUM's track files.
+/// Usual column names for each quantity of a track, in order of preference. The first column name
+/// of each quantity is that of TUM's track files.
 const std::array<std::vector<const char*>, kTrackQuantities>& UsualNames() {
   static const std::array<std::vector<const char*>, kTrackQuantities> names{
       {{"x_m", "x", "x [m]", "pos_x", "position_x", "center_x", "x_center", "easting"},
@@ -245,7 +246,8 @@ void TrackRows::DropRepeatedEnd() {
   for (std::size_t i = 1; i < points.size(); ++i) {
     length += (points[i].position - points[i - 1].position).norm();
   }
-  // Fraction of the mean distance between points below which points coincide.
+  // Distance below which track points count as coinciding, as a fraction of the mean distance
+  // between points.
   constexpr double kSame = 1e-3;
   const double same = kSame * length / static_cast<double>(points.size() - 1);
   while (points.size() > 1 && (points.back().position - points.front().position).norm() <= same) {

@@ -19,15 +19,16 @@ using TrackNumbers = std::array<double, kTrackQuantities>;
 
 /// Parameters for reading a file without columns of widths as the log of a drive.
 struct LogReading {
-  double spacing = 0.0;     // Distance between track points; rows in between are skipped [m].
+  double spacing = 0.0;     // Distance between track points; log rows in between are skipped [m].
   double half_width = 0.0;  // Width of the road to either side [m].
 };
 
 /// Rows of a track file.
 class TrackRows {
  public:
-  /// Reads the rows of a track file. Throws InputError if a row or the header has a problem. Drops
-  /// the last points if they repeat the first point. If `log` is given, the file needs no widths.
+  /// Reads the rows of a track file. Throws InputError if a row or the header of the file has a
+  /// problem. Drops the last points of the track if they repeat the first point. If the argument
+  /// `log` is given, the file needs no columns of track widths.
   TrackRows(const std::filesystem::path& file, const TrackReading& reading,
             std::optional<LogReading> log = {});
 
@@ -41,7 +42,7 @@ class TrackRows {
 
   ProblemList problems;
   std::vector<TrackPoint> points;
-  std::vector<int> lines;  // Line of each point in the file.
+  std::vector<int> lines;  // Line number of each track point in the file.
   std::vector<std::string> notes;
 
  private:
@@ -54,7 +55,8 @@ class TrackRows {
 
   std::string name_;
   const TrackReading& reading_;
-  std::optional<LogReading> log_;  // Parameters for reading a log; empty if the file has widths.
+  std::optional<LogReading> log_;  // Parameters for reading a driven log as a track; empty if the
+                                   // file has track widths.
   std::vector<std::string> names_;
   std::array<std::optional<std::size_t>, kTrackQuantities> columns_;
   bool is_broken_ = false;

@@ -59,8 +59,8 @@ Place PlaceAmong(const std::vector<double>& values, double value, const Measure&
 }
 
 /// Returns the position on the boundary of a g-g-v section at which the lateral acceleration f_y is
-/// `ratio` times the largest f_y. The points of the section's boundary are numbered from 0 to
-/// `last`.
+/// `ratio` times the section's largest f_y. The points on the boundary of a g-g-v section are
+/// numbered from 0 to `last`.
 Place PlaceOnBoundary(double ratio, std::size_t last) {
   const double sine = std::sqrt(1.0 - ratio * ratio);
   if (last == 1) {
@@ -108,8 +108,8 @@ GgvDiagram::GgvDiagram(const LongitudinalForces& forces, std::vector<GgvSection>
 GgvDiagram::Weights GgvDiagram::WeightsAt(const GgvPoint& point) const {
   const Place road = PlaceAmong(roads_, point.road, [](double x) { return x; });
   const Place speed = PlaceAmong(speeds_, point.speed, [](double v) { return v * v; });
-  // For friction coefficients outside of the range of `roads_`, assume that the forces are
-  // proportional to the friction coefficient.
+  // For friction coefficients outside the range of the tabulated roads `roads_`, assume that the
+  // forces are proportional to the friction coefficient.
   const double beyond =
       point.road / std::clamp(point.road, roads_.front(), roads_.back());  // scale factor
   Weights weights;
@@ -162,7 +162,7 @@ AccelerationRange GgvDiagram::AccelerationsAt(const GgvPoint& point, double shar
   whole.lateral /= share;
   const TyreRange tyres = TyresAt(whole);
   const double resistance = forces_.drag * point.speed * point.speed / forces_.mass + slope;
-  // Force that resists the motion of the car [N].
+  // Driving resistance of the car [N].
   const double against = forces_.rolling_resistance + forces_.mass * resistance;
   const double motor = share * DriveForce(point.speed) - against;
   const double brakes = forces_.brake_force > 0.0 ? share * forces_.brake_force

@@ -12,10 +12,11 @@
 // Computes the g-g-v diagram of a two-axle car. For a longitudinal acceleration f_x and a lateral
 // acceleration f_y, load transfer determines the four wheel loads. The load transfer due to f_x
 // depends on the wheelbase. The load transfer due to f_y is divided between the axles according to
-// their roll stiffness. The tyre model is the Magic Formula or a friction circle. The accelerations
-// are feasible if the tyres of both axles can generate the required lateral force in addition to
-// their longitudinal force. Bisection finds the largest feasible f_y at each f_x. Bisection also
-// finds the limits of driving and braking at fractions cos(angle) of the largest f_y.
+// their roll stiffness. The tyre model of the g-g-v diagram is the Magic Formula or a friction
+// circle. The accelerations f_x and f_y are feasible if the tyres of both axles can generate the
+// required lateral force in addition to their longitudinal force. Bisection finds the largest
+// feasible f_y at each f_x. Bisection also finds the limits of driving and braking at lateral
+// accelerations that are fractions cos(angle) of the largest f_y.
 namespace trackbed {
 namespace {
 
@@ -24,8 +25,8 @@ namespace {
 constexpr double kInfeasibleGrip = -1.0;
 
 /// Returns the lateral force [N] of a tyre at a slip angle, while the tyre generates the
-/// longitudinal force `along`. Returns none if the tyre cannot generate this longitudinal force at
-/// any slip ratio.
+/// longitudinal force `along`. Returns nullopt if the tyre cannot generate this longitudinal force
+/// at any slip ratio.
 std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double road, double along,
                                   TyreSlip slip) {
   if (!(load > 0.0)) {
@@ -42,8 +43,8 @@ std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double 
   if (side * below.longitudinal >= wanted) {
     return below.lateral;
   }
-  // Slip ratios on a road with the friction factor 1. The slip ratio at the peak of the force is
-  // proportional to the road's friction factor.
+  // Slip ratios of the table, for a road with the friction factor 1. The slip ratio at the peak of
+  // the longitudinal force is proportional to the road's friction factor.
   constexpr std::array<double, 11> kRatios{0.01, 0.02, 0.03, 0.045, 0.06, 0.08,
                                            0.10, 0.13, 0.17, 0.23,  0.30};
   for (const double on_dry_road : kRatios) {
@@ -65,7 +66,8 @@ std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double 
 /// Wheel loads of an axle, and the longitudinal forces that its tyres must generate.
 struct AxleDemand {
   std::array<double, 2> load{};  // Vertical loads of the inner and the outer wheel [N].
-  double along = 0.0;            // Longitudinal force that each wheel must generate [N].
+  double along = 0.0;            // Longitudinal force that each wheel of the axle must generate
+                                 // [N].
   double camber = 0.0;           // Camber angle [rad].
   double road = 1.0;
 };
@@ -78,7 +80,8 @@ struct AxleGripState {
   // Slip angle at the required lateral force or, if the axle cannot generate this force, at the
   // largest lateral force [rad].
   double angle = 0.0;
-  // Lateral force of the outer wheel minus that of the inner wheel at the slip angle `angle` [N].
+  // Lateral force of the axle's outer wheel minus that of its inner wheel at the slip angle `angle`
+  // [N].
   double difference = 0.0;
 };
 
@@ -116,8 +119,8 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
     }
     return sum;
   };
-  // Largest slip angle of the search [rad]. The slip angle at the peak of the lateral force is
-  // proportional to the road's friction factor.
+  // Largest slip angle in the search for the peak of the lateral force [rad]. The slip angle at the
+  // peak of the lateral force is proportional to the road's friction factor.
   const double max_slip = 0.5 * demand.road;
   // Number of correct bits of the slip angle; a few bits suffice, because the force is flat around
   // the peak.
@@ -136,7 +139,7 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
   return state;
 }
 
-/// Whether the angle of the front wheels is neglected.
+/// Whether the steering angle of the front wheels is neglected (kStraight).
 enum class FrontWheels { kStraight, kSteered };
 
 /// Determines which accelerations f_x and f_y the car can hold in a steady state.
@@ -153,11 +156,11 @@ class SteadyState {
   }
 
   /// Returns whether both axles can generate the forces that the accelerations require. The tyres
-  /// must also overcome the drag due to their slip angles, and turn the car with front wheels at
-  /// the steering angle of the turn, unless `wheels` is kStraight. Drag and moment depend on the
-  /// slip angles of the axles, so AxlesHold uses a fixed-point iteration.
+  /// must also overcome the drag due to their slip angles. Unless `wheels` is kStraight, the front
+  /// wheels have the steering angle of the turn. Drag and yaw moment depend on the axles' slip
+  /// angles, so AxlesHold finds the slip angles by fixed-point iteration.
   [[nodiscard]] bool AxlesHold(double longitudinal, double lateral, FrontWheels wheels) const {
-    // Each iteration reduces the error of the slip angles to about a tenth.
+    // Each fixed-point iteration reduces the error of the slip angles to about a tenth.
     constexpr int kIterations = 4;
     AxleLoads needed = StraightAhead(lateral);
     double slip_drag = 0.0;  // [m/s^2]
@@ -198,8 +201,8 @@ class SteadyState {
                    [&](double lateral) { return Holds(longitudinal, lateral); });
   }
 
-  /// Returns the largest lateral acceleration f_y up to `most` that the car can hold at f_x with
-  /// its front wheels at the steering angle of the turn.
+  /// Returns the largest lateral acceleration f_y, up to `most`, that the car can hold at the
+  /// longitudinal acceleration f_x with steered front wheels.
   [[nodiscard]] double MaxLateralSteered(double longitudinal, double most) const {
     const auto holds = [&](double lateral) {
       return AxlesHold(longitudinal, lateral, FrontWheels::kSteered);
@@ -207,8 +210,8 @@ class SteadyState {
     return holds(most) ? most : Largest(0.0, most, holds);
   }
 
-  /// Starting at `from`, returns the last longitudinal acceleration f_x in the direction of `side`
-  /// at which the car can hold the lateral acceleration f_y.
+  /// Returns the longitudinal acceleration f_x farthest from `from`, in the direction of `side`, at
+  /// which the car can hold the lateral acceleration f_y.
   [[nodiscard]] double Reach(double from, double side, double lateral) const {
     return from + side * Largest(0.0, kMaxAcceleration, [&](double further) {
                     return Holds(from + side * further, lateral);
@@ -216,13 +219,13 @@ class SteadyState {
   }
 
  private:
-  // Upper bound of accelerations [m/s^2]; no car without downforce reaches this bound.
+  // Upper bound of the car's accelerations [m/s^2]; no car without downforce reaches this bound.
   static constexpr double kMaxAcceleration = 40.0;
-  // Change of the drag and of the front axle's force, per mass, at which the iteration ends
-  // [m/s^2].
+  // Change of the drag and of the front axle's force, per mass of the car, below which the
+  // fixed-point iteration ends [m/s^2].
   static constexpr double kSameDrag = 0.005;
 
-  /// Lateral forces of the front and the rear axle, perpendicular to their wheels [N].
+  /// Lateral forces of the front and the rear axle, perpendicular to the wheel planes [N].
   using AxleLoads = std::array<double, 2>;
 
   /// Returns the lateral axle forces without a steering angle. Each axle carries the same fraction
@@ -271,7 +274,7 @@ class SteadyState {
   /// also be true for all smaller numbers.
   template <typename Test>
   [[nodiscard]] static double Largest(double low, double high, const Test& holds) {
-    // Number of halvings, which yields a resolution of 40/2^16 = 0.0006 m/s^2.
+    // Number of halvings in the bisection, which yields a resolution of 40/2^16 = 0.0006 m/s^2.
     constexpr int kHalvings = 16;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
@@ -320,11 +323,11 @@ GgvSection ComputeSection(const GripModel& car, double road, double speed) {
   return section;
 }
 
-/// Returns the speeds of the sections of a diagram [m/s]. Drag and its load transfer are linear in
-/// the squared speed, like the interpolation between sections. The curvature of a turn is inversely
-/// proportional to the squared speed, so the squared speed doubles from each section to the next.
-/// At the lowest speed, a turn with full lock needs 1 g; at lower speeds, no turn reaches the grip
-/// limit.
+/// Returns the speeds of the sections of a diagram [m/s]. Sections are interpolated linearly in the
+/// squared speed, because drag and its load transfer are linear in it. The curvature of a turn is
+/// inversely proportional to the squared speed, so the squared speed doubles from each section to
+/// the next. At the lowest speed of the diagram, a turn at the steering limit needs 1 g; at lower
+/// speeds, no turn reaches the grip limit.
 std::vector<double> TableSpeeds(const GripModel& car, double top) {
   std::vector<double> speeds;
   const double slowest = std::sqrt(kGravity * car.wheelbase / std::tan(car.steering_limit));
@@ -345,9 +348,9 @@ std::vector<double> Interpolate(const std::vector<double>& from, const std::vect
 }
 
 /// Returns the sections of the g-g-v diagram of a car that steers. `slow` and `fast` are sections
-/// without steering angle, at speed 0 and at the largest speed. The steering angle reduces the
-/// largest lateral acceleration. At each fraction of the largest lateral acceleration, the limits
-/// of driving and braking are those without steering angle.
+/// without steering angle, at speed 0 and at the largest speed. The steering angle of the turn
+/// reduces the largest lateral acceleration. At each fraction of the largest lateral acceleration,
+/// the limits of driving and braking are those without steering angle.
 std::vector<GgvSection> SteeredSections(const GripModel& car, const GgvSection& slow,
                                         const GgvSection& fast) {
   std::vector<GgvSection> sections;
@@ -434,7 +437,8 @@ GgvDiagram FrictionGgv(const VehicleParams& vehicle, const std::vector<double>& 
     sections.push_back(EllipticSection(driving, braking, lateral));
     sections.back().road = road;
   }
-  // If the mass is unknown, use 1 kg, because the accelerations do not depend on the mass.
+  // If the car's mass is unknown, use 1 kg, because the accelerations at the grip limit do not
+  // depend on the mass.
   const double mass = vehicle.mass > 0.0 ? vehicle.mass : 1.0;
   return {{.mass = mass, .rolling_mass = mass, .top_speed = vehicle.top_speed},
           std::move(sections)};

@@ -57,8 +57,8 @@ Pose2 KinematicCar::PoseAfter(const MotionPiece& piece, double moved) const {
     const double turn = moved * std::cos(slip) * CurvatureForSteering(params_, state_.steering);
     return MoveOnArc(state_.pose, moved, turn, slip);
   }
-  // Integrate position and yaw by the fourth-order Runge-Kutta method. Speed and steering angle are
-  // known functions of time.
+  // Integrate position and yaw by the fourth-order Runge-Kutta method. The speed and the steering
+  // angle of the step are known functions of time.
   const auto rates = [&](double time, double yaw) {
     return RatesAt(yaw, state_.speed + piece.acceleration * time,
                    state_.steering + piece.steering_rate * time);

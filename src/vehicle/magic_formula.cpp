@@ -5,14 +5,15 @@
 #include <numbers>
 
 // Evaluates the Magic Formula: forces of a tyre at given slips, load, camber and road friction.
-// 1. On a slippery road, the slips are multiplied by up to the reciprocal of the road's friction
-//    factor, so that the force curves keep their shape (similarity method, section 4.2).
-// 2. Pure slip: both forces are F = D sin(C atan(u - E (u - atan u))) + S_v with u = B (slip +
-//    S_h).
-// 3. Combined slip: each force is multiplied by a weight G that depends on the slip in the other
-//    direction.
-// 4. Friction and stiffness stay above a tenth of their nominal values at extreme loads and
-//    cambers.
+// 1. On a slippery road, the slips are multiplied by at most the reciprocal of the road's friction
+//    factor, so that the curves of force over slip keep their shape (similarity method, section
+//    4.2).
+// 2. In pure slip, each tyre force is F = D sin(C atan(u - E (u - atan u))) + S_v with u = B (slip
+//    + S_h), where B, C, D and E are the factors and S_h and S_v the shifts of the Magic Formula.
+// 3. In combined slip, each tyre force is multiplied by a weight G that depends on the slip in the
+//    other direction.
+// 4. Friction and stiffness of a tyre stay above a tenth of their nominal values, even at extreme
+//    loads and cambers.
 // Source: Pacejka 2012, section 4.3.2 (MF5.2, and MF6.1 where the version is 6.1).
 namespace trackbed {
 namespace {
@@ -35,10 +36,10 @@ double Weight(double b, double c, double e, double shift, double slip) {
 }
 
 /// Returns the factor by which slips on a road with the friction factor `road` are multiplied to
-/// get similar slips on a road with the factor 1. The slips are divided by the friction factor
-/// `road`. The division enlarges the slips at most to the slip of a locked wheel (abs(kappa) = 1)
-/// or of a wheel that moves sideways (abs(alpha) = pi/2). Both slips have the same factor, because
-/// their ratio is the direction in which the tyre slides.
+/// get similar slips on a road with the factor 1. SimilarSlip divides slips by the friction factor
+/// `road`. This division enlarges a slip at most to that of a locked wheel (abs(kappa) = 1) or of a
+/// wheel that moves sideways (abs(alpha) = pi/2). The slip ratio and the slip angle have the same
+/// factor, because their ratio is the direction in which the tyre slides.
 double SimilarSlip(const TyreSlip& slip, double road) {
   if (road >= 1.0) {
     return 1.0 / road;
@@ -58,8 +59,8 @@ double LoadChange(const MagicFormula& tyre, double load) {
   return tyre.f_z0 > 0.0 ? (load - tyre.f_z0) / tyre.f_z0 : 0.0;
 }
 
-/// Returns a friction coefficient or a stiffness, which is linear in the load change, but at least
-/// a tenth of the nominal value.
+/// Returns a friction coefficient or a stiffness that is linear in the load change, limited to at
+/// least a tenth of its value at the nominal load.
 double AtLeastTenth(double at_nominal, double per_load, double load_change) {
   return std::max(at_nominal + per_load * load_change, 0.1 * at_nominal);
 }
@@ -69,7 +70,8 @@ double Sign(double x) {
   return static_cast<double>(x > 0.0) - static_cast<double>(x < 0.0);
 }
 
-/// Returns the clamped camber with the sign that the tyre's coefficients assume.
+/// Returns the camber, clamped to the tyre's range, with the sign convention of the tyre's
+/// coefficients.
 double CamberInFormula(const MagicFormula& tyre, double camber) {
   const double gamma = std::clamp(camber, -tyre.camber_max, tyre.camber_max);
   return tyre.version > 0.0 ? -gamma : gamma;
@@ -79,24 +81,24 @@ bool IsVersion6(const MagicFormula& tyre) {
   return tyre.version >= 6.0;
 }
 
-/// Returns the slip angle alpha or, in version 6.1, its tangent.
+/// Returns the slip angle alpha or, in version 6.1 of the Magic Formula, its tangent.
 double LateralSlip(const MagicFormula& tyre, double angle) {
   return IsVersion6(tyre) ? std::tan(angle) : angle;
 }
 
-/// Returns the camber gamma or, in version 6.1, its sine.
+/// Returns the camber gamma or, in version 6.1 of the Magic Formula, its sine.
 double LateralCamber(const MagicFormula& tyre, double gamma) {
   return IsVersion6(tyre) ? std::sin(gamma) : gamma;
 }
 
-/// Returns the factor by which the camber changes friction or stiffness, 1 - `change`. The camber
-/// factor is at least a tenth, because tyre files are valid for small cambers only.
+/// Returns the factor 1 - `change` by which the camber changes friction or stiffness. The camber
+/// factor is limited to at least a tenth, because tyre files are valid for small cambers only.
 double CamberFactor(double change) {
   return std::max(1.0 - change, 0.1);
 }
 
-/// Returns the cornering stiffness -K_y [N/rad] at the camber `lean` (LateralCamber). The stiffness
-/// is at least a thousandth of -p_ky1 F_z, so it is positive for every load.
+/// Returns the cornering stiffness -K_y [N/rad] at the camber `lean` (LateralCamber). The cornering
+/// stiffness is at least a thousandth of -p_ky1 F_z, so it is positive for every load F_z.
 double LateralStiffness(const MagicFormula& tyre, double load, double lean) {
   const double by_camber = CamberFactor(tyre.p_ky3 * std::abs(lean));
   if (!(tyre.p_ky2 > 0.0)) {
@@ -104,7 +106,7 @@ double LateralStiffness(const MagicFormula& tyre, double load, double lean) {
   }
   const double best = std::max(tyre.p_ky2 + tyre.p_ky5 * lean * lean, 0.1 * tyre.p_ky2);
   const double x = load / (best * tyre.f_z0);
-  // 2 x / (1 + x^2) is sin(2 atan(x)) in closed form.
+  // The fraction 2 x / (1 + x^2) equals sin(2 atan(x)).
   const double rise =
       tyre.p_ky4 == 2.0 ? 2.0 * x / (1.0 + x * x) : std::sin(tyre.p_ky4 * std::atan(x));
   return -tyre.p_ky1 * std::max(tyre.f_z0 * rise * by_camber, 1e-3 * load);
@@ -146,7 +148,8 @@ PureForce LongitudinalForce(const MagicFormula& t, double load, double road, dou
   return x;
 }
 
-/// The horizontal shift S_hy and the relative vertical shift S_vy/(road F_z).
+/// Shifts of the lateral force curve: the horizontal shift S_hy and the relative vertical shift
+/// S_vy/(road F_z), with the road's friction factor `road`.
 struct LateralShifts {
   double horizontal = 0.0;
   double vertical = 0.0;
@@ -155,8 +158,8 @@ struct LateralShifts {
 LateralShifts ShiftsOf(const MagicFormula& t, double load, double lean, double stiffness,
                        double shift) {
   if (t.version == 0.0) {
-    // Multiply the shift by the smoothed sign of the camber, so that the shift has the direction of
-    // the camber.
+    // Multiply the vertical shift by the smoothed sign of the camber, so that the shift has the
+    // direction of the camber.
     const double side =
         shift * lean / std::sqrt(lean * lean + kCamberSign * kCamberSign);  // sgn gamma
     return {side * (t.p_hy1 + t.p_hy3 * std::abs(lean)),
@@ -296,10 +299,11 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
     const double norm = std::hypot(x.force / x.peak, y.force / y.peak);
     return {x.force / std::max(1.0, norm), y.force / std::max(1.0, norm)};
   }
-  // On a slippery road, a tyre slides at smaller slips. The forces of pure slip account for the
-  // road's friction by the factor B = K/(C D). The weighting factors of combined slip are evaluated
-  // at similar slips (SimilarSlip). The similarity factor multiplies the sums kappa + S_hx and
-  // alpha + S_hy, because the shifts S_hx and S_hy are parts of the slips.
+  // On a slippery road, a tyre begins to slide at smaller slips. In pure slip, the tyre forces
+  // account for the road's friction by the stiffness factor B = K/(C D), with the slip stiffness K.
+  // The weighting factors of combined slip are evaluated at the similar slips on a road with the
+  // factor 1 (SimilarSlip). The similarity factor multiplies the shifted slips kappa + S_hx and
+  // alpha + S_hy, because the horizontal shifts S_hx and S_hy count as parts of the slips.
   const double similar = SimilarSlip(slip, road);
   const double kappa = similar * slip.ratio + (similar - 1.0) * x.shift;
   const double alpha = similar * LateralSlip(t, slip.angle) + (similar - 1.0) * y.shift;

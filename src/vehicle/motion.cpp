@@ -18,7 +18,7 @@ Motion MotionUnder(const Command& command, const VehicleParams& params, double s
       command.steering, command.acceleration, duration);
   const SteeringMove move =
       MoveSteering({params.steering_limit, params.steering_rate}, steering, command.steering);
-  // A braking car stops when its speed reaches zero. From rest, the car accelerates only in the
+  // A braking car stops when its speed reaches zero. A car at rest accelerates only in the
   // direction of its gear.
   const bool slowing = speed * command.acceleration < 0.0;
   const bool may_leave = command.acceleration * command.gear > 0.0;
@@ -47,8 +47,8 @@ Motion MotionUnder(const Command& command, const VehicleParams& params, double s
     piece.end_speed = speed;
     piece.end_steering = move.At(done);
   }
-  // Steering rate and acceleration are constant within a piece and jump between pieces. At the time
-  // where two pieces meet, the steering rate and acceleration of the earlier piece apply. Times
+  // Steering rate and acceleration are constant within a motion piece and jump between pieces. At
+  // the time at which one motion piece ends, its steering rate and acceleration still apply. Times
   // that differ by less than a nanosecond count as equal, because of rounding errors.
   constexpr double kNanosecond = 1e-9;
   motion.steering_rate = duration <= move.ramp_time + kNanosecond ? move.rate : 0.0;

@@ -59,9 +59,9 @@ FrontAngles AckermannAngles(const VehicleParams& params, double steering) {
   const double k = params.track_front / (2.0 * params.wheelbase);
   const double sine = std::sin(steering);
   const double cosine = std::cos(steering);
-  // In a left turn, the left wheel is the inner wheel. The cotangent of the inner wheel's angle is
-  // cot(delta) - k, where delta is the steering angle of the bicycle model and k = 0.5
-  // track/wheelbase.
+  // In a left turn, the left wheel is the inner wheel. The angle of the inner front wheel has the
+  // cotangent cot(delta) - 0.5 track/wheelbase, where delta is the steering angle of the bicycle
+  // model.
   return {std::atan2(sine, cosine - k * sine), std::atan2(sine, cosine + k * sine)};
 }
 

@@ -104,8 +104,8 @@ void SingleTrackCar::Advance(const MotionPiece& piece) {
   }
 }
 
-/// Returns the matrix Decay of the equations of motion |u| z' = B tan(delta) - Decay z. With the
-/// forward speed u, the lateral speed v and the yaw rate r, z is the pair of ratios (v/u, r/u).
+/// Returns the matrix Decay of the equations of motion |u| z' = B tan(delta) - Decay z. The vector
+/// z = (v/u, r/u) contains the ratios of lateral speed v and yaw rate r to the forward speed u.
 Eigen::Matrix2d SingleTrackCar::Decay(double speed, double acceleration_along) const {
   Eigen::Matrix2d decay = slip_rate_ + acceleration_along * Eigen::Matrix2d::Identity();
   decay(0, 1) += speed * std::abs(speed);
@@ -113,7 +113,7 @@ Eigen::Matrix2d SingleTrackCar::Decay(double speed, double acceleration_along) c
 }
 
 /// Returns the ratios of lateral speed and yaw rate to the forward speed. At rest, returns the only
-/// finite limit of the ratios, which the car has when it comes to rest or starts to move.
+/// finite limit of these ratios, which applies when the car comes to rest or starts to move.
 SingleTrackCar::Ratios SingleTrackCar::RatiosAt(double direction, double acceleration) const {
   if (state_.speed != 0.0) {
     return Ratios(state_.lateral_speed, state_.yaw_rate) / state_.speed;
@@ -128,8 +128,9 @@ void SingleTrackCar::StepByRadau(const MotionPiece& piece) {
   const double direction = std::copysign(1.0, state_.speed + piece.end_speed);
   const Ratios start = RatiosAt(direction, piece.acceleration);
 
-  // Solve the stage equations of Radau IIA for the derivatives f_i = z'_i of the ratios z: |u_i|
-  // f_i + Decay_i h sum_j w_ij f_j = B tan(delta_i) - Decay_i z_0.
+  // Solve the stage equations of Radau IIA for the time derivatives f_i of the speed ratios z at
+  // the stages i: |u_i| f_i + Decay_i h sum_j w_ij f_j = B tan(delta_i) - Decay_i z_0, with the
+  // step h and the weights w_ij.
   Eigen::Matrix<double, 6, 6> matrix;
   Eigen::Matrix<double, 6, 1> right;
   Eigen::Vector3d speed;
@@ -181,7 +182,8 @@ VehicleState SingleTrackCar::FullState() const {
   full.steering = state_.steering;
   if (state_.speed != 0.0 || acceleration_ != 0.0) {
     // Compute the lateral acceleration (F_f + F_r)/m from the lateral tyre forces of the front and
-    // rear axles. A car that has just come to rest was moving opposite to its acceleration.
+    // rear axles. If the car has just come to rest, its previous motion was opposite to its
+    // acceleration.
     const double direction =
         std::copysign(1.0, state_.speed != 0.0 ? state_.speed : -acceleration_);
     const Ratios ratios = RatiosAt(direction, acceleration_);

@@ -10,7 +10,8 @@ namespace trackbed {
 namespace {
 
 /// Returns the steady turn with the given slip angles of the axles [rad]. The slip angle of an axle
-/// is the axle's lateral velocity divided by |u|, positive to the left.
+/// is the axle's lateral velocity (positive to the left) divided by the magnitude |u| of the
+/// forward speed.
 SteadyTurn TurnWithSlip(const VehicleParams& vehicle, double curvature, double speed,
                         double front_slip, double rear_slip) {
   const double direction = std::copysign(1.0, speed);
@@ -34,7 +35,7 @@ std::array<AxleOperation, 2> BrushAxles(const VehicleParams& vehicle, const Turn
                                         vehicle.cornering_stiffness_rear};
   std::array<AxleOperation, 2> axles;
   for (std::size_t i = 0; i < axles.size(); ++i) {
-    constexpr double kMinLoad = 0.05;  // minimum load of an axle as a fraction of the load at rest
+    constexpr double kMinLoad = 0.05;  // minimum load of an axle as a fraction of its load at rest
     const AxleGrip& axle = limit.axles[i];
     const double load =
         std::max(kMinLoad, 1.0 + direction * axle.transfer * hard / (kGravity * axle.weight));
@@ -71,8 +72,8 @@ SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double s
   if (!HasTyres(vehicle)) {
     return TurnWithoutSlip(vehicle, curvature, speed);
   }
-  // Each axle's share of the force m u r is proportional to the distance of the other axle from the
-  // center of gravity.
+  // Each axle's share of the lateral force m u r (mass, forward speed, yaw rate) is proportional to
+  // the distance of the other axle from the center of gravity.
   const double force = vehicle.mass * speed * speed * curvature / vehicle.wheelbase;
   return TurnWithSlip(vehicle, curvature, speed,
                       -vehicle.cg_to_rear * force / vehicle.cornering_stiffness_front,
@@ -104,7 +105,8 @@ SteeringSlopes SteeringSlopesInBend(const VehicleParams& vehicle, const BendMoti
   if (!(front > 0.0 && rear > 0.0)) {
     return {.by_curvature = square * vehicle.wheelbase};
   }
-  // The derivative of an axle's slip angle by its lateral force is the reciprocal of the stiffness.
+  // The derivative of an axle's slip angle by its lateral force is the reciprocal of the axle's
+  // lateral stiffness.
   const double on_front = vehicle.cg_to_rear / vehicle.wheelbase;
   const double softer = vehicle.mass * (on_front / front - (1.0 - on_front) / rear);
   const double understeer = softer * motion.speed * motion.speed;

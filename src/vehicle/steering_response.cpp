@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// Returns the dead time of the steering in timesteps.
+/// Returns the dead time of the steering as a number of timesteps.
 double DeadTimeSteps(const SteeringResponse& response, double timestep, double start) {
   TRACKBED_REQUIRE(response.time_constant >= 0.0 && std::isfinite(response.time_constant) &&
                        response.backlash >= 0.0 && std::isfinite(response.backlash) &&

@@ -28,8 +28,8 @@ std::vector<Target> SteeringTargets(const std::vector<TurnSteering>& turns,
                      "SteeringSchedule: steering {} and {} rad; must be finite", turn.steering,
                      neutral);
     targets.push_back({turn.start, turn.steering, slopes[k]});
-    // If the steering ramps of two turns overlap, the later turn takes precedence and ends the
-    // earlier turn.
+    // If the steering transitions of two turns overlap, the later turn takes precedence and ends
+    // the earlier turn.
     if (k + 1 == turns.size() || turn.end < turns[k + 1].start) {
       targets.push_back({turn.end, neutral, slopes[k]});
     }
@@ -188,8 +188,8 @@ std::vector<KinematicState> RollOut(const VehicleParams& params, const Kinematic
       }
       const double next =
           std::min({done + step, distance, knot != knots.end() ? knot->distance : distance});
-      // The path does not depend on the speed, so choose the speed at which the actuator needs the
-      // whole step to reach the new steering angle.
+      // The driven path does not depend on the speed. Choose the speed at which the actuator needs
+      // the whole step to reach the new steering angle.
       const double from = schedule.At(done);
       const double to = schedule.At(next);
       const double time = from == to ? next - done : std::abs(to - from) / params.steering_rate;

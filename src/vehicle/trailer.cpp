@@ -37,7 +37,7 @@ void Check(const TrailerParams& trailer, const VehicleParams& car) {
   }
 }
 
-/// A side of an outline, in coordinates relative to the hitch.
+/// A side of the rectangular outline of car or trailer, in coordinates relative to the hitch.
 struct Side {
   Vec2 from;
   Vec2 to;
@@ -55,8 +55,8 @@ double PolarAngle(const Vec2& point) {
   return std::atan2(point.y(), point.x());
 }
 
-/// Calls `call` with the polar angles of the points of a side at the distance `radius` from the
-/// origin.
+/// Calls `call` with the polar angle of each point of an outline's side that is at the distance
+/// `radius` from the hitch.
 template <typename Call>
 void ForEachPointAt(const Side& side, double radius, const Call& call) {
   const Vec2 along = side.to - side.from;
@@ -150,9 +150,9 @@ VehicleParams TrailerBody(const TrailerParams& trailer) {
 
 double JackknifeAngle(const TrailerParams& trailer, const VehicleParams& car) {
   // Car and trailer first touch where a corner of one outline meets a side of the other outline.
-  // Relative to the other outline, a corner moves on a circle about the hitch, so each angle of
-  // contact has a closed form. The outlines are symmetric, so only positive hitch angles are
-  // searched.
+  // A corner of one outline moves on a circle about the hitch, as seen from the other outline. The
+  // hitch angle of each contact therefore has a closed form. The outlines are symmetric, so only
+  // positive hitch angles are searched.
   const double near = trailer.hitch - car.rear_overhang;
   const double half_width = 0.5 * car.width;
   const std::vector<Vec2> car_corners{{near, half_width},
@@ -192,16 +192,18 @@ double RollingHitchRate(const TrailerParams& trailer, double angle, double speed
 
 double RolledHitchAngle(const TrailerParams& trailer, double angle, double curvature,
                         double distance) {
-  // With u = tan(theta/2) = p/q, du/ds = A + B u + C u^2 becomes the linear system
+  // The hitch angle theta obeys du/ds = A + B u + C u^2 with u = tan(theta/2), where A, B and C are
+  // constants. With u = p/q, this equation becomes the linear system
   //   p' = B/2 p + A q,  q' = -C p - B/2 q,
-  // whose matrix M meets M^2 = (B^2/4 - A C) I.
+  // whose matrix M has the square M^2 = (B^2/4 - A C) I, with the unit matrix I.
   const double ratio = trailer.hitch / trailer.tongue;
   const double a = -0.5 * curvature * (1.0 + ratio);
   const double half_b = -0.5 / trailer.tongue;
   const double c = -0.5 * curvature * (1.0 - ratio);
   const double square = half_b * half_b - a * c;
   const double root = std::sqrt(std::abs(square));
-  // compute exp(M s) up to a positive factor, which changes neither p/q nor the quadrant of (q, p)
+  // compute the matrix exponential exp(M s) up to a positive factor, which changes neither p/q nor
+  // the quadrant of (q, p)
   double even = 1.0;
   double odd = distance;
   if (root * std::abs(distance) > 1e-12) {

@@ -8,11 +8,11 @@
 #include "src/vehicle/tyre_file_reader.h"
 #include "trackbed/core/file.h"
 
-// Reads a tyre property file in four steps. The file is split into entries. The version of the
-// Magic Formula follows from PROPERTY_FILE_FORMAT, FITTYP or, without both, from the coefficients.
-// The coefficients are copied, and multiplied by the scale factors and the factors of the inflation
-// pressure of their version (Adams/Tire's PAC2002; Pacejka 2012, section 4.3.2). A tyre of the
-// right side is mirrored. A note lists the entries that no step has used.
+// Reads a tyre property file in four steps. First, the file is split into entries. Next, the
+// version of the Magic Formula is determined from PROPERTY_FILE_FORMAT, FITTYP or, without both,
+// from the coefficients. The coefficients are then multiplied by the scale factors and inflation
+// pressure factors of this version (Adams/Tire's PAC2002; Pacejka 2012, section 4.3.2). Finally, a
+// tyre of the right side is mirrored. A note lists the file entries that no step has used.
 namespace trackbed {
 
 struct TyreUnit {
@@ -70,7 +70,7 @@ TyreFileReader::TyreFileReader(std::string_view text, const std::string& name)
     : name_(name), entries_(SplitTyreFile(text, name, problems_)) {
   problems_.ThrowIfAny();
   for (const TyreFileEntry& entry : entries_) {
-    // A unit and a quantity may have the same key, such as MASS.
+    // In a tyre property file, a unit and a quantity may have the same key, such as MASS.
     by_key_[entry.section == "UNITS" ? "UNITS " + entry.key : entry.key].push_back(&entry);
   }
 }
@@ -260,8 +260,8 @@ void TyreFileReader::ReadUnits() {
   }
 }
 
-/// Adds a note that lists the unused entries by section. The note leaves out entries whose values
-/// have no effect.
+/// Adds a note that lists the unused entries of the tyre file by section. The note on unused
+/// entries leaves out entries whose values have no effect.
 void TyreFileReader::NoteIgnored() {
   const MagicFormula& tyre = result_.tyre;
   if (tyre.r_bx1 == 0.0 && tyre.r_by1 == 0.0) {

@@ -9,13 +9,13 @@
 
 // Takes the Magic Formula coefficients from a tyre property file.
 // 1. ReadCoefficients copies the coefficients by their names, such as PCX1 to p_cx1, and lists
-//    missing ones.
+//    missing coefficients.
 // 2. NormalizeSigns corrects pairs of coefficients that some files give with both signs reversed.
-//    The correction of signs does not change the tyre forces.
+//    Reversing both signs of such a pair does not change the tyre forces.
 // 3. ApplyScaleFactors and ApplyPressure fold scale factors and the change of pressure into the
 //    coefficients.
-// 4. ApplySide mirrors the tyre of a right wheel.
-// 5. CheckResult refuses coefficients that are out of range, and tyres whose stiffness or friction
+// 4. ApplySide mirrors the coefficients of a tyre measured on the right side.
+// 5. CheckResult rejects coefficients that are out of range, and tyres whose stiffness or friction
 //    at the nominal load is not positive.
 // Source: Pacejka 2012, sections 4.3.2 and 4.3.3.
 namespace trackbed {
@@ -23,7 +23,7 @@ namespace {
 
 using M = MagicFormula;
 
-/// Returns the key of a coefficient, such as PCX1 for p_cx1.
+/// Returns the key of a coefficient in a tyre property file, such as PCX1 for p_cx1.
 std::string KeyOf(const char* field) {
   std::string key = InCapitals(field);
   key.erase(std::remove(key.begin(), key.end(), '_'), key.end());
@@ -43,8 +43,8 @@ bool IsOfVersion6(double M::*field) {
   return std::find(fields.begin(), fields.end(), field) != fields.end();
 }
 
-/// Returns the factor lambda' by which the vertical shifts change with the friction (Pacejka 2012,
-/// equation 4.E8).
+/// Returns the factor lambda' by which the vertical shifts of the force curves change with the
+/// friction (Pacejka 2012, equation 4.E8).
 double DigressiveFriction(double scale) {
   constexpr double kAMu = 10.0;
   return kAMu * scale / (1.0 + (kAMu - 1.0) * scale);
@@ -92,9 +92,9 @@ void TyreFileReader::ReadLoadAndCamber() {
   }
 }
 
-/// Some files give pairs of coefficients with both signs reversed. The reversal leaves the forces
-/// unchanged, because F = D sin(C atan(K/(C D) slip)) is even in D, and sin(2 atan(F_z/(p_ky2
-/// F_z0))) is odd in p_ky2.
+/// Some files give pairs of coefficients with both signs reversed. Reversing both signs leaves the
+/// tyre forces unchanged, because F = D sin(C atan(K/(C D) slip)) is even in D, and sin(2
+/// atan(F_z/(p_ky2 F_z0))) is odd in p_ky2.
 void TyreFileReader::NormalizeSigns() {
   MagicFormula& tyre = result_.tyre;
   if (tyre.p_dx1 < 0.0) {
@@ -199,8 +199,8 @@ void TyreFileReader::ApplyPressure() {
   Multiply(polynomial("PPY5", nullptr), {&M::p_ky6, &M::p_ky7});
 }
 
-/// Reads the relaxation lengths at the nominal load, from PTX1 and PTY1 or from the stiffness of
-/// the carcass, sigma = K/C.
+/// Reads the relaxation lengths sigma at the nominal load from PTX1 and PTY1. Without these keys,
+/// sigma = K/C, with the slip stiffness K and the stiffness C of the carcass.
 void TyreFileReader::ReadRelaxation() {
   MagicFormula& tyre = result_.tyre;
   const std::optional<double> radius = Number("UNLOADED_RADIUS");
@@ -310,7 +310,8 @@ void TyreFileReader::ReadRollingResistance() {
 }
 
 /// Mirrors a tyre that was measured on the right side: F_y(alpha, gamma) of the left tyre is
-/// -F_y(-alpha, -gamma) of the right tyre. Removes the asymmetry of a symmetric tyre.
+/// -F_y(-alpha, -gamma) of the right tyre. If the file declares the tyre symmetric, sets the
+/// asymmetric coefficients to 0.
 void TyreFileReader::ApplySide() {
   const TyreFileEntry* entry = Find("TYRESIDE");
   const std::string side = entry == nullptr ? "LEFT" : InCapitals(entry->text);

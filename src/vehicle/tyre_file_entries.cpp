@@ -23,9 +23,9 @@ std::string_view WithoutBlanks(std::string_view text) {
              : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
 
-/// Returns the part of a line before its comment. A comment begins with $ or ! outside of quotes.
-/// An apostrophe opens a quoted text only at the start of a value, because the text of other lines
-/// may contain apostrophes.
+/// Returns the part of a tyre file's line before its comment. In a tyre file, a comment begins with
+/// $ or ! outside of quotes. An apostrophe opens a quoted text only at the start of a value,
+/// because the text of other lines may contain apostrophes.
 std::string_view WithoutComment(std::string_view line) {
   char quote = '\0';
   bool at_start_of_value = false;
@@ -58,7 +58,7 @@ std::optional<double> NumberIn(std::string_view token) {
   return is_number ? std::optional(value) : std::nullopt;
 }
 
-/// Whether a line has only numbers, like the row of a table.
+/// Whether a line of a tyre file has only numbers, like the row of a table.
 bool IsRowOfNumbers(std::string_view content) {
   while (!content.empty()) {
     const std::size_t end = content.find_first_of(kBlanks);
@@ -136,8 +136,8 @@ class Splitter {
       }
       entry.text = WithoutBlanks(value.substr(1, end - 1));
     } else {
-      // Text after a number counts as a comment whose $ is missing. Two numbers in one entry are an
-      // error.
+      // Text after the number of an entry counts as a comment whose $ is missing. Two numbers in
+      // one entry of a tyre file are an error.
       const std::size_t end = value.find_first_of(kBlanks);
       entry.text = value.substr(0, end);
       entry.number = NumberIn(entry.text);

@@ -19,8 +19,9 @@ struct TyreUnit;
 /// Reads the entries of a tyre property file into a tyre.
 class TyreFileReader {
  public:
-  /// Splits the text of a file. `name` names the file in messages, and must outlive the reader.
-  /// Throws InputError if a line is malformed.
+  /// Splits the text of a tyre property file into entries. `name` is the file's name in messages,
+  /// and must outlive the reader.
+  /// The constructor throws InputError if a line is malformed.
   TyreFileReader(std::string_view text, const std::string& name);
 
   /// Returns the tyre. Throws InputError in the same cases as ReadTyreFile. Call Read
@@ -33,12 +34,12 @@ class TyreFileReader {
   void Fail(const TyreFileEntry* entry, const std::string& key, std::string message);
   void Note(std::string_view note) { result_.notes.emplace_back(note); }
 
-  /// Returns the entry of a key; null if the file has none. Adds a problem if the file has the key
-  /// twice with different values.
+  /// Returns the entry of a key in the tyre file; null if the file has no such entry. Adds a
+  /// problem if the tyre file has the key twice with different values.
   const TyreFileEntry* Find(const std::string& key);
   std::optional<double> Number(const std::string& key);
   /// Returns the scale factor that the file gives under one of the names; 1 if the file has none of
-  /// the names. Adds a problem if the scale factor is below 0.
+  /// the names. Adds a problem if the scale factor in the file is below 0.
   double Factor(std::initializer_list<const char*> names);
   void Multiply(double factor, std::initializer_list<Field> fields);
 

@@ -56,7 +56,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
   }
 
   void Accept(const http::request<http::empty_body>& request) {
-    // the WebSocket uses the timeout that the constructor sets
+    // the WebSocket uses the timeout that the constructor of LiveConnection sets
     beast::get_lowest_layer(socket_).expires_never();
     socket_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (!error) {
@@ -155,7 +155,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
       return;
     }
     if (error) {
-      return;  // the client has closed the connection or was too slow
+      return;  // the client has closed the connection or has exceeded a time limit
     }
     const Request request = parser_->release();
     const std::string_view host = View(request[http::field::host]);

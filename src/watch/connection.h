@@ -13,13 +13,14 @@ namespace trackbed {
 /// The content that a watch server offers.
 struct Site {
   boost::asio::ip::address address;  ///< IP address at which the server listens.
-  /// HTML page; shared with the connections that are still sending the page.
+  /// HTML page, whose ownership is shared with the connections that are still sending it.
   std::shared_ptr<const std::string> page{};
   /// The run in progress that the server shows; null if no run is in progress.
   LiveRun* live = nullptr;
 };
 
-/// A WebSocket connection. A LiveConnection owns itself while operations are pending.
+/// A WebSocket connection. A LiveConnection keeps itself alive while network operations are
+/// pending.
 class LiveConnection;
 
 /// The open connections of a server, which are all handled in one thread.

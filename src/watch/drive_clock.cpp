@@ -78,8 +78,8 @@ void DriveClock::Advance(std::size_t plant, double time) {
   const double tolerance = 0.5 * period_;
   while (!released_) {
     const bool others_arrived = SlowestTime() > time - tolerance;
-    // A period that one plant has begun is simulated by all plants, even if a pause begins
-    // meanwhile.
+    // If one plant has begun a control period, all plants simulate this period, even if a pause
+    // begins meanwhile.
     const bool begun = begun_ > next - tolerance;
     const double wait = begun ? 0.0 : pace_.MomentOf(next - tolerance) - Now();
     if (others_arrived && wait <= 0.0) {

@@ -24,20 +24,20 @@ class Pace {
   /// infinity if the speed is infinite.
   [[nodiscard]] double AllowedAt(double wall) const;
   /// Returns the wall-clock time from which the simulation may reach the simulated time
-  /// `simulated`. Returns infinity if the pause of the clock begins before that simulated time.
+  /// `simulated`. MomentOf returns infinity if the clock is paused before it reaches `simulated`.
   [[nodiscard]] double MomentOf(double simulated) const;
 
-  // The arguments of the functions below are the simulated time reached so far, `simulated`, and
-  // the wall-clock time of the call, `wall`.
+  // Arguments of the member functions of Pace: `simulated` is the simulated time reached so far,
+  // and `wall` is the wall-clock time of the call.
 
   void Pause(double simulated);
   void Resume(double simulated, double wall);
-  /// Pauses the clock after one more `period`, counted from the simulated time that is reached or
-  /// already allowed.
+  /// Pauses the clock after one more control period `period`, counted from the simulated time that
+  /// is reached or already allowed.
   void Step(double simulated, double period);
   void SetSpeed(double speed, double simulated, double wall);
-  /// If the simulation lags behind, shifts the clock by the lag, so that the simulation does not
-  /// run faster later to catch up.
+  /// If the simulation lags behind the wall clock, shifts the clock by the lag, so that the
+  /// simulation does not run faster later to catch up.
   void KeepUp(double simulated, double wall);
 
  private:
@@ -45,7 +45,7 @@ class Pace {
 
   double speed_;
   bool paused_;
-  // Largest simulated time that is allowed while the clock is paused.
+  // Largest simulated time that the simulation may reach while the clock is paused [s].
   double until_ = 0.0;
   double from_simulated_ = 0.0;  // Simulated time from which the clock's present speed applies.
   double from_wall_ = 0.0;
@@ -53,19 +53,19 @@ class Pace {
 
 /// Synchronizes the plants of a run, each of which has its own thread. A plant begins a control
 /// period only when all other plants have reached the start of this period. A pause begins at the
-/// end of a period: all plants stop at the same simulated time. All functions of DriveClock are
-/// thread-safe.
+/// end of a control period, so that all plants stop at the same simulated time. All functions of
+/// DriveClock are thread-safe.
 class DriveClock {
  public:
   /// `period` is the control period of the run [s].
   DriveClock(std::size_t plants, double period, double speed, bool paused);
 
   /// Advance() is called by the thread of a plant that has reached the simulated time `time` [s].
-  /// Blocks until the plant may simulate the next control period.
+  /// Advance() blocks until the plant may simulate its next control period.
   void Advance(std::size_t plant, double time);
   /// Removes a plant from the synchronization, so that other plants no longer wait for it.
   void End(std::size_t plant);
-  /// Makes all present and future calls of Advance() return immediately.
+  /// Releases all plants: present and future calls of Advance() return immediately.
   void Release();
 
   void Pause();

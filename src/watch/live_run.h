@@ -15,7 +15,7 @@
 
 namespace trackbed {
 
-/// Slowest and fastest speed of the clock, as a factor on the speed of real time.
+/// Slowest and fastest playback speed of a live run, as ratio of simulated time to real time.
 inline constexpr double kMinPlaybackSpeed = 0.01;
 inline constexpr double kMaxPlaybackSpeed = 1000.0;
 
@@ -37,9 +37,9 @@ class LiveRun {
   /// Tells all pages that the report of the run can be loaded.
   void Finish();
 
-  /// Records which part of the run has already been sent to the page of a connection.
+  /// Position in the data of the run up to which data has been sent to the page of a connection.
   struct Cursor {
-    std::string state;  ///< Last state message that was sent.
+    std::string state;  ///< Last state message that was sent to the page.
     /// For each plant, the number of rows, of poses and of plans sent so far.
     std::vector<std::array<std::size_t, 3>> places{};
     bool finished = false;
@@ -49,12 +49,13 @@ class LiveRun {
   ///   {"type": "state", "id", "paused", "speed"}  speed is a number or "max"
   ///   {"type": "rows", "plants": [{"first": [row, pose, plan], "rows", "poses", "plans"}, ...]}
   ///   {"type": "finished"}                        after all rows
-  /// LiveRows formats the rows. The size of a message is at most about 100 kB.
+  /// The class LiveRows formats the rows of the log. The size of a message to a page is at most
+  /// about 100 kB.
   std::optional<std::string> Next(Cursor& cursor) const;
 
-  /// Executes a command from a page; commands are {"do": "pause" | "resume" | "step"} and {"do":
-  /// "speed", "speed": number | "max"}. Returns an error message if the command is invalid; empty
-  /// if the command was executed.
+  /// Executes a command that a page has sent; commands are {"do": "pause" | "resume" | "step"} and
+  /// {"do": "speed", "speed": number | "max"}. Returns an error message if the command of the page
+  /// is invalid, else an empty text.
   std::string Execute(std::string_view message);
 
  private:

@@ -88,8 +88,8 @@ class Server::Implementation {
       if (error == asio::error::operation_aborted) {
         return;
       }
-      // if accepting a connection fails, for example for lack of file descriptors, tries again
-      // later
+      // if a connection cannot be accepted, for example for lack of file descriptors, the server
+      // tries again later
       if (error) {
         wait_to_accept_ = true;
         return;

@@ -15,9 +15,9 @@ namespace trackbed {
 /// Requests for other paths are answered with the status 404. The server rejects requests whose
 /// Host header names another server (IsOwnHost), and WebSocket requests from pages of other sites.
 /// Limits: 64 connections at a time (further connections are closed), request headers of 8 kB
-/// without a body, and messages of 4 kB. A request may take 15 s, and a client may be silent for
-/// one minute. If a client does not read the data sent, the connection keeps at most one message in
-/// memory.
+/// without a body, and messages of 4 kB. The server closes a connection if a request takes more
+/// than 15 s, or if a client is silent for more than one minute. If a client does not read the data
+/// sent, the connection keeps at most one message in memory.
 class Server {
  public:
   /// Makes a server that listens at an IP address and port. If `port` is 0, a free port is
@@ -32,16 +32,16 @@ class Server {
   /// addresses, the URL contains the loopback address.
   [[nodiscard]] std::string url() const;
 
-  /// Sets the page at `/` and the run in progress at `/live`; `live` is null if there is no run.
-  /// The run must outlive the server. Show() must be called before Run, or in the thread that calls
-  /// Run.
+  /// Sets the page at `/` and the run in progress at `/live`; `live` is null if no run is in
+  /// progress. The object `live` must outlive the server. Show() must be called before Run, or in
+  /// the thread that calls Run.
   void Show(std::string page, LiveRun* live);
 
   /// Executes `work` in the thread that calls Run. Post is thread-safe.
   void Post(std::function<void()> work);
 
-  /// Serves requests until `stop` returns true. `stop` is called several times per second. Run
-  /// rethrows exceptions that functions passed to Post have thrown.
+  /// Serves the clients' requests until the function `stop` returns true. `stop` is called several
+  /// times per second. Run rethrows exceptions that functions passed to Post have thrown.
   void Run(const std::function<bool()>& stop);
 
  private:

@@ -134,7 +134,8 @@ RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFo
   try {
     Serve(server, hooks, failed);
   } catch (...) {
-    live.Interrupt();  // otherwise the destructor of `driven` would wait for the end of the run
+    live.Interrupt();  // without this interruption, the destructor of `driven` would wait for the
+                       // end of the run
     throw;
   }
   live.Interrupt();

@@ -5,7 +5,7 @@
 namespace trackbed {
 namespace {
 
-/// Stores which blocked cells of a map are not yet covered by a rectangle.
+/// Stores which blocked cells of a grid map are not yet covered by a rectangle.
 class OpenCells {
  public:
   OpenCells(const GridMap& map, UnknownCells unknown)

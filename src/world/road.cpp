@@ -9,8 +9,8 @@
 namespace trackbed {
 namespace {
 
-/// Height of the ground with derivatives: a Profile depends on one coordinate, a Lift on two
-/// coordinates.
+/// Heights of the ground, with derivatives: a Profile is a height over one coordinate, a Lift is a
+/// height over two coordinates.
 struct Profile {
   double height = 0.0;
   double slope = 0.0;
@@ -20,8 +20,8 @@ struct Lift {
   Vec2 slope = Vec2::Zero();
 };
 
-/// Returns the cosine-shaped profile C(distance / reach) and its derivative. The profile is 1 up to
-/// distance 0, then decreases smoothly, and is 0 from the distance `reach` on.
+/// Returns the cosine-shaped profile C(distance / reach) and its derivative. The height of this
+/// profile is 1 up to distance 0, then decreases smoothly, and is 0 from the distance `reach` on.
 Profile Falloff(double distance, double reach) {
   if (distance <= 0.0) {
     return {1.0, 0.0};
@@ -40,8 +40,8 @@ Profile SymmetricFalloff(double place, double half, double reach) {
   return {one.height, std::copysign(1.0, place) * one.slope};
 }
 
-/// Returns the product of a profile along u and a profile along v. The slope of the product is in
-/// world axes.
+/// Returns the product of a height profile along u and a height profile along v. The slope of the
+/// product height is in world axes.
 Lift Product(const Pose2& pose, double height, const Profile& along, const Profile& across) {
   const Vec2 u = Direction(pose.yaw);
   return {height * along.height * across.height,
@@ -60,7 +60,7 @@ Lift ComputeLift(const Superelevation& stretch, const Vec2& point_W) {
   const Vec2 p = ToLocal(stretch.area.center, point_W);
   const double half_length = 0.5 * stretch.area.length;
   const double width = stretch.area.width;
-  // Sign that the lateral coordinate v has on the uphill side.
+  // Sign of the lateral coordinate v on the uphill side of the road.
   const double up = std::copysign(1.0, stretch.slope);
   const double w = 0.5 * width + up * p.y();
   Profile across;

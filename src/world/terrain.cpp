@@ -10,14 +10,14 @@
 namespace trackbed {
 namespace {
 
-/// Interpolation weights of four neighboring cells, and the derivatives of these weights by the
-/// position u between the middle two cells.
+/// Interpolation weights of four neighboring terrain cells, and the derivatives of these weights
+/// with respect to the position u between the middle two cells.
 struct Weights {
   std::array<double, 4> value;
   std::array<double, 4> slope;
 };
 
-/// Returns the weights of the uniform cubic B-spline.
+/// Returns the interpolation weights of the uniform cubic B-spline.
 Weights SplineWeights(double u) {
   const double v = 1.0 - u;
   return {{v * v * v / 6.0, (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0,
@@ -35,8 +35,8 @@ Weights ConvolutionWeights(double u) {
            u * (1.5 * u - 1.0)}};
 }
 
-/// Returns the weighted sum over sixteen neighboring cells. The arguments of `at(i, j)` are the
-/// cell index i along x and the cell index j along y.
+/// Returns the weighted sum of the heights of sixteen neighboring terrain cells. The arguments of
+/// `at(i, j)` are the cell index i along x and the cell index j along y.
 template <typename At>
 Terrain::Point Sum(const Weights& x, const Weights& y, double cell, const At& at) {
   Terrain::Point sum;
@@ -118,7 +118,7 @@ bool Terrain::IsRefined(int column, int row) const {
 
 Terrain::Point Terrain::At(const Vec2& point_W) const {
   const Vec2 place = point_W - size_.low;
-  // Write the condition such that a NaN coordinate counts as outside of the terrain.
+  // This condition is written such that a NaN coordinate counts as outside of the terrain.
   if (!(place.x() >= 0.0 && place.y() >= 0.0 && place.x() <= kBlock * size_.columns &&
         place.y() <= kBlock * size_.rows)) {
     return {size_.base, Vec2::Zero()};

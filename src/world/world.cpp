@@ -66,8 +66,8 @@ struct MotionPiece {
   double yaw_rate;  // [rad/s]
 };
 
-/// Returns the piece of a motion at `time`. Before the start of the motion, returns the first
-/// piece, and after the end the last piece.
+/// Returns the piece of an obstacle's motion at the time `time`. Before the start of the obstacle's
+/// motion, returns the first piece, and after the end the last piece.
 MotionPiece PieceAt(const std::vector<TimedPose>& motion, double time) {
   const auto after =
       std::upper_bound(motion.begin() + 1, motion.end() - 1, time,
@@ -128,7 +128,7 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
   double nearest = std::numeric_limits<double>::infinity();
   for (const Obstacle& obstacle : world.obstacles) {
     const OrientedBox box = FootprintAt(obstacle, time);
-    // Skip boxes that cannot be the nearest box, because their bounding circles are too far away.
+    // Skip boxes whose bounding circles are so far away that another box must be nearer.
     const double circles = nearest + radius + 0.5 * std::hypot(box.length, box.width);
     if ((box.center.position() - middle).squaredNorm() < circles * circles) {
       nearest = std::min(nearest, Distance(footprint, box));
@@ -170,14 +170,14 @@ double MaxRelativeMotion(const World& world, const VehicleParams& vehicle,
          reach * std::abs(to.pose.yaw - from.pose.yaw) + fastest * (to.time - from.time);
 }
 
-/// Largest number of bisections in the search for the smallest clearance. The number kMaxBisections
-/// suffices for any real motion of a car, and limits the computing time if a simulation has
-/// diverged.
+/// Largest number of bisections in the search for the smallest clearance. The limit kMaxBisections
+/// of bisections suffices for any real motion of a car, and limits the computing time if a
+/// simulation has diverged.
 constexpr long kMaxBisections = 100000;
 
-/// Searches for the smallest clearance between two samples by bisection. Between the samples, the
-/// clearance changes by at most `moved` [m]. The bisection stops when no further reduction of the
-/// smallest known clearance by more than a tolerance is possible.
+/// Searches for the smallest clearance between two samples by bisection. Between the two samples,
+/// the clearance changes by at most `moved` [m]. The bisection stops when no further reduction of
+/// the smallest known clearance by more than a tolerance is possible.
 void Approach(const World& world, const VehicleParams& vehicle, const ClearanceSample& from,
               const ClearanceSample& to, double moved, long& looks, ClosestApproach& best) {
   constexpr double kTolerance = 5e-3;  // [m]

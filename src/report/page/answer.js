@@ -1,6 +1,6 @@
 // Draws the first screen of a report. The first screen of a report shows how each run ended, and
-// the distances of each car from its path and from the other cars. The screen has remarks on the
-// moment of the largest distance, and the margins to the expectations.
+// the distances of each car from its path and from the other cars. The first screen also states
+// when the largest distance occurred, and the margins to the expectations.
 
 // maximum number of listed plants; plants with the largest distance from the path come first
 const MOST_ROWS = 4;

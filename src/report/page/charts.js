@@ -5,8 +5,8 @@
 // forbids.
 Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 
-// Keeps half a label's height free above the chart. If a label would begin above the chart,
-// dygraphs moves the label down, away from its grid line.
+// Keeps half the height of an axis label free above the chart. If a label would begin above the
+// chart, dygraphs moves the label down, away from its grid line.
 Dygraph.PLUGINS.push(class {
   activate() {
     const layout = (event) => {

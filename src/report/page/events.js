@@ -46,7 +46,7 @@ function eventsOf() {
  * Draws the time line, with a lane for each track below, which has marks for the track's events.
  */
 function drawEventTrack(parent) {
-  // no events are drawn while a run is in progress, because the extremes are not yet known
+  // no events are drawn while a run is in progress, because its extreme values are not yet known
   const all = data.live ? [] : eventsOf();
   const LANE = 20;
   // smallest distance between the center of the slider's knob and the ends of the slider [px]

@@ -130,7 +130,7 @@ function drawControls(parent) {
     speed.property('value', state.speed);
   };
 
-  // If the user selects an earlier time, the page stops following the newest state.
+  // If the user selects an earlier time, the page no longer shows the newest state automatically.
   bus.on('time.live', (time, from) => {
     if (from !== 'live' && live.following && time < duration) setFollowing(false);
   });

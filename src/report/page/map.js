@@ -1,10 +1,11 @@
 // Draws the map of a run, with x to the right and y up, in meters.
-// 1. The extent contains the plans, the driven paths and the obstacles. The scales of x and y are
-//    equal, unless the path is long and narrow.
+// 1. The extent of the map contains the plans, the driven paths and the obstacles. The scales of x
+//    and y are equal, unless the path is long and narrow.
 // 2. The map has these layers, from bottom to top: roads, friction patches, track edges, plans,
 //    cones, walls, obstacles, driven paths, cars.
-// 3. One driven path is colored by the distance between the cars, or by the cross-track error.
-// 4. A button enlarges the distances from the path by the factor LATERAL.
+// 3. The driven path of one car is colored by the distance between the cars, or by the cross-track
+//    error.
+// 4. A button enlarges the displayed distances from the path by the factor LATERAL.
 // This file also draws the clock that plays back the run.
 
 function extentOfMap() {
@@ -124,8 +125,8 @@ function placed(pose) {
 
 function drawMap(parent) {
   let extent = extentOfMap();
-  // Stretches the y direction of long, narrow paths; a lane change, for example, is 150 m long and
-  // 4 m wide.
+  // Stretches the y direction of the map for long, narrow paths; a lane change, for example, is 150
+  // m long and 4 m wide.
   const slender = (extent.x[1] - extent.x[0]) / (extent.y[1] - extent.y[0]);
   const stretch = slender > 6 ? Math.min(8, Math.floor(slender / 3)) : 1;
   const margin = { left: 50, right: 12, top: 52, bottom: 38 };

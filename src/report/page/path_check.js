@@ -1,5 +1,5 @@
-// Shows the result of a path check: whether a car can follow the path at a given speed, where it
-// cannot, and how fast it could drive.
+// Shows the result of a path check: whether a car can follow the path at a given speed, where this
+// is impossible, and how fast the car could drive.
 
 const faultNames = {
   reversal: 'turns back on itself',

@@ -56,7 +56,7 @@ function planMesh(line, height, color, level) {
 function makeReplay(canvas, context) {
   const renderer = new THREE.WebGLRenderer({ canvas, context });
   // Checking a shader for errors would wait until the shader is compiled. Without checks for
-  // errors, several shaders are compiled at the same time.
+  // errors, the graphics driver compiles several shaders at the same time.
   renderer.debug.checkShaderErrors = false;
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
@@ -149,7 +149,7 @@ function makeReplay(canvas, context) {
     const z = height(pose.x, pose.y);
     const { length, rear_overhang: overhang, trailer } = runs[car.track.run].car;
     const middle = length / 2 - overhang;
-    // length of hitch and trailer behind the car
+    // length of the car's hitch and trailer behind the car
     const towed = trailer ? trailer.hitch - overhang + trailer.tongue - trailer.body_ahead + trailer.length / 2 : 0;
     const ahead = (along, across, up) => new THREE.Vector3(
       pose.x + along * Math.cos(heading) - across * Math.sin(heading),
@@ -273,7 +273,7 @@ function gridOf(count, width, height) {
   const columns = Math.ceil(count / lines);
   return d3.range(count).map((i) => {
     const [column, line] = [i % columns, Math.floor(i / columns)];
-    // If the last row has fewer views than the others, its views are wider.
+    // If the last row of views has fewer views than the other rows, its views are wider.
     const inLine = line + 1 < lines ? columns : count - columns * (lines - 1);
     const [x0, x1] = [column, column + 1].map((k) => Math.round((k * width) / inLine));
     const [y0, y1] = [lines - 1 - line, lines - line].map((k) => Math.round((k * height) / lines));

@@ -1,9 +1,9 @@
 // Draws the page of a study: the outputs over the parameters, and the table of all rows.
-// 1. Columns are divided by their kind: parameters, status, outputs.
+// 1. The columns of the study are divided by their kind: parameters, status, outputs.
 // 2. The function drawPlots draws the outputs over a parameter that the user selects. A second
 //    parameter determines the color of the dots.
-// 3. Each dot is a row of the study. Pointing at a dot shows its row in the tooltip, in all plots
-//    and in the table.
+// 3. Each dot of a plot is a row of the study. Pointing at a dot shows its row in the tooltip, in
+//    all plots and in the table.
 // 4. The function drawStudyTable sorts and filters the rows.
 
 function drawStudy(study) {
@@ -263,7 +263,7 @@ function drawStudyTable(parent, { columns, rows, isGood, isNumber, bus }) {
     const sign = sorted.down ? -1 : 1;
     lines.sort((a, b) => {
       const [left, right] = [a.cells[column.index], b.cells[column.index]];
-      // Empty cells come last, both in ascending and in descending order.
+      // In a sorted table, empty cells come last, both in ascending and in descending order.
       if (left === null || right === null) return (left === null) - (right === null) || a.index - b.index;
       const order = column.numeric ? left - right : d3.ascending(String(left), String(right));
       return sign * order || a.index - b.index;

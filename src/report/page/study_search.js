@@ -1,8 +1,10 @@
 // Draws the page of a search for failures: the result, the margins of each key, the history, and
 // the tried parts of the ranges.
-// 1. The margin of a key is the distance from its nominal value to the values at which runs failed.
-// 2. The history shows the robustness of each run in the order of the runs; below 0, a run failed.
-// 3. Each run has a symbol and a color by its phase: nominal point, search, shrinking.
+// 1. The margin of a varied key is the distance from its nominal value to the values at which runs
+//    failed.
+// 2. The history chart shows the robustness of each run in the order of the runs; a run with a
+//    robustness below 0 failed.
+// 3. The symbol and the color of a run show its phase: nominal point, search, shrinking.
 
 // Phases of a search for failures, with the symbol and color of the runs in each phase.
 const PHASES = [
@@ -220,7 +222,7 @@ function drawHistory(parent, { search, rows, of, isGood, bus, tooltip }) {
       + `${there.filter((row) => !isGood(row)).length} failed, the lowest is ${brief(lowest)}`);
     const margin = { left: 56, right: 18, top: 30, bottom: 44 };
     const { scale: y, ticks, note } = scaleOfRobustness(values);
-    // Leaves space in the chart for marks at the ends of the axis.
+    // Leaves space in the chart for run symbols at the ends of the axis.
     y.range([height - margin.bottom - 12, margin.top + 8]);
     const x = d3.scaleLinear().domain([0, Math.max(1, d3.max(rows, (row) => row.number) || 1)]).range([margin.left + 8, width - margin.right - 8]);
     svg.append('g').attr('class', 'axis').attr('transform', `translate(0 ${height - margin.bottom})`)

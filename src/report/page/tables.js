@@ -97,8 +97,7 @@ function rowsOf(lists) {
       before = path;
     }
   }
-  // A row that occurs only in a later list is placed after the row that precedes it in the later
-  // list.
+  // A row that occurs only in a later list is placed after its predecessor in that list.
   const order = [];
   for (const row of rows.values()) {
     const at = order.findIndex((other) => other.path === row.before);
