@@ -225,8 +225,8 @@ TEST_P(OnASmallCar, CrossesItsPlayEverMoreRarely) {
   // turns it back. If the law corrects with the damping ratio 0.7, a correction reverses the
   // heading error and multiplies it by exp(-pi) = 0.04. Each drift then takes 23 times as long as
   // the drift before it, so at most two corrections fall into the last 20 s of 30 s. Each
-  // correction crosses the play at most twice. The loop of stanley has less damping at low speed,
-  // where its lever is the wheelbase; it may cross the play once per second.
+  // correction crosses the play at most twice. The damping of stanley depends on the speed; for
+  // stanley, the test only requires at most one reversal per second, as for a calm drive.
   for (const VehicleParams& car : {SmallCar(), SmallCarWithTyres()}) {
     for (const double speed : {1.0, 2.57, 3.02, 4.0}) {
       for (const double offset : {0.011, -0.02}) {
