@@ -51,6 +51,7 @@ constexpr double kCoarseSpeedRatio = 0.6;
 /// A leg between two stops.
 struct Leg {
   std::vector<Segment> segments;
+  ShortestCurve word;
   CurveFindings findings;
   double speed = 0.0;    // Speed on the turns [m/s].
   std::size_t lead = 0;  // Number of segments before the turns, on which a rolling car slows down.
@@ -64,21 +65,12 @@ struct LegStart {
   LeadIn lead{};       // Straight on which a rolling car slows down to `speed`.
 };
 
-/// The legs of a route with their total cost.
-struct Legs {
-  std::vector<Leg> legs;
-  double cost = kNoCurve;
+/// The cheapest way to a stop with one of the curvatures at this stop.
+struct Arrival {
+  double cost = kNoCurve;  // Cost of the route from the start to the stop.
+  std::size_t before = 0;  // Index of the curvature at the previous stop.
+  Leg leg;                 // Leg from the previous stop.
 };
-
-/// Returns the radius at the sharpest point [m]; `radius` if no point is sharper.
-double SharpestRadius(const std::vector<Segment>& segments, double radius) {
-  double sharpest = 0.0;
-  for (const Segment& segment : segments) {
-    sharpest = std::max(
-        {sharpest, std::abs(segment.curvature), std::abs(segment.CurvatureAt(segment.length))});
-  }
-  return sharpest > 0.0 ? 1.0 / sharpest : radius;
-}
 
 bool IsStraight(const Segment& segment) {
   return segment.curvature == 0.0 && segment.sharpness == 0.0 && segment.sharpness_rate == 0.0;
@@ -94,21 +86,24 @@ class RoutePlanner {
         speed_(std::max(request.speed.speed, route.min_speed)) {}
 
   [[nodiscard]] Plan Make() {
-    Legs best;
+    std::vector<Leg> best;
     if (route_.objective == CurveObjective::kTime) {
       best = BestLegs(Speeds());
-      Legs constant = BestLegs({speed_});
-      if (!constant.legs.empty() && (best.legs.empty() || Time(constant) <= Time(best))) {
+      std::vector<Leg> constant = BestLegs({speed_});
+      const auto time = [this](const std::vector<Leg>& legs) {
+        return DrivingTime(PlanOf(legs), request_.vehicle);
+      };
+      if (!constant.empty() && (best.empty() || time(constant) <= time(best))) {
         best = std::move(constant);
       }
     }
     for (const double speed : Speeds()) {
-      if (!best.legs.empty()) {
+      if (!best.empty()) {
         break;
       }
       best = BestLegs({speed});
     }
-    return best.legs.empty() ? Blocked() : PlanOf(best);
+    return best.empty() ? Blocked() : PlanOf(best);
   }
 
  private:
@@ -204,6 +199,13 @@ class RoutePlanner {
     return cost;
   }
 
+  /// Returns a lower bound of CostOf for a curve of a length [m].
+  [[nodiscard]] double LeastCost(double length) const {
+    return route_.objective == CurveObjective::kTime
+               ? length / std::max(speed_, request_.start_speed)
+               : length;
+  }
+
   /// Returns where the turns of a leg may begin if the mission drives them at `speed`.
   [[nodiscard]] std::vector<LegStart> StartsAt(double speed, std::size_t leg, double from) const {
     const CurveState here{stops_[leg], from};
@@ -233,9 +235,9 @@ class RoutePlanner {
                                                      : start.lead.length;
   }
 
-  /// Returns the cheapest leg at `speed` that is free of obstacles; its cost is infinite if all
-  /// candidate curves are blocked.
-  [[nodiscard]] Leg LegAt(double speed, std::size_t leg, double from, double to) {
+  /// Returns the cheapest leg at `speed` that is free of obstacles. The cost of the leg is infinite
+  /// if all candidate curves are blocked, or cost at least `bound`.
+  [[nodiscard]] Leg LegAt(double speed, std::size_t leg, double from, double to, double bound) {
     std::vector<Leg> found;
     for (const LegStart& start : StartsAt(speed, leg, from)) {
       const double curvature = start.state.curvature;
@@ -245,6 +247,9 @@ class RoutePlanner {
         continue;
       }
       for (const ShortestCurve& word : Words(limits, leg, start.state, to)) {
+        if (LeadCost(start) + LeastCost(word.length) >= bound) {
+          continue;
+        }
         const std::vector<Segment> own = ToSegments(word);
         if (IsRolling(leg) && !own.empty() && own.front().direction < 0) {
           continue;
@@ -263,7 +268,7 @@ class RoutePlanner {
 
   /// Returns the cheapest free leg of two forward turns that are driven at different speeds. For
   /// example, the first turn after a start at rest may be sharper than the rest of the leg.
-  [[nodiscard]] Leg LegOfTwoSpeeds(std::size_t leg, double from, double to) {
+  [[nodiscard]] Leg LegOfTwoSpeeds(std::size_t leg, double from, double to, double bound) {
     std::vector<Leg> found;
     const std::vector<double> speeds = Speeds();
     for (const double first : speeds) {
@@ -275,7 +280,7 @@ class RoutePlanner {
         const ShortestCurve word =
             TwoTurns(limits.radius, LimitsAt(first, 0.0).sharpness, LimitsAt(last, 0.0).sharpness,
                      {stops_[leg], from}, {stops_[leg + 1], to});
-        if (word.length < kNoCurve) {
+        if (word.length < kNoCurve && LeastCost(word.length) < bound) {
           found.push_back(LegAlong(word, limits.radius, std::min(first, last)));
           found.back().cost = CostOf(found.back().segments, found.back().speed, leg);
         }
@@ -285,8 +290,7 @@ class RoutePlanner {
   }
 
   [[nodiscard]] static Leg LegAlong(const ShortestCurve& word, double radius, double speed) {
-    Leg leg{.segments = ToSegments(word), .speed = speed};
-    leg.findings.word = CurveWord(word);
+    Leg leg{.segments = ToSegments(word), .word = word, .speed = speed};
     leg.findings.length = word.length;
     leg.findings.radius = radius;
     return leg;
@@ -301,8 +305,10 @@ class RoutePlanner {
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (route::IsFree(clear_, stops_[leg], found[i].segments)) {
         Leg& best = found[i];
+        best.findings.word = CurveWord(best.word);
         best.findings.shorter_ones_blocked = static_cast<std::ptrdiff_t>(i);
-        best.findings.radius = SharpestRadius(best.segments, best.findings.radius);
+        const double sharpest = SharpestCurvature(best.segments);
+        best.findings.radius = sharpest > 0.0 ? 1.0 / sharpest : best.findings.radius;
         return std::move(best);
       }
     }
@@ -311,49 +317,62 @@ class RoutePlanner {
   }
 
   /// Returns the cheapest legs at the given choices of speeds, or no legs if a leg is blocked.
-  [[nodiscard]] Legs BestLegs(const std::vector<double>& speeds) {
-    std::vector<Legs> best;
+  [[nodiscard]] std::vector<Leg> BestLegs(const std::vector<double>& speeds) {
+    // The ways to each stop, by the curvature at the stop.
+    std::vector<std::vector<Arrival>> arrivals(1);
     for (const double curvature : CurvaturesAt(0)) {
-      const double cost = route_.turns_at_rest ? TimeBeforeStart(request_, curvature) : 0.0;
-      best.push_back({.legs = {}, .cost = cost});
+      arrivals[0].push_back(
+          {.cost = route_.turns_at_rest ? TimeBeforeStart(request_, curvature) : 0.0});
     }
     for (std::size_t leg = 0; leg + 1 < stops_.size(); ++leg) {
       const std::vector<double> from = CurvaturesAt(leg);
       const std::vector<double> to = CurvaturesAt(leg + 1);
-      std::vector<Legs> next(to.size());
+      std::vector<Arrival> next(to.size());
       const auto consider = [&](std::size_t i, std::size_t j, const auto& make) {
-        if (best[i].cost >= next[j].cost) {
+        const double before = arrivals[leg][i].cost;
+        if (before >= next[j].cost) {
           return;
         }
-        Leg own = make();
-        if (best[i].cost + own.cost < next[j].cost) {
-          next[j] = {best[i].legs, best[i].cost + own.cost};
-          next[j].legs.push_back(std::move(own));
+        // The bound leaves room for rounding errors of the sums of costs.
+        Leg own = make((next[j].cost - before) + 1e-9 * next[j].cost);
+        if (before + own.cost < next[j].cost) {
+          next[j] = {.cost = before + own.cost, .before = i, .leg = std::move(own)};
         }
       };
       for (std::size_t j = 0; j < to.size(); ++j) {
         for (std::size_t i = 0; i < from.size(); ++i) {
           for (const double speed : speeds) {
-            consider(i, j, [&] { return LegAt(speed, leg, from[i], to[j]); });
+            consider(i, j, [&](double bound) { return LegAt(speed, leg, from[i], to[j], bound); });
           }
           if (speeds.size() > 1 && !IsRolling(leg)) {
-            consider(i, j, [&] { return LegOfTwoSpeeds(leg, from[i], to[j]); });
+            consider(i, j,
+                     [&](double bound) { return LegOfTwoSpeeds(leg, from[i], to[j], bound); });
           }
         }
       }
-      best = std::move(next);
+      arrivals.push_back(std::move(next));
     }
-    const auto cheapest = std::min_element(
-        best.begin(), best.end(), [](const Legs& a, const Legs& b) { return a.cost < b.cost; });
-    return cheapest->cost < kNoCurve ? std::move(*cheapest) : Legs{};
+    const auto cheapest =
+        std::min_element(arrivals.back().begin(), arrivals.back().end(),
+                         [](const Arrival& a, const Arrival& b) { return a.cost < b.cost; });
+    if (cheapest->cost == kNoCurve) {
+      return {};
+    }
+    std::vector<Leg> legs(arrivals.size() - 1);
+    auto index = static_cast<std::size_t>(cheapest - arrivals.back().begin());
+    for (std::size_t i = legs.size(); i-- > 0;) {
+      legs[i] = std::move(arrivals[i + 1][index].leg);
+      index = arrivals[i + 1][index].before;
+    }
+    return legs;
   }
 
-  [[nodiscard]] Plan PlanOf(const Legs& found) const {
+  [[nodiscard]] Plan PlanOf(const std::vector<Leg>& found) const {
     Plan plan;
     CurveDiagnostics diagnostics;
     std::vector<Segment> segments;
     double station = 0.0;
-    for (const Leg& leg : found.legs) {
+    for (const Leg& leg : found) {
       diagnostics.curves.push_back(leg.findings);
       for (std::size_t i = 0; i < leg.segments.size(); ++i) {
         const Segment& segment = leg.segments[i];
@@ -373,10 +392,6 @@ class RoutePlanner {
     plan.reference.path = Path(request_.start, std::move(segments));
     route::Complete(plan, request_);
     return plan;
-  }
-
-  [[nodiscard]] double Time(const Legs& found) const {
-    return DrivingTime(PlanOf(found), request_.vehicle);
   }
 
   [[nodiscard]] Plan Blocked() const {
@@ -413,23 +428,6 @@ LegLimits LimitsOfMotion(const ContinuousRoute& route, const PlanRequest& reques
 double LateralAccelerationOnClothoids(const VehicleParams& vehicle, double friction, double most) {
   const double grip = kGripShare * MaxLateralAcceleration(vehicle, friction);
   return grip > 0.0 ? std::min(grip, most) : most;
-}
-
-const EnumNames<CurveCurvature>& CurvaturesWithCusps() {
-  static const EnumNames<CurveCurvature> names{{CurveCurvature::kAuto, "auto"},
-                                               {CurveCurvature::kSteps, "steps"},
-                                               {CurveCurvature::kContinuous, "continuous"},
-                                               {CurveCurvature::kCuspSteps, "cusp_steps"}};
-  return names;
-}
-
-void VisitClothoids(KeyVisitor& keys, double& max_lateral_acceleration,
-                    double& max_steering_rate_fraction) {
-  keys.Field({"max_lateral_acceleration", "m/s^2", "maximum lateral acceleration with clothoids"},
-             max_lateral_acceleration, Need::kOptional, kPositive);
-  keys.Field({"max_steering_rate_fraction", "",
-              "maximum fraction of the car's steering rate that clothoids may use"},
-             max_steering_rate_fraction, Need::kOptional, Range{.max = 1.0, .above = 0.0});
 }
 
 Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request) {

@@ -36,19 +36,4 @@ LegLimits LimitsOfMotion(const ContinuousRoute& route, const PlanRequest& reques
 /// is the smaller of `most` and a share of the tyres' grip on a road with the factor `friction`.
 double LateralAccelerationOnClothoids(const VehicleParams& vehicle, double friction, double most);
 
-// Scenario keys of the planners of curves of continuous curvature.
-
-inline constexpr Key kCurvatureKey{
-    "curvature", "",
-    "change of curvature between straights and arcs: along clothoids that the steering can follow "
-    "(continuous; cusp_steps: except at cusps), in steps, at which the car slows down or stops, or "
-    "along clothoids where they fit and in steps otherwise (auto)"};
-
-/// Returns the names of all values of CurveCurvature, for planners whose paths have cusps.
-const EnumNames<CurveCurvature>& CurvaturesWithCusps();
-
-/// Visits the keys of the limits on paths of continuous curvature.
-void VisitClothoids(KeyVisitor& keys, double& max_lateral_acceleration,
-                    double& max_steering_rate_fraction);
-
 }  // namespace trackbed

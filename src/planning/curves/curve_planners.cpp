@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/planning/curves/clothoid_keys.h"
 #include "src/planning/curves/continuous_or_steps.h"
 #include "src/planning/curves/continuous_route.h"
 #include "src/planning/curves/detours.h"

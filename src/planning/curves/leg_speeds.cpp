@@ -39,6 +39,15 @@ double PieceTime(const SpeedLimits& limits, double length, double from, double t
 
 }  // namespace
 
+double SharpestCurvature(const std::vector<Segment>& segments) {
+  double sharpest = 0.0;
+  for (const Segment& segment : segments) {
+    sharpest = std::max(
+        {sharpest, std::abs(segment.curvature), std::abs(segment.CurvatureAt(segment.length))});
+  }
+  return sharpest;
+}
+
 std::vector<LegPiece> LegPieces(const LegLimits& limits, const std::vector<Segment>& segments,
                                 double least, int parts) {
   const double lower = std::min(least, limits.speed.speed);

@@ -27,6 +27,9 @@ struct LegPiece {
   bool stops = false;   // Whether the car changes its direction of motion before the piece.
 };
 
+/// Returns the largest magnitude of the curvature at the ends of segments [1/m].
+double SharpestCurvature(const std::vector<Segment>& segments);
+
 /// Splits segments into pieces, each clothoid into `parts` of equal length. The speed of a piece is
 /// the largest that keeps the limits at its ends, but at least `least`.
 std::vector<LegPiece> LegPieces(const LegLimits& limits, const std::vector<Segment>& segments,

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "src/planning/curves/continuous_route.h"
+#include "src/planning/curves/clothoid_keys.h"
 #include "src/planning/grid/pose_search.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
