@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "src/planning/curves/fastest_leg.h"
@@ -11,6 +12,12 @@
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/route.h"
 
+// Makes the sections of a route faster.
+// 1. A section is a part of the route in one direction between two waypoints or cusps. For each
+//    section, FindFasterLeg searches a faster path with the same poses and speeds at both ends.
+// 2. Take() replaces all these sections at once, and computes the speed profile of the whole route.
+// 3. If a replaced section is not faster, or the car cannot drive the plan, Take() tries each half
+//    of the sections. Most routes need one speed profile, whatever the number of sections.
 namespace trackbed {
 namespace {
 
@@ -38,6 +45,31 @@ struct Section {
   }
 };
 
+/// Stations and times at the ends of the sections of a plan.
+class SectionEnds {
+ public:
+  SectionEnds(const Plan& plan, const std::vector<Section>& sections) : stations_{0.0} {
+    for (const Section& section : sections) {
+      stations_.push_back(stations_.back() + section.Length());
+    }
+    for (const double station : stations_) {
+      times_.push_back(
+          plan.reference.speed.TimeAt(std::min(station, plan.reference.path.length())));
+    }
+  }
+
+  /// Returns the station at the start of a section [m].
+  [[nodiscard]] double Start(std::size_t section) const { return stations_[section]; }
+  /// Returns the driving time of a section [s].
+  [[nodiscard]] double Duration(std::size_t section) const {
+    return times_[section + 1] - times_[section];
+  }
+
+ private:
+  std::vector<double> stations_;
+  std::vector<double> times_;
+};
+
 class RouteRefiner {
  public:
   RouteRefiner(const ContinuousRoute& route, const PlanRequest& request, Plan plan)
@@ -49,24 +81,17 @@ class RouteRefiner {
 
   [[nodiscard]] Plan Make() {
     sections_ = SectionsOf(best_);
-    double time = DrivingTime(best_, request_.vehicle);
+    const SectionEnds ends(best_, sections_);
+    std::vector<Section> faster = sections_;
+    std::vector<std::size_t> changed;
     for (std::size_t i = 0; i < sections_.size(); ++i) {
-      std::optional<std::vector<Segment>> faster = Faster(i);
-      if (!faster) {
-        continue;
-      }
-      std::vector<Section> sections = sections_;
-      sections[i].segments = *std::move(faster);
-      sections[i].is_faster = true;
-      Plan plan = PlanOf(sections);
-      const double least_gain = kLeastGain * DurationOf(i);
-      if (const double own = DrivingTime(plan, request_.vehicle);
-          own < time - least_gain && IsFeasible(plan)) {
-        time = own;
-        best_ = std::move(plan);
-        sections_ = std::move(sections);
+      if (std::optional<std::vector<Segment>> found = Faster(i, ends)) {
+        faster[i].segments = *std::move(found);
+        faster[i].is_faster = true;
+        changed.push_back(i);
       }
     }
+    Take(faster, changed);
     return std::move(best_);
   }
 
@@ -92,18 +117,41 @@ class RouteRefiner {
     return sections;
   }
 
-  [[nodiscard]] double StationOf(std::size_t section) const {
-    double station = 0.0;
-    for (std::size_t i = 0; i < section; ++i) {
-      station += sections_[i].Length();
+  /// Replaces sections of the best plan by the faster ones, if each of them becomes faster and the
+  /// car can drive the plan. Otherwise tries each half of the sections.
+  void Take(const std::vector<Section>& faster, std::span<const std::size_t> changed) {
+    if (changed.empty()) {
+      return;
     }
-    return station;
+    std::vector<Section> sections = sections_;
+    for (const std::size_t i : changed) {
+      sections[i] = faster[i];
+    }
+    Plan plan = PlanOf(sections);
+    if (plan.ok() && AreFaster(plan, sections, changed) && IsFeasible(plan)) {
+      best_ = std::move(plan);
+      sections_ = std::move(sections);
+    } else if (changed.size() > 1) {
+      Take(faster, changed.first(changed.size() / 2));
+      Take(faster, changed.subspan(changed.size() / 2));
+    }
   }
 
-  /// Returns the driving time of a section in the best plan [s].
-  [[nodiscard]] double DurationOf(std::size_t section) const {
-    const double from = StationOf(section);
-    return TimeAt(from + sections_[section].Length()) - TimeAt(from);
+  /// Returns whether a plan is faster than the best plan. If several sections are changed, each of
+  /// them must be faster.
+  [[nodiscard]] bool AreFaster(const Plan& plan, const std::vector<Section>& sections,
+                               std::span<const std::size_t> changed) const {
+    const SectionEnds before(best_, sections_);
+    const SectionEnds after(plan, sections);
+    double least = 0.0;
+    for (const std::size_t i : changed) {
+      const double least_gain = kLeastGain * before.Duration(i);
+      if (changed.size() > 1 && after.Duration(i) >= before.Duration(i) - least_gain) {
+        return false;
+      }
+      least += least_gain;
+    }
+    return DrivingTime(plan, request_.vehicle) < DrivingTime(best_, request_.vehicle) - least;
   }
 
   /// Returns the time at a station of the best plan [s]; stations beyond the end count as the end.
@@ -119,10 +167,11 @@ class RouteRefiner {
   }
 
   /// Returns a faster course of a section that is free of obstacles.
-  [[nodiscard]] std::optional<std::vector<Segment>> Faster(std::size_t section) const {
+  [[nodiscard]] std::optional<std::vector<Segment>> Faster(std::size_t section,
+                                                           const SectionEnds& ends) const {
     const Section& own = sections_[section];
     const SpeedProfile& profile = best_.reference.speed;
-    const double from = StationOf(section);
+    const double from = ends.Start(section);
     const double length = own.Length();
     FastestLeg leg{.start = own.segments,
                    .curvature = 1.0 / route_.radius,
@@ -130,7 +179,7 @@ class RouteRefiner {
                    .held_speed = kLowestSpeed,
                    .limits = limits_};
     leg.speeds.push_back(profile.SpeedAt(from));
-    const double duration = DurationOf(section);
+    const double duration = ends.Duration(section);
     const double chord = Path({}, own.segments).At(length).pose.position().norm();
     const double least = LegTime(limits_, {{chord, limits_.speed.speed}}, leg.speeds.front(),
                                  profile.SpeedAt(from + length));
@@ -186,6 +235,7 @@ class RouteRefiner {
     plan.schedule_speed = {};  // the schedule of the given plan fits only the given path
     CurveDiagnostics diagnostics = *best_.diagnostics.planner.GetIf<CurveDiagnostics>();
     std::vector<Segment> segments;
+    const SectionEnds ends(best_, sections_);
     double station = 0.0;
     for (std::size_t i = 0; i < sections.size(); ++i) {
       const Section& section = sections[i];
@@ -196,7 +246,7 @@ class RouteRefiner {
           station += piece.length;
         }
       } else {
-        const double before = StationOf(i);
+        const double before = ends.Start(i);
         for (SpeedCap cap : best_.caps) {
           const double middle = 0.5 * (cap.from + cap.to);
           if (middle > before && middle < before + length) {
