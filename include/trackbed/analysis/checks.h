@@ -53,7 +53,8 @@ struct Check {
   CheckReason reason = CheckReason::kExpected;
   std::string name;  ///< Name of the metric, for use in messages.
   std::string unit;  ///< Unit of the bound and the value; empty for dimensionless values.
-  /// Text added to the message, such as why the value is missing or why the car stopped.
+  /// Text added to the message of the check, such as why the value is missing or why the car
+  /// stopped.
   std::string detail;
   /// Formula of a requirement; empty for other checks. The check of a requirement has the
   /// robustness as its value, and the bound 0.
@@ -85,7 +86,7 @@ std::string FailureMessage(const Check& check);
 std::vector<std::string> Exceeded(const DifferenceBounds& bounds,
                                   const PlantComparison& comparison);
 
-/// Returns an entry of the list `verdict.checks` in metrics.json.
+/// Returns a check as an entry of the list `verdict.checks` in metrics.json.
 nlohmann::ordered_json ToJson(const Check& check);
 
 }  // namespace trackbed

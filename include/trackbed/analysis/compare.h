@@ -18,12 +18,12 @@
 /// angle of the road wheels [rad]. The indices 1 and 2 denote the first and the second run. Values
 /// of the two runs are compared at equal station, not at equal time. A signed difference is the
 /// value of the second run minus the value of the first run. A signed lateral difference is
-/// therefore positive if the second run is further to the left.
+/// positive if the second run is further to the left.
 namespace trackbed {
 
-/// A trace is the log of a run, reduced to rows with increasing station. Rows in which the car does
-/// not advance are omitted. Rows after the first contact with an obstacle are also omitted. All
-/// vectors of a trace have the same length.
+/// A trace is the log of a run, reduced to rows with increasing station. A trace omits the rows in
+/// which the car does not advance. A trace omits the rows after the first contact with an obstacle.
+/// All vectors of a trace have the same length.
 struct Trace {
   std::string name;  ///< Name of the plant that was driven, or a label of the run.
   std::vector<double> station;
@@ -60,9 +60,9 @@ Trace ReadTrace(const std::filesystem::path& file, const std::string& name,
 
 /// Statistics of the difference in one quantity, over the stations that both runs reach.
 struct Difference {
-  double rms = 0.0;    ///< Root mean square of the difference.
-  double max = 0.0;    ///< Largest magnitude of the difference.
-  double max_s = 0.0;  ///< Station at which the difference is largest [m].
+  double rms = 0.0;    ///< Root mean square of the difference between the two runs.
+  double max = 0.0;    ///< Largest magnitude of the difference between the two runs.
+  double max_s = 0.0;  ///< Station at which the two runs differ most [m].
   double max_t = 0.0;  ///< Time at which the first run reaches the station `max_s` [s].
 };
 

@@ -4,7 +4,7 @@
 
 #include "trackbed/analysis/run.h"
 
-/// The evaluation of a run: SimulateRun calls these functions for the logs that it simulates. Call
+/// Functions that evaluate a run; SimulateRun calls them for the logs that it simulates. Call
 /// PlanRun, AddLog and JudgeRun for a log from another source, such as a SteppedLoop:
 ///
 ///     RunResult result = PlanRun(scenario, car);
@@ -19,7 +19,7 @@ void AddLog(RunResult& result, const CarModel& car, RunLog log,
             std::vector<WindowErrors> windows = {});
 
 /// Compares every pair of plants, judges the run by the scenario's expectations, and collects the
-/// notes. Call JudgeRun once, after the last AddLog.
+/// notes. Call JudgeRun once, after the last call of AddLog.
 void JudgeRun(RunResult& result, const CarModel& car);
 
 }  // namespace trackbed

@@ -8,15 +8,15 @@
 namespace trackbed {
 
 /// Returns the elements of `names` that exist in the folder but were not written by Trackbed, in
-/// the order of `names`. A file counts as Trackbed's if it is listed in manifest.json, carries a
-/// mark (HasMark), or contains records of a study. Links and folders always count as not written by
-/// Trackbed. Throws InputError if manifest.json is invalid.
+/// the order of `names`. A file counts as Trackbed's if it is listed in manifest.json, contains a
+/// mark of Trackbed (HasMark), or contains records of a study. Links and folders always count as
+/// not written by Trackbed. Throws InputError if manifest.json is invalid.
 std::vector<std::string> ForeignNames(const std::filesystem::path& folder,
                                       const std::vector<std::string>& names);
 
 /// Throws RunError if the folder has files that ForeignNames returns, because Trackbed must not
-/// replace files that Trackbed did not write. The message lists the files that Trackbed did not
-/// write.
+/// replace files that Trackbed did not write. The error message lists the files that Trackbed did
+/// not write.
 void RequireNoForeignFiles(const std::filesystem::path& folder,
                            const std::vector<std::string>& names);
 

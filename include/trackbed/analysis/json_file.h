@@ -42,15 +42,15 @@ class JsonValue {
   /// Wraps the root value of a JSON document. `file` and `key` appear in error messages.
   JsonValue(nlohmann::ordered_json json, std::string file, std::string key = "");
 
-  /// Returns a member of this section (a section is a JSON object).
+  /// Returns a member of the section, which is a JSON object.
   [[nodiscard]] JsonValue At(const std::string& name) const;
-  /// Returns a member of this section; nullopt if the member is absent.
+  /// Returns a member of the section (a JSON object); nullopt if the member is absent.
   [[nodiscard]] std::optional<JsonValue> Find(const std::string& name) const;
-  /// Returns all members of this section, in the order of the file.
+  /// Returns all members of the section (a JSON object), in the order of the file.
   [[nodiscard]] std::vector<std::pair<std::string, JsonValue>> Members() const;
-  /// Returns the elements of this list.
+  /// Returns the elements of the JSON list.
   [[nodiscard]] std::vector<JsonValue> Elements() const;
-  /// Returns the elements of this list, which must have exactly `count` elements.
+  /// Returns the elements of the JSON list, which must have exactly `count` elements.
   [[nodiscard]] std::vector<JsonValue> Elements(std::size_t count) const;
 
   [[nodiscard]] std::string Text() const;

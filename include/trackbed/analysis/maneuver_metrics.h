@@ -42,9 +42,9 @@
 ///   tb: TB factor, equal to yaw_rate_peak_time times |sideslip_steady| [s rad].
 ///
 /// In a sine_with_dwell maneuver (ISO 19365, FMVSS 126), the steering begins when the steering
-/// wheel reaches 5 degrees. The steering is complete when the steering wheel is back at zero. The
-/// peak yaw rate is the largest yaw rate after the steering has reversed. Metrics of
-/// sine_with_dwell:
+/// wheel reaches 5 degrees. In sine_with_dwell, the steering is complete when the steering wheel is
+///   back at zero. The peak yaw rate of sine_with_dwell is the largest yaw rate after the steering
+///   has reversed. Metrics of sine_with_dwell:
 ///   yaw_rate_ratio_1_00, yaw_rate_ratio_1_75: psi' 1.00 s and 1.75 s after the steering is
 ///   complete, divided by the peak yaw rate; at most 0.35 and 0.20 to pass.
 ///   lateral_displacement: displacement of the center of gravity 1.07 s after the steering begins
@@ -59,9 +59,9 @@
 ///
 /// A braking maneuver (ISO 21994, ISO 7975) is evaluated from the first control period with a
 /// commanded deceleration above 0.5 m/s^2. Deviations in a braking maneuver are measured from the
-/// circle (or straight line) on which the rear axle moved in that control period. Speeds and
-/// distances are those of the center of gravity in its direction of motion. The distance of a car
-/// that spins thus does not end while the car slides sideways. Metrics of braking:
+/// circle (or straight line) on which the rear axle moved in the first control period of braking.
+/// Speeds and distances are those of the center of gravity in its direction of motion. The braking
+/// distance of a car that spins does not end while the car slides sideways. Metrics of braking:
 ///   initial_speed [m/s]; distance to `to_speed` [m].
 ///   mean_fully_developed_deceleration: (v_b^2 - v_e^2)/(2 (s_e - s_b)) between 80 % and 10 % of
 ///   the initial speed [m/s^2].
@@ -91,7 +91,7 @@ struct ManeuverMetrics {
   /// Lists the metrics that could not be measured, with the reasons; empty if all were measured.
   std::string missing;
 
-  /// Returns the value of the metric with this name.
+  /// Returns the value of the maneuver metric `name`.
   [[nodiscard]] std::optional<double> Find(std::string_view name) const;
 };
 

@@ -49,8 +49,8 @@ struct TrackingMetrics {
 /// measurement noise explains, such as a limit cycle (docs/verdict.md). Oscillations that are
 /// smaller than the tolerance, or that decay, do not count.
 struct OscillationMetrics {
-  double amplitude = 0.0;           ///< Steering amplitude [rad], >= 0; 0: no oscillation.
-  std::optional<double> frequency;  ///< Steering frequency [Hz], > 0; nullopt: no oscillation.
+  double amplitude = 0.0;           ///< Steering amplitude of the oscillation [rad], >= 0; 0: none.
+  std::optional<double> frequency;  ///< Frequency of the oscillation [Hz], > 0; nullopt: none.
   double from_t = 0.0;              ///< Time at which the oscillation begins [s].
   double to_t = 0.0;                ///< Time up to which the oscillation lasts [s].
   double rate = 0.0;                ///< Largest steering rate of the oscillation [rad/s].
@@ -70,12 +70,12 @@ struct ClearanceMetrics {
 };
 
 /// Distances of a plan and of a run from the mission's waypoints. The distance of a path from a
-/// waypoint is the smallest distance between the rear axle and the waypoint. The first waypoint is
-/// the start of the route, and does not count.
+/// waypoint is the smallest distance between the rear axle and the waypoint. The distances omit the
+/// first waypoint, which is the start of the route.
 struct WaypointMissMetrics {
   double planned = 0.0;  ///< Largest distance of the initial plan from a waypoint [m].
   double max = 0.0;      ///< Largest distance of the driven path from a waypoint [m].
-  int waypoint = 0;      ///< Index of the waypoint from which the distance `max` is measured.
+  int waypoint = 0;      ///< Index of the waypoint that has the distance `max`.
   double max_s = 0.0;    ///< Station at which the car is nearest to `waypoint` [m].
   double max_t = 0.0;    ///< Time at which the car is nearest to `waypoint` [s].
 };
@@ -87,7 +87,7 @@ struct TurnMetrics {
   TurnError predicted;
   TurnError measured;
   double s = 0.0;  ///< Station of the middle of the turn, at which the error is measured [m].
-  double t = 0.0;  ///< Time at which the error is measured [s].
+  double t = 0.0;  ///< Time at which the path error of the turn is measured [s].
 };
 
 /// A lap on a closed track.
@@ -185,7 +185,8 @@ struct PlantMetrics {
   /// Prediction errors of the plant for each horizon of `record.windows`; empty for the record
   /// itself.
   std::vector<WindowErrors> windows;
-  /// Results of the requirements on all plants, followed by the requirements on this plant.
+  /// Results of the requirements on all plants, followed by the requirements on the plant of this
+  /// entry.
   std::vector<RequirementMetrics> requirements;
   /// Values of the metrics that MetricEntry::measure computes from the log, keyed by the metric's
   /// path.
@@ -198,7 +199,7 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
                      double control_period, StationSource source);
 
 /// Returns the paths of all values that a plant's entry in metrics.json may have for the scenario,
-/// in the order of the file. A path is a text such as "turns[0].lateral_offset".
+/// in the order of the file. The path of a metric is a text such as "turns[0].lateral_offset".
 std::vector<std::string> PossibleMetrics(const Scenario& scenario);
 
 nlohmann::ordered_json ToJson(const PlantMetrics& metrics);

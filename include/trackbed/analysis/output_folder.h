@@ -24,10 +24,10 @@ struct Manifest;
 /// The lock uses flock, which leaves no lock file and is released when the process ends. If a
 /// second process opens a locked folder, the constructor throws an error immediately. If a killed
 /// process left a complete result in a hidden folder inside the output folder, the next process
-/// that opens the output folder moves that result into place. An incomplete result of a killed
-/// process is removed. On file systems without locks, and between machines that share a folder over
-/// NFS, several processes may write to a folder at the same time. If several processes mix their
-/// results in a folder, the hashes in manifest.json reveal the mixture.
+/// that opens the output folder moves that result into place. OutputFolder removes an incomplete
+/// result of a killed process. On file systems without locks, and between machines that share a
+/// folder over NFS, several processes may write to a folder at the same time. If several processes
+/// mix their results in a folder, the hashes in manifest.json reveal the mixture.
 class OutputFolder {
  public:
   enum class For {
@@ -35,11 +35,12 @@ class OutputFolder {
     /// Adds a page or video to an existing result; other processes may add files at the same time.
     kAddition,
   };
-  /// Creates and locks the output folder. For an addition (kAddition), the folder must exist.
-  /// Throws RunError if the folder cannot be created or locked, or if another process holds the
-  /// lock ("... is being written by another trackbed (process 123)"). For a result (kResult), also
-  /// throws if RequireNoForeignFiles rejects the folder with the file names of a run
-  /// (run_folder::AllNames). The constructor is not explicit, so that callers can pass a path.
+  /// Creates and locks the output folder. If a page or video is to be added (kAddition), the output
+  /// folder must exist. Throws RunError if the folder cannot be created or locked, or if another
+  /// process holds the lock ("... is being written by another trackbed (process 123)"). For a
+  /// result (kResult), also throws if RequireNoForeignFiles rejects the folder with the file names
+  /// of a run (run_folder::AllNames). The constructor is not explicit, so that callers can pass a
+  /// path.
   // NOLINTNEXTLINE(google-explicit-constructor)
   OutputFolder(std::filesystem::path path, For use = For::kResult);
   /// Creates and locks the folder for a result whose files may have the names `names`, such as
@@ -61,8 +62,8 @@ class OutputFolder {
 
 /// Prepares to write `file`, a page or video of the result in the folder `result`. If `file` lies
 /// in the folder `result`, locks and returns the folder, opened for an addition. If `file` lies
-/// elsewhere, returns nullopt and removes temporary files that killed processes left next to
-/// `file`.
+/// outside the folder `result`, returns nullopt and removes temporary files that killed processes
+/// left next to `file`.
 std::optional<OutputFolder> LockFolderOf(const std::filesystem::path& file,
                                          const std::filesystem::path& result);
 
@@ -80,8 +81,8 @@ struct ManifestEntry {
 ///
 /// ResultWriter lists the names, sizes and SHA-256 hashes of the files in manifest.json. The
 /// function run_folder::RequireFile rejects files that differ from manifest.json. If a new result
-/// overwrites files of an earlier result, the earlier result is removed from manifest.json. Files
-/// that belong to no result are not touched.
+/// overwrites files of an earlier result, the earlier result is removed from manifest.json.
+/// ResultWriter leaves files that belong to no result unchanged.
 class ResultWriter {
  public:
   /// Recreates the output folder if the folder was removed meanwhile. Throws RunError in the same
@@ -102,7 +103,8 @@ class ResultWriter {
   /// Groups the files added since the last call of EndResult as the result named `result`, such as
   /// run_folder::kRun. AllResultNames must list the result and its file names. When Commit is
   /// called, it removes the files of an earlier result with the same name, and those files in
-  /// `obsolete` that Trackbed wrote. Files that were added again are not removed by Commit.
+  /// `obsolete` that Trackbed wrote. Commit keeps files of the earlier result that were added
+  /// again.
   void EndResult(const std::string& result, std::vector<std::string> obsolete);
   /// Moves the files of all results for which EndResult was called into place, in one step. Throws
   /// RunError if a folder or link has the name of a new file, or if the disk is full. If Commit

@@ -18,8 +18,8 @@ struct PlannedPath {
   const VehicleParams& vehicle;
 };
 
-/// A property of a planned path, which is written to plan.json. In studies, the property is the
-/// output `plan.NAME`.
+/// A property of a planned path, which is written to plan.json. In studies, the path property NAME
+/// is the output `plan.NAME`.
 struct PathProperty {
   const char* name;   ///< Name of the property with its unit, such as "curvature_max_radpm".
   const char* label;  ///< Label of the property in a report.
@@ -28,12 +28,12 @@ struct PathProperty {
   std::optional<double> (*measure)(const PlannedPath& path);
 };
 
-/// Returns all properties, in the order of plan.json. Symbols: kappa curvature, s station, L length
-/// of the path.
+/// Returns all path properties, in the order of plan.json. Symbols: kappa curvature, s station, L
+/// length of the path.
 ///   Property length_m: length L of the path.
 ///   Property duration_s: driving time at the plan's speeds, without standing times.
 ///   Property curvature_max_radpm: maximum of |kappa|.
-///   Property curvature_rms_radpm: sqrt(integral of kappa^2 ds / L).
+///   Property curvature_rms_radpm: sqrt(integral of kappa^2 ds / L) over the path's length L.
 ///   Property turning_rad: integral of |kappa| ds, the total angle by which the car turns.
 ///   Property curvature_rate_max_radpm2: maximum of |dkappa/ds|, except at jumps of kappa.
 ///   Property curvature_jump_max_radpm: largest jump of kappa between segments, except at cusps and

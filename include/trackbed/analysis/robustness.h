@@ -19,9 +19,9 @@ struct RunRobustness {
 /// check is computed as follows.
 ///
 ///   * An upper limit has the margin (limit - value) / |limit|.
-///   * A lower limit has the margin (value - limit) / |limit|. The division by |limit| makes limits
-///     of different units comparable. If the limit is 0, the margin is the difference between value
-///     and limit, in the unit of the metric.
+///   * A lower limit has the margin (value - limit) / |limit|. The division of a margin by |limit|
+///     makes limits of different units comparable. If the limit is 0, the margin is the difference
+///     between value and limit, in the unit of the metric.
 ///   * The margin of a requirement over time is the requirement's robustness, in the unit of the
 ///     comparison that determines the robustness.
 ///   * A check without a numeric margin (arrived, no collision, an unmeasured metric) has the

@@ -64,7 +64,7 @@ struct RunHooks {
   std::function<void(const std::string& plant)> ended{};
   /// Whether to simulate all plants at the same time, each in a separate thread that calls its
   /// hooks. If `together` is false, the plants are simulated one after another in the caller's
-  /// thread. The results do not depend on `together`.
+  /// thread. The results of the plants do not depend on `together`.
   bool together = false;
 };
 
@@ -94,13 +94,13 @@ RunResult RunScenario(const std::filesystem::path& file,
 PlantComparison Compare(const RunResult& run, const std::string& first, const std::string& second);
 
 /// Compares one plant in two runs, for example with different controllers. In the result, the two
-/// plants are named "<run>/<plant>". Throws InputError unless both runs have the plant.
+/// plants are named "<run>/<plant>". Throws InputError unless both runs contain the compared plant.
 PlantComparison Compare(const RunResult& first, const RunResult& second, const std::string& plant);
 
 /// Returns the content of metrics.json.
 nlohmann::ordered_json MetricsJson(const RunResult& result);
 
-/// Returns the content of plan.json. The scenario must have a plan.
+/// Returns the content of plan.json. The scenario of the run must have a plan.
 nlohmann::ordered_json PlanJson(const RunResult& result);
 
 /// Optional files of a run folder.

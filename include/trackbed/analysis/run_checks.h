@@ -19,7 +19,8 @@ struct RunCheck {
   std::function<std::vector<std::string>(const RunResult&)> failures;
 };
 
-/// Returns why a run fails the check; empty if the run passes. A run without a plan fails.
+/// Returns why a run fails the check; empty if the run passes. A run without a plan fails the
+/// check.
 std::vector<std::string> Failures(const RunCheck& check, const RunResult& run);
 
 RunCheck TracksWithin(double limit);  ///< `limit`: largest cross-track error [m].

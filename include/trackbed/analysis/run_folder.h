@@ -17,7 +17,7 @@ inline constexpr const char* kManifest = "manifest.json";
 inline constexpr const char* kPartial = ".trackbed.partial";
 /// Hidden folder of a complete result that is being moved into place.
 inline constexpr const char* kComplete = ".trackbed.complete";
-// Names of the results, as written in manifest.json.
+// Names of the kinds of results, as written in manifest.json.
 inline constexpr const char* kRun = "run";
 inline constexpr const char* kPlan = "plan";
 inline constexpr const char* kComparison = "comparison";
@@ -84,17 +84,20 @@ std::string ResidualsCsv(const std::string& record);
 /// the tables of all planners.
 std::vector<std::string> PathFiles();
 
-// The following functions return file names for a plant, given by its name in the registry. For
-// example, the log of "mujoco:contact" is "mujoco-contact.csv". The functions for names of a
-// plant's files throw InputError if the plant's name would lead to a file outside of the run
+// The functions below return file names for a plant, given by its name in the registry. For
+// example, the log of "mujoco:contact" is "mujoco-contact.csv". The functions that return names of
+// a plant's files throw InputError if the plant's name would lead to a file outside of the run
 // folder.
 
 std::string LogCsv(const std::string& plant);    ///< Returns the name <plant>.csv (log).
 std::string StateCsv(const std::string& plant);  ///< Returns the name <plant>.state.csv.
 // Names of the files with the plans that were adopted during the run.
-std::string NewPlansCsv(const std::string& plant);      ///< Returns <plant>.plan.csv (paths).
-std::string NewPlansJson(const std::string& plant);     ///< Returns <plant>.plan.json (details).
-std::string NewPlansTreeCsv(const std::string& plant);  ///< Returns <plant>.tree.csv (search tree).
+/// Returns the file name <plant>.plan.csv (paths of the plans).
+std::string NewPlansCsv(const std::string& plant);
+/// Returns the file name <plant>.plan.json (details of the plans).
+std::string NewPlansJson(const std::string& plant);
+/// Returns the file name <plant>.tree.csv (search trees).
+std::string NewPlansTreeCsv(const std::string& plant);
 
 /// Returns the plant for which StateCsv returns `file_name`; nullopt if `file_name` is not the name
 /// of a state log. If the plant is not in the registry, its name is returned as spelled in the file
@@ -106,8 +109,8 @@ std::vector<std::string> AllNames();
 
 /// Checks that a file of a run folder may be read, and returns the file's path. Throws InputError,
 /// naming the file, if the file does not exist, is a folder, or is a link to a place outside the
-/// run folder. Links to places outside the folder are rejected because content from outside must
-/// not enter a report. Throws InputError if the hash of the file differs from the hash in the
+/// run folder. Links to places outside the run folder are rejected because content from outside
+/// must not enter a report. Throws InputError if the hash of the file differs from the hash in the
 /// folder's manifest. In a run folder without a manifest, written by an old version of Trackbed,
 /// the hashes of files are not checked.
 std::filesystem::path RequireFile(const std::filesystem::path& file);
@@ -123,7 +126,8 @@ void RequireResult(const std::filesystem::path& folder, const std::string& hash,
                    const std::filesystem::path& source);
 
 /// Detects whether another process replaced results while this process read their folders.
-/// Construct a Reading before reading the files, and call RequireUnchanged afterwards.
+/// Construct a Reading before reading files of a run folder, and call RequireUnchanged after
+/// reading them.
 class Reading {
  public:
   explicit Reading(std::vector<std::filesystem::path> folders);

@@ -14,8 +14,8 @@ struct Interval {
 };
 
 /// Computes the confidence interval of a probability of success from `passed` successes in `count`
-/// independent trials, by the score method of Wilson (1927) without continuity correction. If
-/// `count` is 0, the interval is [0, 1].
+/// independent trials, by the score method of Wilson (1927) without continuity correction. If the
+/// number of trials `count` is 0, the confidence interval is [0, 1].
 ///
 /// Throws PreconditionError unless passed <= count and confidence is in (0, 1).
 Interval WilsonInterval(std::size_t passed, std::size_t count, double confidence);
@@ -51,9 +51,9 @@ struct Classes {
 
 /// Divides the rows of a study into classes by the values of a parameter. If there are at most
 /// `max_classes` distinct values, or if a value is not a number, each distinct value is a class.
-/// If there are more distinct values, and all of them are numbers, the rows are sorted by value and
-/// divided into `max_classes` classes of equal size. Rows with equal values are always in the same
-/// class.
+/// If there are more than `max_classes` distinct values, all of them numbers, the rows are sorted
+/// by value and divided into `max_classes` classes of equal size. Rows with equal values are always
+/// in the same class.
 ///
 /// Throws PreconditionError unless max_classes is at least 2.
 Classes Classify(const std::vector<std::string>& values, std::size_t max_classes);
@@ -61,8 +61,8 @@ Classes Classify(const std::vector<std::string>& values, std::size_t max_classes
 /// First-order index: the fraction of an output's variance that is explained by one parameter
 /// alone.
 struct FirstOrderIndex {
-  /// First-order index of the parameter, at most 1. The index of a parameter without influence is
-  /// about 0 and may be negative.
+  /// First-order Sobol' index of the parameter, at most 1. The index of a parameter without
+  /// influence is about 0 and may be negative.
   double index = 0.0;
   Interval interval{};
 };
@@ -74,10 +74,11 @@ struct IndexOptions {
 
 /// Estimates the first-order Sobol' index Var(E[Y | X]) / Var(Y) of each parameter X on the output
 /// Y, from a given sample of any design. The estimate is the correlation ratio of the classes
-/// (Pearson 1905; Plischke, Borgonovo and Smith 2013). The correlation ratio expected by chance is
-/// subtracted (Kelley 1935, epsilon squared), so the expected index of a parameter without
-/// influence is 0. The parameters of the sample must be independent. If a numeric parameter is
-/// divided into B classes, the estimated index is too small by a fraction of about 1 / B^2.
+/// (Pearson 1905; Plischke, Borgonovo and Smith 2013). From the estimate, the correlation ratio
+/// expected by chance is subtracted (Kelley 1935, epsilon squared), so the expected index of a
+/// parameter without influence is 0. The parameters of the sample must be independent. If a numeric
+/// parameter is divided into B classes, the estimated index is too small by a fraction of about 1 /
+/// B^2.
 ///
 /// The confidence intervals assume that the estimate is normally distributed. The standard
 /// deviation of the estimate is computed from bootstrap resamples (Efron and Tibshirani 1993),
@@ -95,7 +96,7 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
 struct RankCorrelation {
   double rho = 0.0;  ///< Spearman's correlation coefficient rho, in [-1, 1].
   /// Confidence interval of rho by Fisher's transformation, with the variance (1 + rho^2/2)/(n - 3)
-  /// of Bonett and Wright (2000). The interval of rho has zero width if rho is 1 or -1.
+  /// of Bonett and Wright (2000). The confidence interval of rho has zero width if rho is 1 or -1.
   Interval interval{};
 };
 
@@ -115,8 +116,8 @@ struct PairedDifference {
   std::size_t equal = 0;
   /// The p-value of the exact two-sided sign test (Arbuthnott 1710), which ignores pairs of equal
   /// values. The p-value is the probability that the pairs are split at least as unevenly as
-  /// `higher` to `lower`, if both signs are equally likely. The p-value is 1 if all pairs are
-  /// equal.
+  /// `higher` to `lower`, if both signs are equally likely. The p-value is 1 if every pair consists
+  /// of equal values.
   double sign_test = 1.0;
 };
 

@@ -55,8 +55,8 @@ std::vector<SuiteCase> RunSuite(const std::vector<std::filesystem::path>& files,
 /// `testcase` for each file. A `testcase` has `name`, `classname` (the folder, with dots), `file`
 /// and `time` [s]. A case that did not pass has one element `failure`, `error` or `skipped`
 /// (interrupted). The message of the `failure`, `error` or `skipped` element is the first reason;
-/// the text of the element contains all reasons. The notes of a case are in `system-out`.
-/// Characters that XML does not allow are replaced by '?'.
+/// the text of the element contains all reasons. In the JUnit XML, the notes of a case are in
+/// `system-out`. Characters that XML does not allow are replaced by '?'.
 std::string ToJUnit(const std::vector<SuiteCase>& cases);
 
 /// Returns the text with which each report of ToJUnit begins, and which other programs do not

@@ -91,7 +91,7 @@ struct SweepSummary {
   [[nodiscard]] bool complete() const { return rows == rows_expected; }
 };
 
-/// Counts the recorded rows that belong to the shard.
+/// Counts the recorded rows that belong to the given shard (part of the study).
 SweepSummary Summarize(const SweepRecords& records, const Shard& shard = {});
 
 /// Writes sweep.csv (parameters, seed, status, runs, outputs, reason; rows in grid order),
@@ -103,8 +103,8 @@ SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard, const O
                         const std::string& stopped = "");
 
 /// Adds the files of WriteSweep to the ResultWriter `writer`. Before calling ResultWriter::Commit,
-/// the caller may add further files to the result, such as falsify.json. The files of an earlier
-/// search or verification are removed.
+/// the caller may add further files to the result, such as falsify.json. The files that an earlier
+/// search or verification wrote to the output folder are removed.
 SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWriter& writer,
                       const std::string& stopped = "");
 
@@ -115,8 +115,8 @@ SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWri
 void MergeRecords(const std::vector<std::filesystem::path>& files, SweepRecords& records);
 
 /// Returns the numbers of the rows whose run folders the study keeps, which are the rows with the
-/// highest or lowest values of an output. The first number is that of the worst row; rows with
-/// equal values keep their order.
+/// highest or lowest values of an output. The worst row comes first; rows with equal values keep
+/// their order.
 std::vector<std::size_t> WorstRows(const SweepRecords& records);
 
 /// Returns the overrides of a row, in the order in which they are applied. Running the scenario
@@ -129,7 +129,7 @@ std::string MissingRows(const SweepRecords& records);
 
 /// The result of a study with few rows, in memory.
 struct SweepResult {
-  TextTable table{{"status"}};         ///< The content of sweep.csv.
+  TextTable table{{"status"}};         ///< The content of the table sweep.csv.
   nlohmann::ordered_json description;  ///< The content of sweep.json.
   SweepSummary summary;
 };

@@ -16,14 +16,14 @@
 namespace trackbed {
 
 /// Stores the finished rows of a study in an append-only file, so that a study that was killed at
-/// any moment can resume. The first line of the file identifies the study. Each further line of the
-/// file is one row of the study. A line consists of the CRC-32 checksum of the row's JSON text as
-/// eight hexadecimal digits, a space, and the JSON text.
+/// any moment can resume. The first line of the records identifies the study. Each further line of
+/// the records is one row of the study. A line of a row consists of the CRC-32 checksum of the
+/// row's JSON text as eight hexadecimal digits, a space, and the JSON text.
 ///
 /// Each row is appended by a single write operation. When the file is opened, an incomplete last
 /// line, left by a killed process, a full disk or a power failure, is removed. If several lines
-/// contain the same row, only the last of these lines is used. Rows are synchronized to the disk at
-/// most once a second.
+/// contain the same row, only the last of these lines is used. Appended rows are synchronized to
+/// the disk at most once a second.
 ///
 /// Memory: 8 bytes for each row of the study.
 class SweepRecords {
@@ -46,10 +46,11 @@ class SweepRecords {
   /// Makes records that are kept in memory, without a file.
   static SweepRecords InMemory(nlohmann::ordered_json header);
 
-  /// Returns the header without checks, to be used only for copying and comparing.
+  /// Returns the header of the records as unchecked JSON, to be used only for copying and
+  /// comparing.
   [[nodiscard]] const nlohmann::ordered_json& header() const { return header_->json(); }
-  /// Returns the header as a JsonValue, to read values with checks. The getters of JsonValue throw
-  /// InputError if a value is not as expected.
+  /// Returns the header of the records as a JsonValue, to read values with checks. The getters of
+  /// JsonValue throw InputError if a value is not as expected.
   [[nodiscard]] const JsonValue& Header() const { return *header_; }
   /// Returns the names of the columns of the study's table, including `status`. Throws InputError
   /// if the header has no columns.
@@ -63,11 +64,11 @@ class SweepRecords {
   /// is full; the file then contains the earlier rows and no part of the new row.
   void Append(std::size_t row, const nlohmann::ordered_json& content);
 
-  /// Reads a row, which the records must contain. The returned JSON is not checked and should only
-  /// be copied or compared. Throws InputError if the row is not JSON.
+  /// Reads a row of the study, which the records must contain. The JSON of the returned row is not
+  /// checked, and should only be copied or compared. Throws InputError if the row is not JSON.
   [[nodiscard]] nlohmann::ordered_json Read(std::size_t row) const;
-  /// Reads a row, which the records must contain. Returns a JsonValue, whose getters check the
-  /// values. Throws InputError if Read throws InputError.
+  /// Reads a row of the study, which the records must contain. Returns the row as a JsonValue,
+  /// whose getters check the values. Throws InputError if Read throws InputError.
   [[nodiscard]] JsonValue Entry(std::size_t row) const;
 
  private:

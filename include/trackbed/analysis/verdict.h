@@ -23,8 +23,8 @@ struct Verdict {
   std::vector<Check> checks;       ///< All checks of the run, whether met or not.
 };
 
-/// Adds a check to the verdict. If the check is not met, its message is added to the verdict's
-/// failures.
+/// Adds a check to the verdict. If the added check is not met, its message becomes one of the
+/// verdict's failures.
 void AddCheck(Check check, Verdict& verdict);
 
 /// Judges a run. Checks the scenario's expectations and makes the following default checks for

@@ -48,8 +48,8 @@ std::vector<std::string> NamesOfVerb(std::string_view verb);
 using NameParts = std::map<std::string, std::vector<std::string>>;
 
 /// Returns the file names in the verb's output folder. Variable parts of the file names are
-/// replaced by the texts in `parts` and by the names of the registered plants. Folders are omitted,
-/// and so are names with a variable part that `parts` does not contain.
+/// replaced by the texts in `parts` and by the names of the registered plants. The returned names
+/// omit folders, and names with a variable part that `parts` does not contain.
 std::vector<std::string> FileNamesOfVerb(std::string_view verb, const NameParts& parts = {});
 
 /// Whether a file of the result may have the name `name`.

@@ -46,7 +46,7 @@ BagContent ReadBagTopics(const std::filesystem::path& bag);
 
 /// Reads all messages of one topic, in the order of the bag (MCAP) or of their times (SQLite).
 /// Throws InputError if the bag has no such topic; otherwise throws in the same cases as
-/// ReadBagTopics. Needs memory for one chunk of the file.
+/// ReadBagTopics. Reading needs memory for only one chunk of the bag file.
 void ReadBagMessages(const std::filesystem::path& bag, const std::string& topic,
                      const TakeBagMessage& take);
 

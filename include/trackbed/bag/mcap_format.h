@@ -6,10 +6,10 @@
 /// logs.
 namespace trackbed::mcap {
 
-/// Bytes at the beginning and at the end of a file.
+/// Magic bytes at the beginning and at the end of an MCAP file.
 inline constexpr std::string_view kMagic = "\x89MCAP0\r\n";
 
-/// First byte of a record, which identifies the kind of the record.
+/// First byte of an MCAP record, which identifies the kind of the record.
 enum Opcode : unsigned char {
   kHeader = 0x01,
   kFooter = 0x02,

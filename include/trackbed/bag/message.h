@@ -17,8 +17,8 @@ class BagMessage {
   /// BagMessageTypes.
   ///
   /// Throws InputError if there is no definition, if the definition is malformed, or if a field has
-  /// the type wstring. Also throws InputError if types are nested deeper than 16 levels, or if
-  /// there are more than 4096 fields in all.
+  /// the type wstring. Throws InputError, too, if message types are nested deeper than 16 levels,
+  /// or if a message has more than 4096 fields in all.
   BagMessage(const std::string& type, const std::string& definition);
 
   /// Names of the numbers that each message has, such as "pose.pose.position.x" and

@@ -21,11 +21,11 @@ void RegisterController(ControllerEntry entry);
 /// `options` is empty.
 const ControllerEntry& ControllerFor(const ControllerOptions& options);
 
-/// Makes the controller to which `options` belong. The function Steer of the returned controller
-/// throws InternalError if the car's state contains NaN or infinity. MakeController throws
-/// PreconditionError if an option value is outside of its documented range. A
-/// path-following controller with feedback accounts for the car's steering actuator as `actuator`
-/// selects (docs/algorithms/control.md).
+/// Makes the steering controller whose options struct is in `options`. The function Steer of the
+/// returned controller throws InternalError if the car's state contains NaN or infinity.
+/// MakeSteeringController throws PreconditionError if an option value is outside of its documented
+/// range. A path-following controller with feedback accounts for the car's steering actuator as
+/// `actuator` selects (docs/algorithms/control.md).
 std::unique_ptr<SteeringController> MakeSteeringController(
     const ControllerOptions& options, ActuatorKnowledge actuator = ActuatorKnowledge::kModel);
 

@@ -16,9 +16,10 @@ namespace trackbed {
 ///
 /// The symbols and the model are the same as in LqrOptions; N is the option `horizon`. The steering
 /// rate w_k is constant over the step k. In each control period, the controller solves a quadratic
-/// program for the rates w_0 .. w_{N-1} (optimize/quadratic_program.h). The first steering rate,
-/// w_0, is applied until the next control period. The solver does not start from the previous
-/// solution, because the solver's first step reaches the optimum from any starting point.
+/// program for the steering rates w_0 .. w_{N-1} of N steps (optimize/quadratic_program.h). The
+/// first steering rate, w_0, is applied until the next control period. The solver does not start
+/// from the previous solution, because the solver's first step reaches the optimum from any
+/// starting point.
 ///
 /// Guarantees: the actuator can turn from the last commanded angle to the new commanded angle
 /// within one control period, and the new angle is within the steering limit. While no limit is
@@ -38,8 +39,8 @@ struct MpcOptions {
   /// Weight of the steering rate [s^2/rad^2], > 0; same default as in LqrOptions.
   std::optional<double> steering_rate;
   int horizon = 20;  ///< Number N of steps in the prediction horizon, from 1 to kMaxHorizon.
-  /// Duration of a prediction step [s], > 0; at least the control period. Default: 0.1 s, or more
-  /// if the wheels turn from straight ahead to their limit in more than `horizon` steps of 0.1 s.
+  /// Duration of a prediction step [s], > 0; at least the control period. Default: 0.1 s; longer if
+  /// the wheels need more than `horizon` steps of 0.1 s to turn from straight ahead to their limit.
   std::optional<double> step;
   TyreForces tyres = TyreForces::kLinear;
 };

@@ -12,13 +12,13 @@ namespace trackbed {
 /// weighted by exp(-cost/lambda).
 ///
 /// Model of a roll-out: the single-track car on the brush model of its axles, with the road's
-/// friction factor at the car. The load transfer and the friction circle are computed for the
-/// planned acceleration. A car without tyre coefficients does not slip, and neither does a car
-/// whose rear axle has never moved sideways, such as a KinematicCar. The steering angle follows the
-/// sampled rates within the car's limits of angle and rate, and the wheels follow with the steering
-/// lag. MPPI accounts for dead time, lag and backlash of the actuator as every controller does
-/// (docs/algorithms/control.md). The speed follows the plan: MPPI steers, and leaves the speed to
-/// SpeedControl.
+/// friction factor at the car. In a roll-out, the load transfer and the friction circle are
+/// computed for the planned acceleration. A car without tyre coefficients does not slip, and
+/// neither does a car whose rear axle has never moved sideways, such as a KinematicCar. In a
+/// roll-out, the steering angle follows the sampled steering rates within the car's limits of angle
+/// and rate, and the wheels follow with the steering lag. MPPI accounts for dead time, lag and
+/// backlash of the actuator as every controller does (docs/algorithms/control.md). The speed
+/// follows the plan: MPPI steers, and leaves the speed to SpeedControl.
 ///
 /// Cost of a roll-out, in the units of LqrOptions:
 ///   sum over all steps of  cross_track e^2 + heading (psi - psi_0)^2 + steering_rate w^2
@@ -29,12 +29,13 @@ namespace trackbed {
 /// Roll-outs assume that obstacles keep their velocity and yaw rate during the horizon.
 ///
 /// The roll-outs vary the cheaper one of two motions: the last plan of MPPI, or the motion of a car
-/// that lqr steers. The steering rates of the roll-outs deviate from the chosen motion by normally
-/// distributed numbers, each constant for a tenth of the horizon. The deviations come in pairs of
-/// opposite sign, and in four sizes. The candidates for the new plan are the weighted mean, the
-/// middle between the plan and the weighted mean, and the cheapest roll-out. A candidate replaces
-/// the plan only if its cost is lower. A car that moves by less than 1/1000 of its wheelbase in a
-/// control period is steered by the law of lqr without preview.
+/// that lqr steers. The steering rates of the roll-outs deviate from those of the chosen motion by
+/// normally distributed numbers, each constant for a tenth of the horizon. The steering-rate
+/// deviations of the roll-outs come in pairs of opposite sign, and in four sizes. The candidates
+/// for the new plan are the weighted mean, the mean of the plan and the weighted mean, and the
+/// cheapest roll-out. A candidate replaces the last plan of MPPI only if its cost is lower. A car
+/// that moves by less than 1/1000 of its wheelbase in a control period is steered by the law of lqr
+/// without preview.
 ///
 /// Guarantees: the commands are the same, bit for bit, for the same seed and inputs, for any number
 /// of threads. MPPI keeps a plan of cost 0, for example while the car is on its path in a steady
@@ -46,15 +47,18 @@ struct MppiOptions {
   int samples = 1000;  ///< Number of roll-outs, from 8 to 100000; rounded up to be even.
   int steps = 50;      ///< Number of steps of a roll-out, from 10 to 500.
   /// Duration of a roll-out [s], from 0.1 to 10. Default: the time in which the car can move aside
-  /// by twice its width w at the speed v, but at least 1 s and at most 5 s. The time to move aside
-  /// is the larger one of cbrt(64 w L/(v^2 omega)), at the full steering rate omega, and sqrt(8
-  /// w/a), at the lateral grip a.
+  /// by twice its width w at the speed v, but at least 1 s and at most 5 s. With the wheelbase L,
+  /// the time to move aside by 2 w is the larger one of cbrt(64 w L/(v^2 omega)), at the full
+  /// steering rate omega, and sqrt(8 w/a), at the lateral grip a.
   std::optional<double> horizon;
-  std::uint64_t seed = 0;    ///< Seed of the random deviations of the steering rates.
-  double temperature = 0.1;  ///< Ratio of lambda to the spread of the costs [1], > 0.
+  std::uint64_t seed = 0;  ///< Seed of the random deviations of the steering rates.
+  /// Ratio of lambda (in the weights exp(-cost/lambda)) to the spread of the roll-outs' costs [1],
+  /// > 0.
+  double temperature = 0.1;
   /// Factor on the standard deviation of the largest steering-rate deviations [1], > 0. The factor
-  /// multiplies the smaller one of two rates: the car's steering rate, and the rate at which random
-  /// steering reaches the lateral grip at the end of the horizon.
+  /// on the steering-rate deviations multiplies the smaller one of two rates: the car's steering
+  /// rate, and the rate at which random steering reaches the lateral grip at the end of the
+  /// horizon.
   double noise = 1.0;
   /// Weight of the cross-track error [1/m^2], > 0; same default as in LqrOptions.
   std::optional<double> cross_track;

@@ -31,8 +31,8 @@ enum class Matching {
   kTime,
 };
 
-/// Weights of position and heading in the cost (1), which with weights is w_position (x_e^2 +
-/// y_e^2) + w_heading psi_e^2.
+/// Weights of the position error (x_e, y_e) and the heading error psi_e in the cost (1), which is
+/// w_position (x_e^2 + y_e^2) + w_heading psi_e^2.
 struct DeviationWeights {
   double position = 1.0;  ///< Weight w_position of the position error [1/m^2], >= 0.
   /// Weight w_heading of the heading error [1/rad^2], >= 0; only one of the two weights may be 0.
@@ -42,12 +42,13 @@ void Visit(KeyVisitor& keys, DeviationWeights& weights);
 
 /// The deviation (9), which is the pose of the car relative to the primary.
 struct Deviation {
-  double x = 0.0;    ///< Component of the deviation along the primary's heading [m].
-  double y = 0.0;    ///< Component of the deviation to the primary's left [m].
+  double x = 0.0;    ///< Component of the car's deviation along the primary's heading [m].
+  double y = 0.0;    ///< Component of the car's deviation to the primary's left [m].
   double yaw = 0.0;  ///< Heading of the car minus heading of the primary [rad], not wrapped.
 };
 
-/// Computes the deviation q_e = R(psi_0)^T (q - q_0).
+/// Computes the deviation q_e = R(psi_0)^T (q - q_0) of the pose q from the pose q_0, with the
+/// rotation matrix R.
 Deviation ComputeDeviation(const Pose2& actual, const Pose2& wanted);
 
 /// Computes the weighted cost (1) of a deviation. The option `deviation_limit` limits the square
@@ -60,9 +61,9 @@ double DeviationCost(const Deviation& deviation, const DeviationWeights& weights
 struct OptimalSteeringOptions {
   Matching matching = Matching::kArcLength;
   /// Shortest horizon S of the primary [m], > 0; by default the preview distance R of
-  /// PreviewOptions. With kTime, the horizon of the car is S v/v_0. With kArcLength, the horizon S
-  /// is at least 1.5 cbrt(e L v/omega) for a car with the offset e from its path, as in
-  /// PreviewOptions.
+  /// PreviewOptions. With kTime, the horizon of the car is S v/v_0, with the speeds v of the car
+  /// and v_0 of the primary. With kArcLength, the horizon S is at least 1.5 cbrt(e L v/omega) for a
+  /// car with the offset e from its path, as in PreviewOptions.
   std::optional<double> horizon;
   /// Minimum time that the horizon covers [s], >= 0. The length S of the horizon is at least the
   /// minimum time multiplied by the speed of the car (kArcLength) or of the primary (kTime).
@@ -70,11 +71,11 @@ struct OptimalSteeringOptions {
   SearchOptions search{.method = SearchMethod::kNelderMead, .population = 20, .tolerance = 1e-6};
   DeviationWeights weights;
   /// Limit epsilon on the weighted norm of the deviation between car and primary. While the
-  /// deviation is within the limit, the controller steers by the plan's curvature and does not
-  /// search.
+  /// deviation between car and primary is within the limit, the controller steers by the plan's
+  /// curvature and does not search.
   double deviation_limit = 0.01;
-  /// Maximum steering angle delta_max of the search [rad], > 0. The default and upper bound is the
-  /// car's steering limit.
+  /// Maximum steering angle delta_max of the search [rad], > 0. The default and upper bound of
+  /// delta_max is the car's steering limit.
   std::optional<double> max_steering;
 };
 void Visit(KeyVisitor& keys, OptimalSteeringOptions& options);
@@ -84,11 +85,12 @@ void Visit(KeyVisitor& keys, OptimalSteeringOptions& options);
 int ControlEvaluations(SearchMethod method);
 
 /// Predicts the pose of a kinematic car's rear axle after `distance` [m] (< 0: backwards) at
-/// `speed` [m/s] > 0. The car starts at the origin, heading along x. The steering angle changes
-/// from `steering` to `wanted` [rad] at the actuator's maximum rate and then stays at `wanted`. The
-/// heading, and the arc at constant steering, are computed in closed form. The position while the
-/// steering angle changes is integrated by quadrature. The position error of the prediction is
-/// below 1e-9 m if the car turns by less than 2 rad while the steering angle changes. Cost: 0.5 us.
+/// `speed` [m/s] > 0. In the prediction, the car starts at the origin, heading along x. The
+/// steering angle changes from `steering` to `wanted` [rad] at the actuator's maximum rate and then
+/// stays at `wanted`. The predicted heading, and the arc at constant steering, are computed in
+/// closed form. While the steering angle changes, the position is integrated by quadrature. The
+/// position error of the prediction is below 1e-9 m if the car turns by less than 2 rad while the
+/// steering angle changes. Cost: 0.5 us.
 Pose2 PredictPose(const VehicleParams& vehicle, double steering, double wanted, double speed,
                   double distance);
 
@@ -109,7 +111,7 @@ struct SteeringProblem {
   double speed = 0.0;         ///< Speed of the car [m/s], > 0.
   double steering = 0.0;      ///< Present angle of the steering actuator [rad].
   double max_steering = 0.0;  ///< Largest steering angle delta_max [rad], > 0.
-  double start = 0.0;         ///< Steering angle at which the search begins [rad].
+  double start = 0.0;  ///< Steering angle at which the search for the best angle begins [rad].
 };
 
 /// Predicts the deviation of the car from the target pose if the car steers to the angle `steering`
@@ -119,21 +121,22 @@ Deviation DeviationAhead(const VehicleParams& vehicle, const SteeringProblem& pr
 
 /// Converts the search variable q = `share` to a steering angle delta. The search variable q is a
 /// fraction of the largest reachable heading change. At q = +-1, the wheels turn at their full rate
-/// over the whole distance to drive. With the angle R by which the wheels can turn over the
-/// distance to drive, the steering angle is
+/// over the whole distance to drive. With the present angle delta_now and the angle R by which the
+/// wheels can turn over the distance to drive, the steering angle is
 ///   delta = delta_now +- R (1 - sqrt(1 - abs(q))).
-/// The pose that the car reaches is nearly linear in q, but not in delta. A steering angle that the
-/// wheels reach only near the end of the distance has almost no effect on the end pose, so a search
-/// over delta would stall on a plateau of the cost.
+/// The pose that the car reaches is nearly linear in the search variable q, but not in the steering
+/// angle delta. A steering angle that the wheels reach only near the end of the distance has almost
+/// no effect on the end pose. A search over the steering angle would stall on this plateau of the
+/// cost.
 double SteeringOfShare(const VehicleParams& vehicle, const SteeringProblem& problem, double share);
-/// Converts a steering angle to the search variable q; the inverse of SteeringOfShare. Returns +-1
-/// for angles that the wheels cannot reach.
+/// Converts a steering angle to the search variable q; the inverse of SteeringOfShare. Returns q =
+/// +-1 for steering angles that the wheels cannot reach.
 double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, double steering);
 
-/// Finds the steering angle within delta_max whose end pose is nearest to the target pose. Steering
-/// angles that the actuator cannot reach over the distance are not tried. The solution of a
-/// mirrored problem is exactly the mirrored solution. Throws InternalError if the search options
-/// are invalid.
+/// Finds the steering angle within delta_max whose end pose is nearest to the target pose. The
+/// search skips steering angles that the actuator cannot reach over the distance to drive. The
+/// solution of a mirrored problem is exactly the mirrored solution. Throws InternalError if the
+/// search options are invalid.
 SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem& problem,
                              const DeviationWeights& weights, const SearchOptions& search);
 

@@ -37,18 +37,20 @@ struct RecordingColumns {
 };
 void Visit(KeyVisitor& keys, RecordingColumns& columns);
 
-/// Replays a recording in open loop. In each control period of length T, the inputs are as follows.
-///   Steering: the command is the recorded steering angle at the end of the period, at the time
-///   t + T or at the distance D + abs(v) T.
-///   Speed: the command is the change of the recorded speed over the period, divided by T, plus the
-///   gain times the speed error (SpeedAlong).
-///   Acceleration: the command is the mean of the recorded acceleration over the period.
+/// Replays a recording in open loop. In each control period of length T, the commands for steering,
+/// speed and acceleration are as follows.
+///   Steering: the command at the time t and the driven distance D is the recorded steering angle
+///   at the end of the period, at t + T or at D + abs(v) T. Speed: the commanded acceleration is
+///   the change of the recorded speed over the period, divided by the period T, plus the gain times
+///   the speed error (SpeedAlong). Acceleration: the command is the mean of the recorded
+///   acceleration over the control period.
 /// A car that follows the commands exactly has the recorded values at the end of every control
 /// period. Recorded values are treated as constant before the first row and after the last row. If
-/// the axis is the distance, the car never leaves a place where the recorded speed is zero.
+/// the recording's axis is the distance, the car never leaves a place where the recorded speed is
+/// zero.
 struct PlaybackOptions {
-  /// Path of the file from which the recording was read. The path is empty if the recording was
-  /// made in code or taken from a scenario's record.
+  /// Path of the file from which the recording was read. The file path is empty if the recording
+  /// was made in code or taken from a scenario's record.
   std::string file;
   PlaybackAxis by = PlaybackAxis::kTime;
   RecordingColumns columns;
@@ -57,8 +59,8 @@ struct PlaybackOptions {
 void Visit(KeyVisitor& keys, PlaybackOptions& options);
 
 /// Returns the commanded steering angle [rad] at the end of the control period, for a car with
-/// `speed` [m/s] at the value `x` of the recording's axis. The length of the control period is
-/// `period` [s].
+/// `speed` [m/s] at the value `x` of the recording's axis. The argument `period` is the length of
+/// the control period [s].
 double PlaybackSteering(const PlaybackOptions& options, double x, double speed, double period);
 
 /// Returns the commanded acceleration [m/s^2] over the control period; nullopt if the recording has

@@ -7,7 +7,7 @@
 namespace trackbed {
 
 /// A piecewise linear function of x, given by knots (x, value). A signal is constant before its
-/// first knot and after its last knot. The x values of the knots are strictly increasing.
+/// first knot and after its last knot. The x values of the signal's knots are strictly increasing.
 /// Evaluating a signal without knots throws InternalError.
 struct Signal {
   std::vector<Vec2> knots;

@@ -38,8 +38,8 @@ struct ControlInput {
 
 /// Interface of a steering controller. The function Steer returns the commanded steering angle of
 /// the bicycle model [rad] at the end of the coming control period. The vehicle's actuator limits
-/// the angle and its rate. A controller must not perform input or output, must not read a clock,
-/// and may draw random numbers only from a fixed seed.
+/// the steering angle and its rate. A controller must not perform input or output, must not read a
+/// clock, and may draw random numbers only from a fixed seed.
 class SteeringController {
  public:
   virtual ~SteeringController() = default;
@@ -50,9 +50,9 @@ class SteeringController {
   /// acceleration.
   virtual std::optional<double> Accelerate(const ControlInput& input);
 
-  /// Diagnostic values of the last update, which are written to the log. Columns returns the names
-  /// of the diagnostic columns, which never change, and Values returns one value per column. By
-  /// default, there are no diagnostic columns.
+  /// Diagnostic values of the controller's last update, which are written to the log. Columns
+  /// returns the names of the diagnostic columns, which never change, and Values returns one value
+  /// per column. By default, a controller has no diagnostic columns.
   [[nodiscard]] virtual std::vector<std::string> Columns() const;
   [[nodiscard]] virtual std::vector<double> Values() const;
 
@@ -78,8 +78,9 @@ struct ControllerEntry {
   bool needs_plan = true;
   std::unique_ptr<SteeringController> (*make)(const ControllerOptions& options);
 
-  // The following members check the options or derive data from the options. The template OnOptions
-  // adapts a function that takes the controller's own options struct to the types of these members.
+  // Members that check a controller's options or derive data from these options. The template
+  // OnOptions adapts a function that takes the controller's own options struct to the type of such
+  // a member.
 
   /// Checks conditions that involve several options of the controller.
   std::vector<OptionProblem> (*check)(const ControllerOptions& options,
@@ -88,7 +89,7 @@ struct ControllerEntry {
   /// the function returns nullopt, the controller does not end the run.
   std::optional<double> (*duration)(const ControllerOptions& options) = nullptr;
 
-  // The following members belong to controllers that replay recorded inputs.
+  // Members for controllers that replay recorded inputs.
 
   /// Returns the recording that the controller replays.
   const Recording& (*recording)(const ControllerOptions& options) = nullptr;
@@ -96,7 +97,7 @@ struct ControllerEntry {
   bool (*replays_record)(const ControllerOptions& options) = nullptr;
   void (*set_recording)(ControllerOptions& options, const Recording& recording) = nullptr;
 
-  // The following members handle the input files that the options name.
+  // Members that handle the input files named in a controller's options.
 
   /// Reads the files that the options name, and stores the contents of the files in the options.
   void (*read_inputs)(ControllerOptions& options, InputReader& reader) = nullptr;

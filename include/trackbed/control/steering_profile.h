@@ -8,7 +8,8 @@
 ///
 /// Symbols: t time since the start of the run [s]; t0 the option `at`, at which the maneuver
 /// begins; tau = t - t0; A the option `amplitude`; f frequency [Hz]; delta the commanded bicycle
-/// angle [rad], positive to the left, 0 before t0. A negative amplitude A mirrors the maneuver.
+/// angle [rad], positive to the left, 0 before t0. A negative amplitude A mirrors the maneuver's
+/// steering to the other side.
 namespace trackbed {
 
 /// Commands a constant steering angle from the start of the run.
@@ -17,9 +18,10 @@ struct ConstantSteeringOptions {
 };
 void Visit(KeyVisitor& keys, ConstantSteeringOptions& options);
 
-/// Commands a steering step to the angle A (step input of ISO 7401). With a rate r, the angle is
-/// delta = A min(1, r tau/abs(A)). Without a rate, the commanded angle jumps after t0, and only the
-/// car's actuator limits the steering rate.
+/// Commands a steering step to the angle A (step input of ISO 7401). If the rate r is set, the
+/// angle rises over the time tau to the amplitude A: delta = A min(1, r tau/abs(A)). If no rate is
+/// set, the commanded angle jumps after the start time t0, and only the car's actuator limits the
+/// steering rate.
 struct StepSteeringOptions {
   double amplitude = 0.0;      ///< Step A [rad].
   double at = 1.0;             ///< Time t0 at which the maneuver starts [s].
@@ -47,7 +49,7 @@ struct SineSteeringOptions {
 void Visit(KeyVisitor& keys, SineSteeringOptions& options);
 
 /// Sine with dwell (ISO 19365): one sine cycle that dwells at its second peak, -A at tau = 3/(4 f).
-/// The commanded angle returns to 0 at tau = 1/f + dwell.
+/// The commanded angle returns to 0 at tau = 1/f + dwell, one period and the dwell after the start.
 struct SineWithDwellOptions {
   double amplitude = 0.0;  ///< Amplitude A [rad].
   double frequency = 0.7;  ///< Frequency f of the sine [Hz], > 0.
@@ -58,14 +60,15 @@ void Visit(KeyVisitor& keys, SineWithDwellOptions& options);
 
 /// Defines how the frequency of a swept sine changes from f0 to f1 over the duration T.
 enum class Sweep {
-  kLinear,  ///< The frequency f(tau) = f0 + (f1 - f0) tau/T changes linearly.
-  /// The frequency f(tau) = f0 (f1/f0)^(tau/T) changes exponentially, so that each octave takes the
-  /// same time.
+  kLinear,  ///< The frequency changes linearly from f0 to f1: f(tau) = f0 + (f1 - f0) tau/T.
+  /// The frequency changes exponentially from f0 to f1, f(tau) = f0 (f1/f0)^(tau/T), so that each
+  /// octave takes the same time.
   kExponential,
 };
 
 /// A swept sine, with the angle delta = A sin(phi(tau)) for 0 <= tau < T, and then 0. The phase phi
-/// is the integral of 2 pi f over tau. With a linear or exponential Sweep, the phase is:
+/// of the swept sine is the integral of 2 pi f over the time tau since the start. With a linear or
+/// exponential Sweep, the phase is:
 ///   linear:       phi = 2 pi (f0 tau + (f1 - f0) tau^2/(2 T))
 ///   exponential:  phi = 2 pi f0 T ((f1/f0)^(tau/T) - 1)/ln(f1/f0)
 struct SweptSineOptions {

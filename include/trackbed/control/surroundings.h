@@ -11,29 +11,31 @@ namespace trackbed {
 /// An obstacle or a wall at the beginning of a control period.
 struct SeenObstacle {
   OrientedBox footprint;         ///< Footprint in the world.
-  Vec2 velocity = Vec2::Zero();  ///< Velocity of the center in the world [m/s].
+  Vec2 velocity = Vec2::Zero();  ///< Velocity of the obstacle's center in the world [m/s].
   double yaw_rate = 0.0;         ///< Yaw rate [rad/s].
 };
 
 /// Distances from a point of a plan to the edges of its track, along the line through the point
 /// that is perpendicular to the center line of the track [m].
 struct EdgeDistances {
-  double left = 0.0;   ///< Distance of the left edge; negative if it is right of the path.
-  double right = 0.0;  ///< Distance of the right edge; negative if it is left of the path.
+  double left = 0.0;   ///< Distance to the track's left edge; negative if it is right of the path.
+  double right = 0.0;  ///< Distance to the track's right edge; negative if it is left of the path.
 };
 
 /// The edges of a track along a path, at the stations 0, `spacing`, 2 `spacing`, ... [m].
 struct PathEdges {
-  double spacing = 0.0;                    ///< Distance between two stations [m], > 0.
-  std::vector<EdgeDistances> distances{};  ///< Distances at the stations; empty without a track.
+  double spacing = 0.0;  ///< Distance between two stations [m], > 0.
+  /// Track edges at each station; empty if there is no track.
+  std::vector<EdgeDistances> distances{};
 
   /// Returns the edges at a station [m]. The distances of the edges are linear between the stations
   /// and constant before the first and beyond the last station. `distances` must not be empty.
   [[nodiscard]] EdgeDistances At(double station) const;
 };
 
-/// The surroundings of the car in one control period. Each member is computed when a controller
-/// first requests it; the returned references are valid until the end of the control period.
+/// The surroundings of the car in one control period. Each member of the surroundings is computed
+/// when a controller first requests it; the returned references are valid until the end of the
+/// control period.
 class Surroundings {
  public:
   virtual ~Surroundings() = default;
@@ -46,9 +48,10 @@ class Surroundings {
 };
 
 /// Interface of a SteeringController that uses the surroundings of the car. A controller class that
-/// is derived from both interfaces sees the surroundings in every control period, even through the
-/// wrappers of MakeSteeringController. A class that is derived from SeesSurroundings must define
-/// SteeringController::Clone, because CopyableController hides SeesSurroundings.
+/// is derived from SteeringController and SeesSurroundings sees the surroundings in every control
+/// period, even through the wrappers of MakeSteeringController. A class that is derived from
+/// SeesSurroundings must define SteeringController::Clone, because CopyableController hides
+/// SeesSurroundings.
 class SeesSurroundings {
  public:
   virtual ~SeesSurroundings() = default;

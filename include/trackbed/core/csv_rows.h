@@ -37,7 +37,7 @@ struct CsvLimits {
   /// on as a row of a single cell, whatever characters it contains.
   bool comments = false;
   /// Whether ReadCsvTable calls the columns of a table without names "1", "2", ... If false, a
-  /// table without names is a problem.
+  /// table whose columns have no names is a problem.
   bool numbers_columns = false;
 };
 
@@ -45,10 +45,10 @@ struct CsvLimits {
 /// header. Skips empty lines, spaces around cells and a byte order mark. The file is read as a
 /// stream, so large files need little memory.
 ///
-/// If the file is not valid CSV, adds a problem to `problems` and stops reading. The limits are
-/// 4096 cells per row, 64 KiB per cell and `max_cells` cells in all rows, so that memory is bounded
-/// for a file of any length. Also adds a problem if the file has no rows. Throws RunError in the
-/// same cases as ReadBlocks.
+/// If the file is not valid CSV, adds a problem to `problems` and stops reading. The limits on a
+/// CSV file are 4096 cells per row, 64 KiB per cell and `max_cells` cells in all rows, so that
+/// memory is bounded for a file of any length. Also adds a problem if the CSV file has no rows.
+/// Throws RunError in the same cases as ReadBlocks.
 void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, ProblemList& problems,
                  const TakeCsvRow& take);
 
@@ -59,9 +59,9 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
 ///
 /// Calls `take_names` once, and then `take` for each row. Drops empty cells at the end of a row
 /// that exceed the number of names, because some programs end each line with a delimiter. Returns
-/// false, without a problem, if the file has no line but comments. Adds a problem if there are no
-/// column names, unless limits.numbers_columns is true. All other problems and errors are the same
-/// as for ReadCsvRows.
+/// false, without adding a problem, if the file contains only comments. Adds a problem if there are
+/// no column names, unless limits.numbers_columns is true. All other problems and errors are the
+/// same as for ReadCsvRows.
 bool ReadCsvTable(const std::filesystem::path& file, CsvLimits limits, ProblemList& problems,
                   const TakeCsvNames& take_names, const TakeCsvRow& take);
 

@@ -24,10 +24,11 @@ struct Problem {
   int line = 0;           ///< Line number from 1; 0 if unknown.
   int column = 0;         ///< Column number from 1; 0 if unknown.
   std::string key{};      ///< Dotted key, such as "mission.waypoints[2]"; may be empty.
-  std::string message{};  ///< States the invalid value and the allowed values.
+  std::string message{};  ///< Message with the invalid value and the allowed values.
 
-  /// Formats the problem as "file:line:column: key: message", on one line. Omits unknown parts and
-  /// replaces control characters (WithoutControls). Truncates a key or message after 4000 bytes.
+  /// Formats the problem as "file:line:column: key: message", on one line. The text omits unknown
+  /// parts of the position and replaces control characters (WithoutControls). Truncates a key or
+  /// message after 4000 bytes.
   [[nodiscard]] std::string ToString() const;
   /// Formats the problem as "key: message", without the file and the position in the file.
   [[nodiscard]] std::string WithoutPlace() const;
@@ -78,7 +79,8 @@ std::string WithoutControls(std::string_view text);
 }  // namespace trackbed
 
 /// Throws PreconditionError if `condition`, which states a requirement on a caller's argument, is
-/// false. The remaining arguments are an fmt message.
+/// false. The remaining arguments are an fmt format string and its arguments, for the error
+/// message.
 #define TRACKBED_REQUIRE(condition, ...)                              \
   do {                                                                \
     if (!(condition))                                                 \
@@ -86,7 +88,7 @@ std::string WithoutControls(std::string_view text);
   } while (false)
 
 /// Throws InternalError when `condition` is false, in every build type. The remaining arguments are
-/// an fmt message.
+/// an fmt format string and its arguments, for the error message.
 #define TRACKBED_CHECK(condition, ...)                                                            \
   do {                                                                                            \
     if (!(condition))                                                                             \

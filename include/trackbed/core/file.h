@@ -10,8 +10,8 @@
 
 namespace trackbed {
 
-/// The default limit on the size of an input file [bytes]. The limit is about twice the size of a
-/// one-hour log with 100 rows per second.
+/// The default limit on the size of an input file [bytes]. The default size limit of input files is
+/// about twice the size of a one-hour log with 100 rows per second.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{512} << 20U;
 
 /// Reads a whole file as bytes. Throws RunError if the file is missing, is not a regular file
@@ -27,9 +27,9 @@ void ReadBlocks(const std::filesystem::path& file,
 /// Writes `content` to a temporary file next to `file`, then renames the temporary file to `file`.
 /// Even if the process is killed, `file` contains either the complete old or the complete new
 /// content. If writing fails, for example because the disk is full, removes the temporary file and
-/// throws RunError. The content is not forced to the disk (fsync), which would take up to tens of
-/// milliseconds per file. After a power failure, a file without fsync may be empty; the hashes in
-/// manifest.json (analysis/output_folder.h) reveal the loss.
+/// throws RunError. WriteFileAtomically does not force the content to the disk (fsync), which would
+/// take up to tens of milliseconds per file. After a power failure, a file without fsync may be
+/// empty; the hashes in manifest.json (analysis/output_folder.h) reveal the loss.
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view content);
 
 /// Checks that WriteFileAtomically can write the file. Call CheckCanWrite before long work whose
@@ -56,8 +56,8 @@ class Descriptor {
   Descriptor& operator=(Descriptor&& other) noexcept;
   ~Descriptor();
   [[nodiscard]] int get() const { return descriptor_; }
-  /// Closes the descriptor. Returns 0, or the errno of the error. Some file systems only report a
-  /// full disk on closing.
+  /// Closes the descriptor. Returns 0 on success, else the errno of the failed close. Some file
+  /// systems only report a full disk on closing.
   int Close();
 
  private:
@@ -91,8 +91,9 @@ void WriteNewFile(const std::filesystem::path& file, std::string_view content,
 /// destructor of TemporaryFile removes the temporary file.
 class TemporaryFile {
  public:
-  /// Creates the temporary file. Throws RunError if the folder of `file` is missing or unwritable,
-  /// if `file` exists and is not a regular file, or if `file` is a link whose target is absent.
+  /// Creates the temporary file next to `file`. Throws RunError if the folder of `file` is missing
+  /// or unwritable, if `file` exists and is not a regular file, or if `file` is a link whose target
+  /// is absent.
   explicit TemporaryFile(std::filesystem::path file);
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -116,8 +117,8 @@ class TemporaryFile {
 /// folder is named, locked and removed in the same way as a TemporaryFile.
 class TemporaryFolder {
  public:
-  /// Creates the temporary folder. Throws RunError if the folder of `file` is missing or
-  /// unwritable.
+  /// Creates the temporary folder next to `file`. Throws RunError if the folder of `file` is
+  /// missing or unwritable.
   explicit TemporaryFolder(const std::filesystem::path& file);
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

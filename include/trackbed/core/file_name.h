@@ -8,8 +8,8 @@
 namespace trackbed {
 
 /// Maximum length of a file name from FileNameOf [bytes]. File systems allow 255 bytes per name.
-/// The remaining bytes of the 255 are for file extensions and for the longer names of temporary
-/// files.
+/// The bytes beyond kMaxFileNameLength are reserved for file extensions and for the longer names of
+/// temporary files.
 inline constexpr std::size_t kMaxFileNameLength = 100;
 
 /// Converts `name` to a plain file name. Keeps letters, digits, '.', '_' and '-', replaces ':' by

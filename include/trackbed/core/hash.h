@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// Computes the SHA-256 hash of bytes that are added in parts. Takes about 2 ns per byte.
+/// Computes the SHA-256 hash of bytes that are added in parts. Hashing takes about 2 ns per byte.
 class Sha256Sum {
  public:
   Sha256Sum();

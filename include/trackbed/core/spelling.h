@@ -7,7 +7,7 @@
 namespace trackbed {
 
 /// Returns the word of `known` with the smallest edit distance to `word`. If several words have the
-/// smallest distance, returns the first of these words. Returns an empty text if the smallest
+/// smallest edit distance, returns the first of these words. Returns an empty text if the smallest
 /// distance is more than two edits and more than a third of the length of `word`, or if the edits
 /// would change every letter. The cost is O(length of `word` x total length of all words in
 /// `known`).

@@ -11,8 +11,8 @@
 namespace trackbed {
 
 /// A table of numbers with named columns, for the CSV files of a run. The first line of the CSV
-/// file contains the column names, which include units ("speed_mps"). Each further line contains
-/// the numbers of one row.
+/// file contains the column names, which include units ("speed_mps"). Each line after the column
+/// names contains the numbers of one row.
 ///
 /// Guarantees: ToCsv writes each number in the shortest form from which the same double can be
 /// read, and writes a negative zero as 0. From the text that ToCsv writes, ReadCsv reads the same
@@ -65,7 +65,7 @@ class ProblemList {
   void ThrowIfAny() const;
 
  private:
-  std::vector<Problem> problems_;  // The first problems, in the order of the lines.
+  std::vector<Problem> problems_;  // The first problems of the file, in the order of its lines.
   std::size_t omitted_ = 0;
 };
 

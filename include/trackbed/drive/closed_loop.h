@@ -23,7 +23,7 @@
 /// The closed loop of a plant, a steering controller and a plan.
 namespace trackbed {
 
-/// Callbacks to follow a run or to end it early. Each callback may be empty.
+/// Callbacks to follow a run or to end it early. Any of the run's callbacks may be empty.
 struct DriveHooks {
   /// Reports the progress of the run; called at most 100 times, with the completed fraction from 0
   /// to 1.
@@ -32,10 +32,10 @@ struct DriveHooks {
   std::function<bool()> interrupted{};
   /// Receives the wall-clock duration of each call of the steering controller [s], after the call.
   std::function<void(double seconds)> steered{};
-  /// Receives the log after each new row, and also after the last row. The callback is called
-  /// before the control period that starts at the new row is simulated. The run waits until the
-  /// callback returns. `log` contains all rows and plan changes so far, and `configurations`
-  /// contains all configurations logged so far.
+  /// Receives the log after each new row, and also after the last row. The log callback is called
+  /// before the loop simulates the control period that starts at the new row. The run waits until
+  /// the log callback returns. `log` contains all rows and plan changes so far, and
+  /// `configurations` contains all configurations logged so far.
   std::function<void(const RunLog& log, const Table& configurations)> logged{};
 };
 
@@ -50,9 +50,9 @@ struct ReplanningConfig {
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
 };
 
-/// The configuration of a run, except for the plant, controller and plan of the run. All members
-/// except `vehicle` have usable defaults. A LoopConfig does not refer to other objects, except for
-/// objects that the hooks use.
+/// The configuration of a run, except for the plant, controller and plan of the run. All members of
+/// LoopConfig except `vehicle` have usable defaults. A LoopConfig does not refer to other objects,
+/// except for objects that the hooks use.
 struct LoopConfig {
   /// Vehicle parameters of the plant; wheelbase, length and width must be > 0.
   VehicleParams vehicle{};
@@ -60,7 +60,7 @@ struct LoopConfig {
   /// by default `vehicle`. The wheelbase that the controller assumes is also scaled by
   /// `disturbances.wheelbase`.
   std::optional<VehicleParams> nominal_vehicle{};
-  std::optional<TrailerParams> trailer{};  ///< The trailer of the plant; nullopt: none.
+  std::optional<TrailerParams> trailer{};  ///< The trailer of the plant; nullopt: no trailer.
   /// The world in which the plant drives. The world's obstacles determine clearance, collisions and
   /// replanning. The world's friction coefficient limits the deceleration in the hardest braking.
   World world{};
@@ -90,8 +90,9 @@ struct LoopConfig {
   /// at the end of the period.
   SteeringInput steering_input = SteeringInput::kActuator;
   SpeedControlOptions speed{};
-  /// Station from which the car coasts [m], unless `speed.braking` has begun; nullopt: none. If the
-  /// car coasts, the run ends as kArrived when the whole car has passed the last gate of its plan.
+  /// Station from which the car coasts [m], unless `speed.braking` has begun; nullopt: the car does
+  /// not coast. If the car coasts, the run ends as kArrived when the whole car has passed the last
+  /// gate of its plan.
   std::optional<double> coasts_from{};
 
   /// Disturbances and faults of the run, which the loop applies to the plant and the controller.
@@ -103,7 +104,7 @@ struct LoopConfig {
   std::optional<ReplanningConfig> replanning{};
 
   /// Column names for the values of Plant::Configuration; see CarModel::configuration_columns. If
-  /// the list of column names is empty, the loop logs no configurations.
+  /// the list of column names is empty, the loop does not log the plant's configurations.
   std::vector<std::string> configuration_columns{};
   DriveHooks hooks{};
 };
@@ -111,9 +112,9 @@ struct LoopConfig {
 /// Simulates the car `plant` driving along `plan`, controlled by `controller` and the speed
 /// controller. In each control period, the loop first reads the state of the plant, and projects
 /// the plant's pose onto the path. If a new plan or the next forward or reverse segment is due, the
-/// loop switches to this plan or segment. The loop then ends the run if an end criterion is met.
-/// If the run continues, the loop computes steering and acceleration, logs a row, and simulates the
-/// plant until the next control period.
+/// loop switches to this plan or segment. After reading the plant's state, the loop ends the run if
+/// an end criterion is met. If the run continues, the loop computes steering and acceleration, logs
+/// a row, and simulates the plant until the next control period.
 ///
 /// `plant` must not have simulated any steps yet, and must have the timestep, world and steering
 /// input of `config`. The run starts at the plant's present speed and actuator angle; the odometer

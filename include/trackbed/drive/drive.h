@@ -45,9 +45,9 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car);
 RunLog SimulateScenario(const Scenario& scenario, const CarModel& car, const FeasiblePlan& plan,
                         const std::string& plant_name, const DriveHooks& hooks = {});
 
-/// Makes the loop that SimulateScenario runs, to be stepped by the caller. The loop keeps the
-/// scenario and the car. If `keeps_log` is false, the log of the loop only contains its last row.
-/// Throws the same errors as SimulateScenario; for kRecordedPlant, throws InputError.
+/// Makes the loop that SimulateScenario runs, to be stepped by the caller. The returned loop keeps
+/// the scenario and the car alive. If `keeps_log` is false, the log of the loop only contains its
+/// last row. Throws the same errors as SimulateScenario; for kRecordedPlant, throws InputError.
 SteppedLoop MakeSteppedLoop(const std::shared_ptr<const Scenario>& scenario,
                             const std::shared_ptr<const CarModel>& car, const FeasiblePlan& plan,
                             const std::string& plant_name, bool keeps_log = true);

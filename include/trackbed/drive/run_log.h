@@ -16,8 +16,8 @@ namespace trackbed {
 
 /// The way in which a run ended.
 enum class DriveStatus {
-  /// The car is at rest at the goal, within drive.goal_tolerance. For a mission without a path: the
-  /// mission's duration is over.
+  /// The car is at rest at the goal, within drive.goal_tolerance. The duration of a mission without
+  /// a path is over.
   kArrived,
   kStopped,  ///< The car is at rest, but not at the goal.
   /// The car is at rest in front of an obstacle, and the planner found no path around the obstacle.
@@ -46,17 +46,17 @@ struct LogRow {
   VehicleState state;
   Command command;
   /// Cross-track and heading error of the car relative to the path; nullopt if there is no path. Up
-  /// to the goal tolerance beyond the end of the path, the errors are relative to the straight
-  /// extension of the path. Farther beyond the end of the path, the tracking errors are relative to
-  /// the end point.
+  /// to the goal tolerance beyond the end of the path, the tracking errors are relative to the
+  /// straight extension of the path. Beyond the end of the path by more than the goal tolerance,
+  /// the tracking errors are relative to the end point.
   std::optional<Projection> tracking;
   /// Smallest distance from the footprints of car and trailer to the obstacles [m]; 0 on contact;
   /// nullopt if there are no obstacles.
   std::optional<double> clearance;
   /// Highest planned speed on a short stretch of the path directly behind the car [m/s]. The
-  /// stretch is as long as the goal tolerance plus the distance driven in one control period. The
-  /// planned speed is nullopt if there is no path, at the end of the run, and while the controller
-  /// or control.speed sets the speed.
+  /// stretch for the planned speed is as long as the goal tolerance plus the distance driven in one
+  /// control period. The planned speed is nullopt if there is no path, at the end of the run, and
+  /// while the controller or control.speed sets the speed.
   std::optional<double> planned_speed{};
   /// Pose with measurement noise that the controller received; nullopt if there is no measurement
   /// noise.
@@ -89,8 +89,9 @@ struct RunLog {
   std::optional<double> contact_time;
   /// Origin of the log's coordinates, given in the coordinates of the scenario [m].
   Vec2 origin = Vec2::Zero();
-  std::optional<TrailerParams> trailer{};       ///< The trailer of the car; nullopt: none.
-  std::vector<std::string> controller_columns;  ///< Names from SteeringController::Columns.
+  std::optional<TrailerParams> trailer{};  ///< The trailer of the car; nullopt: no trailer.
+  /// Names of the diagnostic columns (SteeringController::Columns).
+  std::vector<std::string> controller_columns;
   /// Rows of the log; the station keeps increasing when the plan changes.
   std::vector<LogRow> rows;
   std::vector<PlanChange> changes;
@@ -106,10 +107,11 @@ std::optional<OrientedBox> TrailerFootprint(const RunLog& log, const LogRow& row
 /// `origin_y_m` only if the run has a local origin.
 Table ToTable(const RunLog& log);
 
-/// Returns a function that returns the next part of the text of `<plant>.csv` at each call. The
-/// parts together are equal to ToTable(log).ToCsv(). At the end of the text, the returned function
-/// returns an empty text. A part of the text has at most 1024 rows, so that neither the table nor
-/// the text of a long log is in memory as a whole. The log must outlive the returned function.
+/// Returns a function that returns the next part of the text of `<plant>.csv` at each call. All
+/// parts of the text together are equal to ToTable(log).ToCsv(). After the last part of the text,
+/// each further call of the returned function returns an empty text. A part of the text has at most
+/// 1024 rows, so that neither the table nor the text of a long log is in memory as a whole. The log
+/// must outlive the returned function.
 std::function<std::string()> CsvParts(const RunLog& log);
 
 }  // namespace trackbed

@@ -17,15 +17,15 @@ struct Regression {
 };
 
 /// Makes a scenario named `name` from a failed run. The checks in the run's verdict become
-/// expectations on each plant. Expectations that the run met stay unchanged. Expectations that the
-/// run did not meet are inverted. The expectation `max: 0.5` becomes `min: 0.5` of the same metric,
-/// a requirement becomes `not (...)`, and an expected status or collision is replaced by that of
-/// the run.
+/// expectations on each plant. Expectations that the failed run met stay unchanged in the new
+/// scenario. Expectations that the failed run did not meet are inverted. The expectation `max: 0.5`
+/// becomes `min: 0.5` of the same metric, a requirement becomes `not (...)`, and an expected status
+/// or collision is replaced by that of the run.
 ///
 /// Some failures cannot be expressed as expectations: a missing plan, wheels that turn faster than
 /// the actuator allows, an unmeasured metric, or two plants that differ. If a failure cannot be
-/// expressed, the scenario keeps the original expectations. MakeRegression runs the scenario with
-/// the inverted expectations, and keeps the original expectations unless this run passes.
+/// expressed, the new scenario keeps the original expectations. MakeRegression runs the scenario
+/// with the inverted expectations, and keeps the original expectations unless this run passes.
 Regression MakeRegression(const RunResult& failed, const std::string& name);
 
 /// Returns the text of counterexample.yaml: the output of ResolvedYaml, and a comment with the

@@ -11,8 +11,8 @@
 #include "trackbed/falsify/search_space.h"
 #include "trackbed/falsify/shrink.h"
 
-/// Searches for a counterexample, that is, values of a study's keys with which the run fails. Then
-/// shrinks the counterexample toward the nominal values.
+/// Searches for a counterexample, that is, values of a study's keys with which the run fails. After
+/// the search, shrinks the counterexample toward the nominal values.
 namespace trackbed {
 
 /// A study that can be searched for a failing run.
@@ -90,7 +90,7 @@ struct FalsifyResult {
 /// at the nominal point fails, the search ends immediately.
 ///
 /// Appends each run to `records` (FalsifyHeader) and reuses the rows that `records` already
-/// contains. Calling Falsify again therefore resumes an interrupted search.
+/// contains. Because of the reused rows, calling Falsify again resumes an interrupted search.
 ///
 /// Guarantees: the result does not depend on the number of jobs or on interruptions, unless there
 /// is a time limit. The returned counterexample was simulated and failed. If the search finds no

@@ -31,13 +31,13 @@ struct SearchKey {
 /// range. The position of a log_uniform key is computed from the logarithms of the values. The
 /// value of a key is rounded to an integer, or to the nearest value `from` + k `step`. The value of
 /// a key that is not an integer and has no step is rounded to a decimal step between a 10 000th and
-/// a 1000th of the range. With a logarithmic range, the value is rounded to five digits. The
-/// nominal value and the ends of the range are not rounded.
+/// a 1000th of the range. The value of a key with a logarithmic range is rounded to five digits.
+/// The nominal value and the ends of the range are not rounded.
 class SearchSpace {
  public:
   /// Makes the search space of a study. `scenario` is the study's scenario without the keys of
-  /// `vary`. If the study sets no nominal value for a key, the value in `scenario` is the nominal
-  /// value.
+  /// `vary`. If the study sets no nominal value for a key, the key's value in `scenario` is its
+  /// nominal value.
   ///
   /// Throws InputError, with the line in the study's file, if a key has no range (because it has a
   /// list of values, a distribution without ends, or a condition). Also throws InputError if the
@@ -60,8 +60,8 @@ class SearchSpace {
   /// values.
   [[nodiscard]] double Step(std::size_t i) const;
   /// Returns the position of the `share` quantile of the values of key `i`; `share` must be in [0,
-  /// 1). All integers, or all values `from` + k `step`, are equally likely, including the ends of
-  /// the range.
+  /// 1). In the key's distribution, all integers, or all values `from` + k `step`, are equally
+  /// likely, including the ends of the range.
   [[nodiscard]] double PlaceOfShare(std::size_t i, double share) const;
   /// Returns the values of all keys at a point, as settings of the scenario.
   [[nodiscard]] std::vector<Setting> Settings(const UnitPoint& point) const;

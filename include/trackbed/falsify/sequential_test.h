@@ -20,7 +20,8 @@ enum class ProbabilityVerdict {
 ///     L = integral from P to 1 of q^s (1 - q)^f dq / ((1 - P) P^s (1 - P)^f)
 ///
 /// The likelihood ratio M is defined like L, but for all q below P. The verdict is `kAtLeast` as
-/// soon as L >= 1/(1 - confidence), and `kBelow` as soon as M >= 1/(1 - confidence).
+/// soon as the likelihood ratio L >= 1/(1 - confidence), and `kBelow` as soon as the ratio M >=
+/// 1/(1 - confidence).
 ///
 /// Guarantees: if the trials are independent and have the same probability of success, each of the
 /// two verdicts is wrong with a probability of at most 1 - confidence. If the true probability is
@@ -29,9 +30,9 @@ enum class ProbabilityVerdict {
 /// probability of at most 1 - confidence (Ville 1939). If the true probability is at least P, the
 /// likelihood ratio M is a nonnegative supermartingale with a mean of at most 1. Unlike
 /// SequentialTest, Wald's test needs a second probability besides P, and guarantees nothing if the
-/// true probability lies between P and the second probability. If the true probability is very near
-/// P, the test needs many trials. If the true probability equals P, the test usually reaches no
-/// verdict.
+/// true probability lies between P and the second probability. If the true probability of success
+/// is very near the claimed probability P, the test needs many trials. If the true probability
+/// equals P, the test usually reaches no verdict.
 ///
 /// If no trial fails, the test needs 449 trials for the verdict that the probability of success is
 /// at least 0.99, with 95 % confidence. With 299 passing trials, a test with a fixed number of

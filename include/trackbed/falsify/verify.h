@@ -46,8 +46,8 @@ void CheckVerifiable(const StudyPoints& points);
 /// with an invalid scenario are not counted, because the claim is about valid scenarios only.
 ///
 /// Appends rows to `records` (SweepHeader) and reuses the rows that `records` already contains. The
-/// points are simulated in batches of 32. Runs that follow the verdict in the same batch are not
-/// counted.
+/// points of the study are simulated in batches of 32. Runs that follow the verdict in the same
+/// batch are not counted.
 ///
 /// Guarantees: the result does not depend on the number of jobs or on interruptions. Throws
 /// InputError in the same cases as CheckVerifiable, and if the scenario has no expectations. Throws

@@ -18,8 +18,8 @@ inline constexpr const char* kFmuMark = "FMU by Trackbed";
 /// and all files that the scenario names. docs/how-to/fmu.md describes the variables and the
 /// behavior of the FMU.
 ///
-/// `plant` is the plant that the FMU simulates; the plants in `scenario` are ignored. Expectations
-/// and the video settings are not exported. An existing file is replaced.
+/// `plant` is the plant that the FMU simulates; the plants in `scenario` are ignored. The export
+/// omits the scenario's expectations and video settings. ExportFmu replaces an existing file.
 ///
 /// Guarantees: outside of its shared library, the FMU contains no file path of this machine. Two
 /// exports of the same scenario are identical files. Before the file is written, the FMU is

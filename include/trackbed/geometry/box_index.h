@@ -11,10 +11,10 @@ namespace trackbed {
 
 /// Distances that line segments must keep from rectangles.
 struct Inflation {
-  /// Requires the same distance [m], >= 0, from every rectangle.
+  /// Requires line segments to keep the same distance [m], >= 0, from every rectangle.
   Inflation(double distance) : most(distance) {}  // NOLINT(google-explicit-constructor)
 
-  double most = 0.0;  ///< Largest of the required distances [m].
+  double most = 0.0;  ///< Largest of the required distances from the rectangles [m].
   /// Required distance from each rectangle [m], at most `most`; if empty, the distance is `most`
   /// for all rectangles.
   std::vector<double> own{};
@@ -26,7 +26,7 @@ struct Inflation {
 /// Returns the inflation of each rectangle [m]: the distance `most`, or less if one of the `points`
 /// is nearer than `most` to the rectangle. With the returned inflation, a line that begins at one
 /// of the `points` is free if the line comes no nearer to the rectangle than this point. A point
-/// inside a rectangle is not free, whatever the inflation.
+/// inside a rectangle is never free, however small the rectangle's inflation.
 Inflation InflationAt(const std::vector<Vec2>& points, const std::vector<OrientedBox>& boxes,
                       double most);
 
@@ -40,7 +40,7 @@ Inflation InflationAt(const std::vector<Vec2>& points, const std::vector<Oriente
 class BoxIndex {
  public:
   BoxIndex() : BoxIndex(std::vector<OrientedBox>{}) {}
-  /// Throws PreconditionError unless the boxes are finite.
+  /// Throws PreconditionError unless all numbers of the boxes are finite.
   explicit BoxIndex(std::vector<OrientedBox> boxes);
   BoxIndex(BoxIndex&&) noexcept;
   BoxIndex& operator=(BoxIndex&&) noexcept;

@@ -12,9 +12,9 @@
 /// Estimates parameters of a car model from recorded drives.
 ///
 /// The plant restarts at the recorded state after every `horizon`, and predicts the motion until
-/// the next restart. The time between two restarts is a window. Let r_ij be the residuals of one
-/// signal in window i, divided by the signal's expected standard deviation. The estimate p
-/// minimizes
+/// the next restart. A window is the time between two restarts of the plant. Let r_ij be the
+/// residuals of one signal in window i, divided by the signal's expected standard deviation. The
+/// estimate p minimizes
 ///     J(p) = sum over windows and signals of mean_j rho(r_ij)
 ///            + 1/2 sum_k ((p_k - mean_k)/deviation_k)^2
 /// within the bounds. Each window counts as a single measurement of each signal, because
@@ -25,20 +25,21 @@
 /// Unless the study has `steering_offset: false`, the constant `steering_offset` of the car
 /// (sim/car_parameters.h) is estimated besides the parameters of the study, between -0.1 and 0.1
 /// rad. If the records do not determine the steering offset together with the other parameters, the
-/// steering offset is the first parameter to be fixed. The steering offset is not added if it is
-/// already a parameter of the study, or if the study has 40 parameters. The steering offset is also
-/// not added for vehicles without steered wheels, and if a record has prescribed steering, which
-/// bypasses the offset.
+/// steering offset is the first parameter that is fixed instead of estimated. The steering offset
+/// is not added to the parameters if it is already a parameter of the study, or if the study
+/// already has 40 parameters. The steering offset is not estimated, either, for vehicles without
+/// steered wheels, and if a record has prescribed steering, which bypasses the offset.
 ///
-/// With `bank`, the bank of the track that all records were driven on is estimated, too. The bank
-/// consists of the coefficients bank[0], bank[1], … of a closed spline over the station of the
-/// track, each with a normal prior distribution about 0. The search starts at 0. All records are
-/// replayed on the estimated ground (recording/banked_track.h).
+/// If the study has `bank`, the bank of the track on which all records were driven is estimated,
+/// too. The estimated bank (cross slope) is a closed spline over the station of the track. The
+/// spline's coefficients bank[0], bank[1], … have normal prior distributions about 0. The search
+/// for the bank starts at a flat track. All records are replayed on the estimated ground
+/// (recording/banked_track.h).
 ///
 /// Standard errors are computed as for an M-estimator with windows as independent clusters (Huber
-/// 1967; White 1980). The covariance matrix is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p). In the
-/// covariance matrix, g_i is the gradient of window i, n the number of windows, p the number of
-/// parameters, and H the Gauss-Newton Hessian of J. A parameter is not identified if its standard
+/// 1967; White 1980). The covariance matrix of the estimates is H^-1 (sum_i g_i g_i^T) H^-1 n/(n -
+/// p), where g_i is the gradient of window i, n the number of windows, p the number of parameters,
+/// and H the Gauss-Newton Hessian of the cost J. A parameter is not identified if its standard
 /// error exceeds the standard deviation of a uniform distribution over the parameter's bounds, (to
 /// - from)/sqrt(12). A parameter that is not identified is held at its start value, and the other
 /// parameters are estimated again. If several parameters have the same effect on the records, only
@@ -51,8 +52,8 @@ enum class ParameterStatus {
   kAtUpperBound,  ///< The estimate is the parameter's upper bound and has no standard error.
   /// The parameter keeps its start value, because the records do not determine the parameter.
   kNotIdentified,
-  /// The search was interrupted before it was finished. The value is the best estimate found before
-  /// the interruption.
+  /// The search was interrupted before it was finished. The parameter's value is the best estimate
+  /// found before the interruption of the search.
   kUnfinished,
 };
 
@@ -109,7 +110,7 @@ struct IdentificationResult {
 };
 
 struct IdentificationHooks {
-  /// Receives the finished fraction of the work, which is estimated and may be too high.
+  /// Receives the finished fraction of the identification, which is estimated and may be too high.
   std::function<void(double fraction)> progress{};
   /// Returns true to end the search early; called by several threads. After an interruption,
   /// Identify returns the best estimate found so far, without replays of the records. Identify
@@ -123,12 +124,12 @@ struct IdentificationHooks {
 ///
 /// Guarantees: the same study always yields the same estimates, bit for bit, with any number of
 /// threads. Estimates lie within the parameters' bounds, and the cost of the estimates is never
-/// above the cost of the start values. The search does not prove that there is no lower minimum of
-/// the cost. Throws InputError, with the line in the study's file, if the model does not have a
-/// parameter, or if the model cannot be compiled with the start values. Also throws InputError if
-/// no window of the records can be used. The search takes about ten steps per start, and each step
-/// evaluates the cost 2 p + 2 times for p parameters. Each evaluation compiles the model once and
-/// simulates all windows.
+/// above the cost of the start values. A lower minimum of the cost than the one that the search
+/// finds may exist. Throws InputError, with the line in the study's file, if the model does not
+/// have a parameter, or if the model cannot be compiled with the start values. Also throws
+/// InputError if no window of the records can be used. The search takes about ten steps per start,
+/// and each step evaluates the cost 2 p + 2 times for p parameters. Each evaluation of the cost
+/// compiles the model once and simulates all windows.
 IdentificationResult Identify(const Identification& study, const IdentificationHooks& hooks = {});
 
 /// Checks that the model has all parameters of a study, and that the model can be compiled with the

@@ -18,8 +18,8 @@ nlohmann::ordered_json ToJson(const IdentificationResult& result);
 /// depend only on the study, not on the result.
 std::vector<std::string> IdentificationFiles(const Identification& study);
 
-/// Returns the run folder of a record in the output folder. Throws RunError in the same cases as
-/// FolderBelow.
+/// Returns the run folder of an identification's record in the output folder. Throws RunError in
+/// the same cases as FolderBelow.
 std::filesystem::path RecordFolder(const std::filesystem::path& folder, const std::string& record);
 
 /// Writes identify.json, the fitted model `<vehicle>.xml` with its assets, and timing.json. For

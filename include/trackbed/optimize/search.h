@@ -26,8 +26,8 @@ struct SearchProblem {
   std::vector<double> start;
   std::function<double(std::span<const double> x)> objective;
   std::size_t constraint_count = 0;
-  /// Computes `values`, one value per constraint. The values must be scaled so that the tolerance
-  /// `SearchOptions::feasible` is suitable.
+  /// Computes the constraint values c_j(x) as `values`, one per constraint. The constraint values
+  /// must be scaled so that the tolerance `SearchOptions::feasible` suits all constraints.
   std::function<void(std::span<const double> x, std::span<double> values)> constraints;
 };
 
@@ -56,8 +56,8 @@ struct SearchOptions {
   /// method requests the same point twice in a row, the point is evaluated only once.
   int evaluations = 0;
   /// The search stops when x changes by less than this fraction of the distance between the bounds;
-  /// 0: the search does not use this criterion. The methods isres and esch ignore this tolerance
-  /// and always use the maximum number of evaluations.
+  /// 0: the search does not use this criterion. The search methods isres and esch ignore the
+  /// tolerance of x and always use the maximum number of evaluations.
   double tolerance = 1e-9;
   /// Tolerance of the constraints: a point is feasible if all constraints are at most this value.
   double feasible = 1e-9;
@@ -79,7 +79,7 @@ const char* ToString(SearchStatus status);
 /// Progress of the search: the best point found after a number of evaluations.
 struct SearchProgress {
   int evaluations = 0;
-  /// Objective at the best point; may rise from one entry to the next while the best point is
+  /// Objective at the best point so far; may rise during the search while the best point is
   /// infeasible.
   double value = 0.0;
   /// Largest value of a constraint at the best point; 0 if the point is feasible.
@@ -100,16 +100,16 @@ struct SearchResult {
 };
 
 /// Runs a search. Guarantees: the result is the best evaluated point: a feasible point is better
-/// than an infeasible point, and among feasible points the lowest objective is best. The result
-/// lies within the bounds. The return status of NLopt is ignored. The same problem, options and
-/// seed give the same result bit for bit, in any thread. For esch, crs2 and nelder_mead, which do
-/// not support constraints, every infeasible point is treated as worse than every feasible point.
-/// For the method direct, infeasible points have no objective, so direct may miss a feasible region
-/// that is smaller than the cells of the method. The method slsqp computes gradients by central
-/// differences, and the evaluations for these differences are counted. The search does not prove
-/// that there is no feasible point, nor that the minimum is global. Throws InternalError for
-/// invalid bounds or options. Computing time: the time of the evaluations, plus the time of NLopt
-/// itself (about 24 ms for isres with its defaults).
+/// than an infeasible point, and among feasible points the lowest objective is best. The returned
+/// point lies within the bounds of the variables. The return status of NLopt is ignored. The same
+/// problem, options and seed give the same result bit for bit, in any thread. For esch, crs2 and
+/// nelder_mead, which do not support constraints, every infeasible point is treated as worse than
+/// every feasible point. For the method direct, infeasible points have no objective, so direct may
+/// miss a feasible region that is smaller than the cells into which the method divides the search
+/// space. The method slsqp computes gradients by central differences, and the evaluations for these
+/// differences are counted. The search does not prove that there is no feasible point, nor that the
+/// minimum is global. Throws InternalError for invalid bounds or options. Computing time: the time
+/// of the evaluations, plus the time of NLopt itself (about 24 ms for isres with its defaults).
 SearchResult Search(const SearchProblem& problem, const SearchOptions& options, std::uint64_t seed);
 
 /// Returns the name and version of the optimizer, such as "NLopt 2.7.1".

@@ -11,12 +11,13 @@ namespace trackbed {
 struct SmoothValues {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  double objective = 0.0;     ///< Objective f(x).
-  Eigen::VectorXd gradient;   ///< Derivatives of f by x.
-  Eigen::VectorXd equal;      ///< Equality constraints c(x).
-  Rows equal_rows;            ///< Derivatives of c by x, one row per constraint.
+  double objective = 0.0;    ///< Objective f(x).
+  Eigen::VectorXd gradient;  ///< Derivatives of f by x.
+  Eigen::VectorXd equal;     ///< Equality constraints c(x).
+  Rows equal_rows;  ///< Derivatives of the equality constraints c by x, one row per constraint.
   Eigen::VectorXd at_most_0;  ///< Inequality constraints d(x).
-  Rows at_most_0_rows;        ///< Derivatives of d by x, one row per constraint.
+  /// Derivatives of the inequality constraints d by x, one row per constraint.
+  Rows at_most_0_rows;
 };
 
 /// A smooth program. Variables and constraints should be of the order of 1.
@@ -26,7 +27,8 @@ struct SmoothProgram {
   Eigen::VectorXd start;  ///< Initial point of the search, clamped to the bounds.
   Eigen::Index equal_count = 0;
   Eigen::Index at_most_0_count = 0;
-  /// Computes all members of `values`, which have the right sizes and contain zeros.
+  /// Function that computes all members of `values`, which initially have the right sizes and
+  /// contain zeros.
   std::function<void(const Eigen::VectorXd& x, SmoothValues& values)> evaluate;
 };
 
@@ -43,9 +45,9 @@ struct SmoothSolution {
 ///
 /// Guarantees: the result lies within the bounds. The result is the evaluated point with the lowest
 /// objective among the points that violate no constraint by more than `tolerance`, otherwise the
-/// point that violates the constraints least. The same program always has a bit-identical solution.
-/// Throws InternalError unless the sizes agree and the bounds are finite. Computing time: the time
-/// of the evaluations, plus, for 50 variables and 100 constraints, a few milliseconds per
+/// point that violates the constraints least. The same smooth program always has a bit-identical
+/// solution. Throws InternalError unless the sizes agree and the bounds are finite. Computing time:
+/// the time of the evaluations, plus, for 50 variables and 100 constraints, a few milliseconds per
 /// evaluation.
 SmoothSolution Minimize(const SmoothProgram& program, int evaluations, double tolerance = 1e-6);
 

@@ -30,7 +30,7 @@ struct SparseQuadraticSolution {
 
 /// The strategy by which the interior-point method chooses its steps.
 enum class InteriorSteps {
-  /// The method uses an adaptive barrier parameter and a filter line search.
+  /// The interior-point method uses an adaptive barrier parameter and a filter line search.
   kLineSearch,
   /// Mehrotra's predictor-corrector method, which needs 20 iterations instead of 40 to 60, but may
   /// not converge.
@@ -45,7 +45,8 @@ enum class InteriorSteps {
 /// is false if no point meets all constraints, or if 200 iterations (80 with kPredictorCorrector)
 /// do not solve the program. Throws PreconditionError unless the sizes agree, all numbers are
 /// finite and lower < upper. Throws RunError in a build without IPOPT (TRACKBED_IPOPT=OFF). A
-/// program with 1000 variables, a band matrix of width 12 and 2000 constraints takes 0.1 s.
+/// quadratic program with 1000 variables, a band matrix of width 12 and 2000 constraints takes 0.1
+/// s.
 SparseQuadraticSolution Solve(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                               InteriorSteps steps = InteriorSteps::kLineSearch);
 

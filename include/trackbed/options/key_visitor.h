@@ -70,10 +70,10 @@ struct PairShape {
 
 inline constexpr PairShape kPoint{"a point [x, y]", "points [x, y]", kMap, kMap};
 
-/// Returns the range with values for its missing bounds. The value for a missing bound depends on
-/// the key's unit and lies beyond any realistic number. For example, a missing upper bound becomes
-/// 1e5 m, 1e6 s or 1e3 m/s, or 1e12 in other units. A missing lower bound becomes the negative of
-/// the same number.
+/// Returns a key's range, with default values for missing bounds. The default for a missing bound
+/// depends on the key's unit and lies beyond any realistic value. For example, a missing upper
+/// bound of a key becomes 1e5 m, 1e6 s or 1e3 m/s, or 1e12 in other units. A missing lower bound
+/// becomes the negative of the value for a missing upper bound.
 Range WithinReason(const Key& key, Range range);
 
 /// Formats the allowed values as text, such as "above 0 and at most 10"; returns an empty text if
@@ -140,7 +140,7 @@ class KeyVisitor {
               Need need, const Inside& rest = {});
 
   /// Adds a key to the list of keys; the key has only a description, and is not read or written.
-  /// Does nothing in modes other than kList.
+  /// In modes other than kList, the key is not added.
   virtual void Mention(const Key&, const char* /*type*/) {}
 
   /// Returns true in mode kRead if the section `key` contains one of the keys `inner`, but no key
@@ -158,7 +158,7 @@ class KeyVisitor {
     };
     std::vector<Entry> entries;
     std::optional<std::size_t> selected;
-    /// Selects an entry and sets the options to the entry's defaults.
+    /// Selects a method's entry, and sets the options to the entry's defaults.
     std::function<void(std::size_t entry)> select;
     Inside visit_selected;
     std::function<void(std::size_t entry, KeyVisitor& keys)> visit_defaults;
@@ -183,7 +183,7 @@ class KeyVisitor {
 std::optional<double> FindNumber(const std::string& key, const KeyVisitor::Inside& visit);
 
 /// Throws PreconditionError if the number of any key is not finite or is outside of the key's
-/// range. The message names the key and `owner`, which is the name of the called function. Use
+/// range. The error message names the key and `owner`, the name of the called function. Use
 /// RequireInRange for options that a program set; options read from files have already been
 /// checked.
 void RequireInRange(const std::string& owner, const KeyVisitor::Inside& visit);

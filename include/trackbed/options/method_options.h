@@ -11,7 +11,7 @@
 namespace trackbed {
 
 /// The options of a registered method, such as a planner: a value of any copyable struct that
-/// declares its keys (key_visitor.h). The method is identified by the type of the struct. The
+/// declares its keys (key_visitor.h). The type of the options struct identifies the method. The
 /// parameter `Kind` makes the options of planners and the options of controllers different types.
 template <typename Kind>
 class MethodOptions {

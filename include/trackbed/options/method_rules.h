@@ -13,11 +13,11 @@ namespace trackbed {
 /// A problem in the options of a method, reported for the key that the user should change.
 struct OptionProblem {
   std::string key;
-  std::string message;  ///< States the invalid value and the allowed values.
+  std::string message;  ///< Message with the invalid value and the allowed values.
 };
 
-/// Function that returns whether the value of a key could be read. An unreadable key has already
-/// been reported, so further checks of the key are skipped.
+/// Function that returns whether the value of a key could be read. The reader has already reported
+/// an unreadable key, so further checks of the key are skipped.
 using CouldReadKey = std::function<bool(const std::string& key)>;
 
 /// A file that the options name, with the content that is stored in the run folder.

@@ -33,10 +33,11 @@ class NumberVisitor : public KeyVisitor {
   void Pair(const Key& key, int& first, int& second, Range range) override;
 
  protected:
-  /// Visits a number, which may be an element of a list. An override may change a floating-point
-  /// number. For a whole number (int), `value` is a copy, so that changes have no effect.
+  /// Visits a number, which may be an element of a list. An override of the function Number may
+  /// change a floating-point number. For a whole number (int), `value` is a copy, so that changes
+  /// have no effect.
   virtual void Number(const Key& key, double& value, const Range& range) = 0;
-  /// Visits a list of pairs of numbers. An override may change the pairs.
+  /// Visits a list of pairs of numbers. An override of the function Pairs may change the pairs.
   virtual void Pairs(const Key& key, std::vector<Vec2>& pairs, const PairShape& shape) = 0;
 
   /// Returns the dotted key of the section that is being visited, such as "world.obstacles[0]"; ""

@@ -22,7 +22,7 @@ class BezierCurve {
 
   [[nodiscard]] const std::vector<Vec2>& control_points() const { return polygons_[0]; }
 
-  /// Returns the point P(u) [m].
+  /// Returns the curve's point P(u) [m].
   [[nodiscard]] Vec2 At(double u) const { return Derivative(u, 0); }
   /// Returns the derivative d^order P/du^order [m]; `order` is 0 to 3.
   [[nodiscard]] Vec2 Derivative(double u, std::size_t order) const;
@@ -37,8 +37,8 @@ class BezierCurve {
   /// Returns points at most `spacing` [m] apart along the curve, including both ends. The heading
   /// is continuous along the points, starting at `start_yaw`; `start_yaw` must equal the heading of
   /// the first tangent, except for full turns. Throws InternalError if the curve has no direction
-  /// at a point; a cusp between two points is not detected. Throws PreconditionError if more than
-  /// 10^6 points are needed.
+  /// at one of the returned points; a cusp between two of the returned points is not detected.
+  /// Throws PreconditionError if more than 10^6 points are needed.
   [[nodiscard]] std::vector<CurvePoint> Points(double spacing, double start_yaw) const;
 
  private:

@@ -5,8 +5,8 @@
 namespace trackbed {
 
 /// Fits a path as FitPathWithin (fit_path.h) does, but with the prescribed heading `start_yaw`
-/// [rad] of the car at the start. If a path is fitted again, the new fit can thus keep the start
-/// pose, at which a car already stands.
+/// [rad] of the car at the start. With `start_yaw`, a new fit of a path can keep the start pose at
+/// which a car already stands.
 ///
 /// Guarantees: the same as for FitPathWithin. The heading at the start of an open path is
 /// `start_yaw` to 1e-6 rad, unless the path follows the headings of the points. Throws the same

@@ -20,7 +20,8 @@ struct PathPoints {
   /// Line numbers of the points in the file, from 1, for error messages.
   std::vector<int> lines{};
   /// Directions of motion at the points: +1 forwards, -1 backwards, 0 unknown, for example where
-  /// the car stands. If the list is empty, the directions follow from the headings.
+  /// the car stands. If this list of directions is empty, the directions of motion follow from the
+  /// headings.
   std::vector<int> direction{};
   /// Times at which the car is at the points [s], strictly increasing; only differences matter.
   std::vector<double> time{};
@@ -44,7 +45,7 @@ struct PathFitOptions {
 
 /// A jump of the direction of travel at one of the points to which the path is fitted.
 struct HeadingJump {
-  std::size_t point = 0;    ///< Index of the point, from 0.
+  std::size_t point = 0;    ///< Index of the point at which the direction jumps, from 0.
   double s = 0.0;           ///< Station at which the direction jumps [m].
   Vec2 position{0.0, 0.0};  ///< Position at which the direction jumps [m].
   /// Change of the direction of travel at the point, positive to the left [rad].
@@ -57,7 +58,7 @@ struct FittedPath {
   PathPoints given;
   PathFitOptions options;
   Path path;
-  std::vector<double> stations;  ///< Station on the path of each point [m].
+  std::vector<double> stations;  ///< Station of each point on the fitted path [m].
   /// Largest distance between a point and the fitted path at the point's station [m].
   double deviation = 0.0;
   std::size_t deviation_point = 0;  ///< Index of the point with the largest deviation.
@@ -98,12 +99,12 @@ inline constexpr double kMaxHeadingJump = 2.8;
 
 /// Converts the path of a reference point of the car, such as the center of gravity, to the path of
 /// the rear-axle center. The reference point lies on the car's longitudinal axis, `ahead` [m] in
-/// front of the rear axle. The conversion is exact if headings are given. Without headings, the
-/// conversion assumes that the rear axle follows the reference point without slip (a tractrix) and
-/// starts on the circle through the first three points. Keeps the speeds, but drops the curvatures,
-/// because these are the curvatures of the reference point's path. Throws InputError if the car
-/// drives in reverse and no headings are given, because the motion of an axle behind a given point
-/// is unstable in reverse.
+/// front of the rear axle. The conversion to the rear-axle path is exact if headings are given.
+/// Without headings, the conversion assumes that the rear axle follows the reference point without
+/// slip (a tractrix) and starts on the circle through the first three points. The conversion keeps
+/// the speeds, but drops the given curvatures, which are those of the reference point's path.
+/// Throws InputError if the car drives in reverse and no headings are given, because the motion of
+/// an axle behind a given point is unstable in reverse.
 PathPoints AtRearAxle(PathPoints given, double ahead);
 
 /// Fits a path through or along the points.
@@ -112,19 +113,20 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// the directions of motion at the points (+1 forwards, -1 backwards). Where the directions of
 /// motion are unknown, the legs follow from the headings. The car drives in reverse where its
 /// heading is opposite to the step to the next point. A leg that is shorter than max_deviation
-/// counts as noise. The car changes its direction of motion only at some of the points, which are
-/// the cusps of the path. Each leg is fitted as a separate curve. At a cusp, the heading is
-/// continuous. The heading at a cusp is the given heading, corrected by the mean difference between
-/// curves and given headings. Without suitable given headings, the heading at a cusp is the mean of
-/// the headings of the two curves. The curvature may jump at a cusp, where the car stands. A path
-/// without directions and headings has one forward leg.
+/// counts as noise of the points. The car changes its direction of motion only at some of the
+/// points, which are the cusps of the path. Each leg of the path is fitted as a separate curve. At
+/// a cusp, the heading is continuous. The heading at a cusp is the given heading, corrected by the
+/// mean difference between curves and given headings. Without suitable given headings, the heading
+/// at a cusp is the mean of the headings of the two curves. The curvature may jump at a cusp, where
+/// the car stands. Points without given directions and headings are fitted as one leg that is
+/// driven forwards.
 ///
 /// Because a Path has a continuous heading, each corner of a polyline becomes an arc. The arc that
 /// replaces a corner is at most 2 mm long, lies within 1 mm of the corner, and is far too tight for
 /// any car.
 ///
-/// A spline is fitted in two steps. First, a quintic spline over the chord length u, with a knot at
-/// every point, minimizes
+/// A spline is fitted in two steps. First, a quintic spline P(u) over the chord length u, with a
+/// knot at every point p_i, minimizes
 ///     sum over i of w_i |P(u_i) - p_i|^2 + l^6 integral of |P'''(u)|^2 du,
 /// where w_i [m] is the length of path that point i represents, and l [m] is the smoothing length.
 /// Details of the points that are shorter than the smoothing length l are smoothed out (Reinsch
@@ -133,11 +135,11 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// minimizes over all curves
 ///     sum over i of w_i n_i^2 + l^6 integral of (kappa'(s) - c)^2 ds,
 /// where n_i [m] is the distance of point i from the curve, kappa' is the curvature rate, and c is
-/// its mean: a minimum variation curve (Moreton and Séquin 1992). The integral is 0 for lines, arcs
-/// and clothoids, so points on a line, arc or clothoid are fitted by exactly this curve. The fitted
-/// curve has a continuous curvature and a continuous curvature rate. If the deviation of the curve
-/// exceeds max_deviation, the smoothing length l is reduced. If Newton's method finds no curve
-/// within max_deviation, the path is the quintic spline itself.
+/// its mean: a minimum variation curve (Moreton and Séquin 1992). The integral of (kappa'(s) - c)^2
+/// is 0 for lines, arcs and clothoids, so points on a line, arc or clothoid are fitted by exactly
+/// this curve. The fitted curve has a continuous curvature and a continuous curvature rate. If the
+/// deviation of the curve exceeds max_deviation, the smoothing length l is reduced. If Newton's
+/// method finds no curve within max_deviation, the path is the quintic spline itself.
 ///
 /// If headings and curvatures of an open path agree with the points as exactly as a planner's own
 /// output, no spline is fitted: the path has these headings and curvatures. If the curvature is
@@ -162,10 +164,11 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// car.
 ///
 /// A long step between two points counts as a straight line: a step that is more than four times as
-/// long as the median step, and has less than a quarter of the curvature beside it. A step also
-/// counts as a straight line if the spline would exceed the bound of `bulge` on the step, and the
-/// points turn by at most 45 degrees at both ends of the step. Points are added on these straight
-/// lines (`added`), and the spline stays within max_deviation of the added points.
+/// long as the median step, and has less than a quarter of the curvature beside it. A step between
+/// two points also counts as a straight line if the spline would exceed the bound of `bulge` on the
+/// step, and the points turn by at most 45 degrees at both ends of the step. On steps that count as
+/// straight lines, points are added (`added`), and the spline stays within max_deviation of the
+/// added points.
 ///
 /// Throws InputError if there are fewer than two different points or more than 200 000 points to be
 /// fitted, or if no spline stays within max_deviation. Throws InputError if the heading of a point
@@ -187,8 +190,8 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options);
 /// Guarantees: the same as FitPath. The curvature of the path is at most `max_curvature` [1/m],
 /// with a relative tolerance of 1e-3, if a curve of least variation with this bound stays within
 /// max_deviation of the points. The caller must check the path, because the curvature may exceed
-/// the bound if no curve within max_deviation meets the bound. The bound has no effect on a
-/// polyline, or on a path with the headings and curvatures of the points.
+/// the bound if no curve within max_deviation meets the bound. The curvature bound has no effect on
+/// a polyline, or on a path with the headings and curvatures of the points.
 ///
 /// Throws InputError in the same cases as FitPath, and PreconditionError unless max_curvature > 0.
 FittedPath FitPathWithin(PathPoints given, const PathFitOptions& options, double max_curvature);

@@ -20,7 +20,8 @@
 ///       [(1 - kappa_r d) tan Dtheta (kappa (1 - kappa_r d)/cos Dtheta - kappa_r)
 ///        - (kappa_r' d + kappa_r d')].
 /// The derivatives d' and d'' with respect to the station are also defined
-/// at standstill. The time derivatives are d_t = d' s_t and d_tt = d'' s_t^2 + d' s_tt.
+/// at standstill. The time derivatives of the lateral offset d are d_t = d' s_t and d_tt = d''
+/// s_t^2 + d' s_tt.
 namespace trackbed {
 
 /// The state of a car in path coordinates.
@@ -58,21 +59,21 @@ struct MotionState {
 /// Returns the path coordinates of a car, relative to the point of the path nearest to the car,
 /// within the given stations. Returns nullopt if the Frenet frame is undefined at the car's pose.
 /// The Frenet frame is undefined if the car is at or beyond the path's center of curvature (1 -
-/// kappa_r d <= 0). The frame is also undefined if the car faces across or against the path
+/// kappa_r d <= 0). The Frenet frame is also undefined if the car faces across or against the path
 /// (|Dtheta| >= 90 degrees). The Frenet frame is also undefined if the car drives backwards at the
-/// nearest point of the path. The cost is the same as that of Path::Project.
+/// nearest point of the path. The conversion to path coordinates takes as long as Path::Project.
 std::optional<FrenetState> ToFrenet(const Path& path, const MotionState& motion,
                                     Stations within = {});
 
 /// Converts path coordinates to the motion of a car; the inverse of ToFrenet. Returns nullopt if 1
 /// - kappa_r d <= 0, or if the car drives backwards on the path. The returned yaw is not wrapped
 /// and differs from the path's yaw by less than 90 degrees. The error of a conversion to path
-/// coordinates and back is at most 1e-9 if the path's curvature is continuous. On lines and arcs,
-/// the conversion error is only a rounding error.
+/// coordinates and back is at most 1e-9 if the path's curvature is continuous. On lines and arcs, a
+/// conversion to path coordinates and back has only a rounding error.
 ///
 /// To plan motions, use a path with continuous curvature. Where the path's curvature jumps, the
-/// heading of the converted motion jumps unless d or d' is 0; where the path's sharpness jumps, the
-/// curvature of the motion jumps.
+/// heading of the converted motion jumps unless the lateral offset d or its derivative d' is 0.
+/// Where the path's sharpness jumps, the curvature of the motion jumps.
 std::optional<MotionState> FromFrenet(const Path& path, const FrenetState& state);
 
 /// Works like FromFrenet above, for callers that have already computed the path's point at

@@ -37,7 +37,7 @@ struct PathPoint {
   Pose2 pose;              ///< Position of the car's rear-axle center, and heading of the car.
   double curvature = 0.0;  ///< Curvature [1/m].
   int direction = 1;
-  double sharpness = 0.0;  ///< Sharpness dkappa/ds [1/m^2].
+  double sharpness = 0.0;  ///< Sharpness dkappa/ds of the path [1/m^2].
 };
 
 /// Curvature and direction of a path at one station.
@@ -48,7 +48,7 @@ struct PathBend {
 
 /// The point of a path nearest to a pose, and the errors of the pose relative to this point.
 struct Projection {
-  double s = 0.0;            ///< Station of the nearest point [m]; see Path::Project.
+  double s = 0.0;            ///< Station of the path's nearest point [m]; see Path::Project.
   double cross_track = 0.0;  ///< Cross-track error of the pose [m], positive left of the path.
   /// Heading error: yaw of the pose minus yaw of the path [rad], in (-pi, pi].
   double heading_error = 0.0;
@@ -62,11 +62,11 @@ struct Stations {
 
 /// A chain of path segments that begins at a start pose. Position and heading are continuous,
 /// because each segment starts at the end of the previous segment (rounding errors stay below 1e-9
-/// m over 10 km). The curvature may jump between segments. A path cannot be changed after
-/// construction.
+/// m over 10 km). The curvature of a path may jump between two segments. A path cannot be changed
+/// after construction.
 ///
 /// Beyond both ends, a path continues as a straight line, with stations below 0 and above length().
-/// A car near the end of a path therefore still has a path to follow.
+/// Because a path continues beyond its ends, a car near the end still has a path to follow.
 ///
 /// A path has no time or speed (see Reference), and may have curvatures that a car cannot follow.
 class Path {
@@ -83,7 +83,7 @@ class Path {
   [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
 
   /// Returns the point of the path at station s. Where two segments meet, the curvature and
-  /// direction are those of the segment that begins there. Beyond the ends of the path, the
+  /// direction are those of the segment that begins there. Beyond the ends of the path, the path's
   /// curvature is 0. Cost O(log n).
   [[nodiscard]] PathPoint At(double s) const;
 
@@ -91,15 +91,15 @@ class Path {
   [[nodiscard]] PathBend BendAt(double s) const;
 
   /// Finds the point of the path that is nearest to `pose`, at stations in the interval `within`.
-  /// The interval `within` may extend beyond the ends of the path. The station of the nearest point
-  /// is exact for lines and arcs, and has an error of at most 1e-9 m for other segments. If the
-  /// pose is within a tenth of the radius of a center of curvature, the returned point may not be
-  /// the nearest point, except on lines and arcs. Callers should limit the search to stations near
-  /// the last known station; otherwise, the result may jump to a station at which the path crosses
-  /// itself, or beyond a cusp. If several points are equally near, the point with the smallest
-  /// station is returned. The cost is proportional to the number of segments in the interval
-  /// `within`. Throws InternalError if `within` is empty. Throws PreconditionError if the pose is
-  /// not finite.
+  /// The searched interval `within` may extend beyond the ends of the path. The station of the
+  /// nearest point is exact for lines and arcs, and has an error of at most 1e-9 m for other
+  /// segments. If the pose is within a tenth of the radius of a center of curvature, the returned
+  /// point may not be the nearest point, except on lines and arcs. Callers should limit the search
+  /// for the nearest point to stations near the last known station; otherwise, the result may jump
+  /// to a station at which the path crosses itself, or beyond a cusp. If several points are equally
+  /// near, the point with the smallest station is returned. The cost of the search is proportional
+  /// to the number of path segments in the interval `within`. Throws InternalError if `within` is
+  /// empty. Throws PreconditionError if the pose is not finite.
   [[nodiscard]] Projection Project(const Pose2& pose, Stations within = {}) const;
 
   /// Returns evenly spaced points of the whole path, at most `spacing` [m] apart, including both
@@ -107,8 +107,8 @@ class Path {
   [[nodiscard]] std::vector<PathPoint> Sample(double spacing) const;
 
   /// Returns the segments of this path between the stations `from` and `to`; the first segment
-  /// starts at At(from).pose. Stations are clamped to the ends of the path. The list of segments is
-  /// empty if the clamped interval has no length.
+  /// starts at At(from).pose. The stations `from` and `to` are clamped to the ends of the path. The
+  /// returned list of segments is empty if the clamped interval has no length.
   [[nodiscard]] std::vector<Segment> Cut(Stations within) const;
 
  private:
@@ -123,8 +123,8 @@ class Path {
 };
 
 /// Splits a path into legs at the path's cusps, where a car stops and changes gear, and at the
-/// stations `stops` [m]. If the path has length 0, returns one leg of length 0. Ignores stops at or
-/// beyond the ends of the path.
+/// stations `stops` [m]. If the path has length 0, returns one leg of length 0. Ignores `stops` at
+/// or beyond the ends of the path.
 std::vector<Stations> SplitIntoLegs(const Path& path, const std::vector<double>& stops = {});
 
 /// A point on a curve, with the tangent and curvature of the curve.
@@ -139,9 +139,9 @@ struct CurvePoint {
 /// the heading of the segments differs from the heading of the curve by at most h^4 k/384, where h
 /// is the distance of the points and k the largest third derivative of the curvature. The position
 /// error at the end of the segments is at most h^4 k/720 times the length of the curve, for points
-/// at the distance h and a third derivative of the curvature of at most k. The position error is
-/// about 1e-7 m for points 0.1 m apart on bends that a car can drive. Throws InternalError unless
-/// the distances of the points along the curve increase.
+/// at the distance h and a third derivative of the curvature of at most k. The position error of
+/// the segments is about 1e-7 m for points 0.1 m apart on bends that a car can drive. Throws
+/// InternalError unless the distances of the points along the curve increase.
 std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points);
 
 }  // namespace trackbed

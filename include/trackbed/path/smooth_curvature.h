@@ -12,12 +12,12 @@ namespace trackbed {
 ///
 /// Guarantees: the curvature of the smoothed path is continuous. The smoothed path deviates from
 /// the original path toward the inside of bends, by at most window^2/24 times the largest curvature
-/// k within the window. Straight lines stay unchanged, except for points that are closer to a bend
-/// than half the window. The curvature k of an arc grows by the fraction (k window)^2/24, and the
-/// length of the arc shrinks by the same fraction. Stations on the smoothed path therefore differ
-/// slightly from stations on the original path. Throws InternalError unless the window is positive,
-/// the path is driven forwards, and the length of the path is positive. Smoothing takes about 10 us
-/// per meter of path.
+/// k within the window. Straight lines stay unchanged, except at points closer to a bend than half
+/// the averaging window. Smoothing increases the curvature k of an arc by the fraction (k
+/// window)^2/24, and shortens the arc by the same fraction. Because the smoothed path has another
+/// length, its stations differ slightly from the stations on the original path. Throws
+/// InternalError unless the window is positive, the path is driven forwards, and the length of the
+/// path is positive. Smoothing takes about 10 us per meter of path.
 Path SmoothCurvature(const Path& path, double window);
 
 }  // namespace trackbed

@@ -30,11 +30,11 @@ inline constexpr std::size_t kMaxLanePoints = 1'000'000;
 DrawnLanes LanesNear(const DrawnLanes& lanes, const std::vector<Vec2>& path, double reach);
 
 /// Formats lanes as a CSV file with the columns `lane`, `left_x_m`, `left_y_m`, `right_x_m` and
-/// `right_y_m`: a row for each pair of points of the two bounds. ReadLanesCsv reads equal lanes
-/// from the formatted file.
+/// `right_y_m`: a row for each pair of points of the two bounds. From the formatted file,
+/// ReadLanesCsv reads lanes that are equal to `lanes`.
 std::string LanesCsv(const DrawnLanes& lanes);
 
-/// Reads the file that LanesCsv writes. All rows of a lane must follow each other.
+/// Reads lanes from the CSV file that LanesCsv writes. All rows of a lane must follow each other.
 ///
 /// Throws InputError, with file and line, if a column is missing, or if a cell is not a finite
 /// number of at most 1e7. Also throws InputError if a lane has only one row, or if there are more

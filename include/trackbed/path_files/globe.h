@@ -19,8 +19,8 @@ struct GlobePosition {
   double longitude = 0.0;
 };
 
-/// Largest magnitude of a latitude that can be projected [deg]. Closer to a pole, the direction to
-/// the north changes too fast along a path.
+/// Largest magnitude of a latitude that can be projected [deg]. Closer to a pole than this
+/// latitude, the direction to the north changes too fast along a path.
 inline constexpr double kMaxLatitude = 89.0;
 /// Largest magnitude of a longitude [deg]; some receivers count from 0 to 360 degrees.
 inline constexpr double kMaxLongitude = 360.0;
@@ -30,9 +30,9 @@ inline constexpr double kMaxLongitude = 360.0;
 /// 0183, and numbers in 1e-7 degrees.
 std::string GlobeProblem(const GlobePosition& position);
 
-/// Returns the numbers of the positions at which a receiver had no fix: latitude and longitude are
-/// exactly 0. Returns an empty list if the other positions are near latitude 0 and longitude 0, so
-/// that the position may be real.
+/// Returns the indices of the positions at which a receiver had no fix, so that latitude and
+/// longitude are exactly 0. If the other positions are near latitude 0 and longitude 0, a position
+/// at exactly 0 may be real, so the returned list is empty.
 std::vector<std::size_t> PositionsWithoutFix(const std::vector<GlobePosition>& positions);
 
 /// Returns the note about skipped positions without a fix.
@@ -42,10 +42,10 @@ std::string NoFixNote(std::size_t count, const std::string& first);
 /// its origin. The x axis points to the east and the y axis to the north at the origin.
 ///
 /// Scale: lengths at the distance x east or west of the origin are too long by the factor 1 +
-/// x^2/(2 R^2) with the earth's radius R. The relative error of a length is 1.2e-8 at x = 1 km east
-/// or west of the origin, 1.2e-6 at 10 km, and 1.2e-4 at 100 km. In a UTM zone, lengths are too
-/// short by 4e-4 on the zone's meridian. Heights are ignored: a road at the height h is longer than
-/// its projection by the fraction h/R, which is 1.6e-4 for h = 1 km.
+/// x^2/(2 R^2) with the earth's radius R. The projection's relative error of a length is 1.2e-8 at
+/// x = 1 km east or west of the origin, 1.2e-6 at 10 km, and 1.2e-4 at 100 km. In a UTM zone,
+/// lengths are too short by 4e-4 on the zone's meridian. Heights are ignored: a road at the height
+/// h is longer than its projection by the fraction h/R, which is 1.6e-4 for h = 1 km.
 class LocalPlane {
  public:
   explicit LocalPlane(const GlobePosition& origin);
@@ -71,10 +71,10 @@ class LocalPlane {
 
 /// Positions in meters, and how they were projected.
 struct GlobePoints {
-  std::vector<Vec2> points;  ///< Positions [m]; empty if there is a `problem`.
+  std::vector<Vec2> points;  ///< Projected positions [m]; empty if there is a `problem`.
   std::string note;
-  std::size_t bad = 0;  ///< Number of the position that cannot be projected.
-  std::string problem;  ///< Why the position `bad` cannot be projected; otherwise empty.
+  std::size_t bad = 0;  ///< Index of the position that cannot be projected.
+  std::string problem;  ///< Reason why the position `bad` cannot be projected; else empty.
 };
 
 /// Projects valid positions to a plane about `origin`, by default the first position.

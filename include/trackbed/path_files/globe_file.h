@@ -34,8 +34,8 @@ struct GlobeFile {
   std::size_t single_points = 0;
 };
 
-/// Returns whether a file is GPX, KML, KMZ or GeoJSON by the ending of its name. Returns false for
-/// a name that ends with .json.
+/// Returns whether a file is GPX, KML, KMZ or GeoJSON by the ending of its name. A name that ends
+/// with .json does not count as GeoJSON.
 bool IsGlobeFile(const std::filesystem::path& file);
 
 /// Reads a GPX, KML or GeoJSON file of at most 64 MiB and kMaxPathPoints points, with XML nested at

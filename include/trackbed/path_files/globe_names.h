@@ -18,7 +18,7 @@ struct GlobeColumn {
 };
 
 /// Returns the meaning of a column by its name, such as "lat", "latitude_deg", "GPS Longitude",
-/// "lng", "position_lat", "latRad" or "lon_e7". Returns nullopt for other names, among them
+/// "lng", "position_lat", "latRad" or "lon_e7". Returns nullopt for other column names, among them
 /// "lat_acc" and "longitudinal".
 std::optional<GlobeColumn> GlobeColumnOf(std::string_view name);
 
@@ -29,8 +29,8 @@ bool NamesGlobeAxis(std::string_view name);
 /// Returns whether a column's name is usual for letters of hemispheres, such as "N/S" or "lat_dir".
 bool NamesHemisphere(std::string_view name);
 
-/// Returns the columns of latitude and longitude in a header. If several columns of an axis fit,
-/// returns the column with the shortest name.
+/// Returns the columns of latitude and longitude in a header. If several columns of latitude or of
+/// longitude fit, returns the column with the shortest name.
 struct GlobeColumns {
   std::optional<std::size_t> latitude;
   std::optional<std::size_t> longitude;

@@ -35,10 +35,10 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// point and the next point. The speed of the last point is the mean speed between the last two
 /// points.
 ///
-/// Invalid speeds and times do not make a path unusable; PathFile::speed_problems lists them.
-/// Speeds and times in a CSV file are invalid if they are not finite numbers or out of range
-/// (speeds to 100 m/s), or if the times do not increase. Invalid curvatures are dropped, with a
-/// note.
+/// A path with invalid speeds or times remains usable; PathFile::speed_problems lists the invalid
+/// speeds and times. Speeds and times in a CSV file are invalid if they are not finite numbers or
+/// out of range (speeds to 100 m/s), or if the times do not increase. Invalid curvatures are
+/// dropped, with a note.
 ///
 /// PathPoints::direction comes from a column of directions or gears, or from the signs of the
 /// speeds. Speeds of less than 0.05 m/s, or of less than a tenth of the largest speed, have no
@@ -63,17 +63,17 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// racing line fits the direction of travel neither if measured from the x axis nor if measured
 /// from north. Also throws InputError if all headings of a CSV file are opposite to the direction
 /// of travel although a column of speeds is not negative. Throws InputError if there are fewer than
-/// two or more than kMaxPathPoints points. Throws InputError if the text is malformed, is nested
-/// deeper than 64 levels, has YAML aliases, or contains coordinates that do not exist on Earth.
-/// Throws RunError if the file cannot be read or is larger than 512 MiB (CSV) or 16 MiB (other
-/// formats). Reading takes about 1 us per point.
+/// two or more than kMaxPathPoints points. Throws InputError if the text of the path file is
+/// malformed, is nested deeper than 64 levels, has YAML aliases, or contains coordinates that do
+/// not exist on Earth. Throws RunError if the file cannot be read or is larger than 512 MiB (CSV)
+/// or 16 MiB (other formats). Reading a path file takes about 1 us per point.
 PathFile ReadPathFile(const std::filesystem::path& file, const PathMap& map = {});
 
-/// Returns true if a YAML file in a folder of scenarios is a path and not a scenario. Returns false
-/// if the file cannot be read.
+/// Returns true if a YAML file in a folder of scenarios is a path and not a scenario. For a file
+/// that cannot be read, returns false.
 bool IsNavPathYaml(const std::filesystem::path& file);
 
-/// The file name of a path in the run folder, next to the resolved scenario.
+/// Name of the file with the scenario's path in the run folder, next to the resolved scenario.
 inline constexpr const char* kPathCsv = "path.csv";
 
 /// Formats the points of a path as a CSV file. ReadPathFile reads equal points from this CSV file,

@@ -16,7 +16,7 @@ enum class PathFormat {
   /// begins with '#'.
   kCsv,
   kNavPath,     ///< A ROS message of the type nav_msgs/Path, as YAML or JSON.
-  kCommonRoad,  ///< A solution of CommonRoad, or the route of a scenario (XML).
+  kCommonRoad,  ///< A solution of CommonRoad, or the route of a CommonRoad scenario (XML).
   kGeoJson,     ///< A GeoJSON line string according to RFC 7946.
   kGpx,         ///< A track or route of GPX 1.0 or 1.1.
   kBag,         ///< A message nav_msgs/Path in a bag of ROS 2 (MCAP, SQLite).
@@ -54,11 +54,11 @@ void Visit(KeyVisitor& keys, PathColumns& columns);
 
 /// The type of coordinates in a GeoJSON file.
 enum class PathCoordinates {
-  /// Coordinates are in WGS 84, or in meters if the file's member `crs` names another reference
+  /// The file's coordinates are in WGS 84, or in meters if its member `crs` names another reference
   /// system.
   kAuto,
-  kWgs84,   ///< Coordinates are longitude and latitude in degrees.
-  kMeters,  ///< Coordinates are x and y in meters, in any map projection.
+  kWgs84,   ///< The file's coordinates are longitude and latitude in degrees.
+  kMeters,  ///< The file's coordinates are x and y in meters, in any map projection.
 };
 
 struct PathMap {
@@ -81,8 +81,8 @@ struct PathMap {
 };
 void Visit(KeyVisitor& keys, PathMap& map);
 
-/// Returns the problems that concern more than one key. Each returned pair contains the key that
-/// the user should change and the error message.
+/// Returns the problems that concern several keys of `map` together. Each returned pair contains
+/// the key that the user should change and the error message.
 std::vector<std::pair<std::string, std::string>> PathMapProblems(const PathMap& map);
 
 /// A usual name of a column, and the unit that this name implies.

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-/// Finds the columns of a pose by their names: for paths, and for maps of logs.
+/// Finds the columns of a pose by their names, in path files and in logs of drives.
 namespace trackbed {
 
 /// A column, and the unit that its name implies.
@@ -32,7 +32,7 @@ struct PoseColumns {
   std::vector<std::string> choices;
 };
 
-/// Finds the columns of a pose. Yaw is only set together with x and y.
+/// Finds the columns of a pose. The yaw column is only set together with the x and y columns.
 PoseColumns FindPoseColumns(const std::vector<std::string>& names);
 
 }  // namespace trackbed

@@ -14,15 +14,16 @@
 
 /// Local planners, which reroute an existing plan around the obstacles that are in its way. The
 /// planner `bezier` chooses the passing side by RRT* and passes the obstacle on a Bezier curve of
-/// degree 7. A search moves the control points of this curve until the car can drive the curve
-/// safely. The planner `listing` reproduces the original method exactly as printed (Skackauskas,
-/// dissertation, listing F.2). The planner `listing` does not check its curve, and serves for
-/// comparison only.
+/// degree 7. A search moves the control points of the Bezier curve until the car can drive the
+/// curve safely. The planner `listing` reproduces the original method exactly as printed
+/// (Skackauskas, dissertation, listing F.2). The planner `listing` does not check its curve, and
+/// serves for comparison only.
 ///
 /// Symbols: SD is the safe distance from the car's footprint to an obstacle [m]; t_d is the system
 /// delay [s]; S = r + v t_d [m], where r is the radius of a turn and v the speed. To pass an
-/// obstacle in a turn, the car leaves its path at most the distance S before the turn. The car
-/// returns to the path at most the distance S after the turn.
+/// obstacle in a turn, the car leaves its path at most the distance S = r + v t_d before the turn
+/// of radius r. The car returns to the path at most the distance S = r + v t_d after the turn of
+/// radius r.
 namespace trackbed {
 
 struct AvoiderEntry {
@@ -70,21 +71,21 @@ bool IsInTheWay(const VehicleParams& vehicle, const Path& path, double station,
 ///
 /// Guarantees: position and heading are continuous along the new plan. If the state of the car is
 /// not given, the plan is unchanged before the new stretch. On a stretch that `bezier` has
-/// replaced, the car's footprint keeps at least the distance SD from every known obstacle (checked
-/// every 0.05 m). On a stretch that `bezier` has replaced, the steering angle is within the car's
-/// limit. On a stretch that `bezier` has replaced, the steering rate at the planned speed is within
-/// the fraction `max_steering_rate_fraction` of the car's limit. The curvature is continuous at
-/// both ends of the new stretch; at its start, the curvature matches the old plan or the car's
-/// actual steering. The planner `listing` guarantees neither clearance nor steerability. With
-/// `listing`, a note of the plan states the clearance of the curve, and by how much the curve
+/// replaced, the car's footprint keeps at least the safe distance SD from every known obstacle
+/// (checked every 0.05 m). On a stretch that `bezier` has replaced, the steering angle is within
+/// the car's limit. On a stretch that `bezier` has replaced, the steering rate at the planned speed
+/// is within the fraction `max_steering_rate_fraction` of the car's limit. The curvature is
+/// continuous at both ends of the new stretch; at its start, the curvature matches the old plan or
+/// the car's actual steering. The planner `listing` guarantees neither clearance nor steerability.
+/// With `listing`, a note of the plan states the clearance of the curve, and by how much the curve
 /// exceeds the limits of the steering. The local planners consider only obstacles that are closer
-/// to the plan than SD, and assume that these obstacles stand still. MakeFeasible slows down or
-/// rejects a new plan that exceeds the car's limits; plans of `listing` stay unchanged. If the new
-/// plan is rejected, the result is a plan that stops before the first obstacle. If the car is
-/// already driving, the stopping plan may brake harder than the grip of the road allows, with a
-/// note in the plan. Throws InternalError if an option is out of range. Computing time of `bezier`:
-/// 0.1 to 0.3 s per replaced stretch, some seconds if there is no solution. Computing time of
-/// `listing`: a millisecond.
+/// to the plan than the safe distance SD, and assume that these obstacles stand still. MakeFeasible
+/// slows down or rejects a new plan that exceeds the car's limits; plans of `listing` stay
+/// unchanged. If the new plan is rejected, the result is a plan that stops before the first
+/// obstacle. If the car is already driving, the stopping plan may brake harder than the grip of the
+/// road allows, with a note in the plan. Throws InternalError if an option is out of range.
+/// Computing time of `bezier`: 0.1 to 0.3 s per replaced stretch, some seconds if there is no
+/// solution. Computing time of `listing`: a millisecond.
 FeasiblePlan PlanAround(const AvoidanceRequest& request, const AvoiderOptions& options);
 
 }  // namespace trackbed

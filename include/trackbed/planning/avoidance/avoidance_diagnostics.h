@@ -13,11 +13,11 @@
 namespace trackbed {
 
 /// Result of the safety check in the original code listing (condition Salyga_2), kept for
-/// comparison. The check measures the distance from the obstacle's corners to a single point of the
-/// path, two meters before the obstacle.
+/// comparison. The safety check measures the distance from the obstacle's corners to a single point
+/// of the path, two meters before the obstacle.
 struct OnePointCheck {
   double distance = 0.0;  ///< Distance from the checked point to the obstacle's nearest corner [m].
-  /// Whether `distance` is at least the safe distance SD plus half the car's width.
+  /// Whether the checked `distance` is at least the safe distance SD plus half the car's width.
   bool passed = false;
 };
 void Visit(DiagnosticsVisitor& out, const OnePointCheck& check);

@@ -10,8 +10,8 @@
 
 namespace trackbed {
 
-/// Tests whether a car's footprint keeps a required distance from boxes. A checker is immutable and
-/// designed for many queries.
+/// Tests whether a car's footprint keeps a required distance from boxes. A CollisionChecker is
+/// immutable and designed for many queries.
 class CollisionChecker {
  public:
   /// Upper bound of the result of farthest(), which applies to long cars [m].
@@ -42,7 +42,8 @@ class CollisionChecker {
   [[nodiscard]] double inner_radius() const;
 
   /// Returns whether the circle of the radius inner_radius() around `position` is clear of all
-  /// boxes. If not, a car with the middle of its rear axle at `position` is free at no heading.
+  /// boxes. If the circle around `position` is not clear, a car with the middle of its rear axle
+  /// there collides at every heading.
   [[nodiscard]] bool MayBeFree(const Vec2& position) const;
 
   /// Returns the largest value that Clearance can return [m]: the car's length, but at most
@@ -50,21 +51,21 @@ class CollisionChecker {
   [[nodiscard]] double farthest() const { return farthest_; }
 
   /// Returns the clearance of the footprint from the nearest box minus the required distance [m].
-  /// The returned clearance is exact. The clearance is negative if the footprint is too near to a
-  /// box, and never exceeds `at_most` and farthest(). Throws PreconditionError if the pose is not
-  /// finite. Computing time: a few ns for each nearby box, about 50 ns for each box that may be the
-  /// nearest one.
+  /// The returned clearance is exact, not an estimate. The clearance is negative if the footprint
+  /// is too near to a box, and never exceeds `at_most` and farthest(). Throws PreconditionError if
+  /// the pose is not finite. Computing time of a clearance: a few ns for each nearby box, about 50
+  /// ns for each box that may be the nearest one.
   [[nodiscard]] double Clearance(const Pose2& pose,
                                  double at_most = std::numeric_limits<double>::infinity()) const;
 
   [[nodiscard]] bool IsFree(const Pose2& pose) const { return Clearance(pose, 0.0) >= 0.0; }
 
   /// Returns the first tested station at which the car is too near to a box; nullopt if the car is
-  /// clear at all tested stations. The search advances along the path by the distance that is free
-  /// according to the clearance. Each step of the search is at least 2 cm long (for a car shorter
-  /// than 1 m, a fiftieth of its length). Between two tested stations, the clearance may be
-  /// negative, by at most half of the smallest step times the motion of the footprint's fastest
-  /// corner per meter of path.
+  /// clear at all tested stations. The search for a blocked station advances along the path by the
+  /// distance that the clearance guarantees to be free. Each step of the search along the path is
+  /// at least 2 cm long (for a car shorter than 1 m, a fiftieth of its length). Between two tested
+  /// stations, the clearance may be negative, by at most half of the smallest step times the motion
+  /// of the footprint's fastest corner per meter of path.
   [[nodiscard]] std::optional<double> FirstBlocked(const Path& path) const;
 
   /// Returns whether the car is clear of all boxes along an arc or a line, tested as in
@@ -75,11 +76,11 @@ class CollisionChecker {
   VehicleParams vehicle_;
   std::vector<OrientedBox> boxes_;
   std::vector<Vec2> along_;        // Unit vectors along the lengths of the boxes.
-  double distance_;                // Largest of the required distances.
+  double distance_;                // Largest of the required distances from the boxes.
   std::vector<double> distances_;  // Required distance from each box.
   double farthest_;
   double middle_;  // Distance from the rear axle forward to the middle of the footprint.
-  double radius_;  // Radius of the circle around the footprint.
+  double radius_;  // Radius of the circle that encloses the footprint.
   double step_;    // Smallest step between tested stations of a path.
   double reach_;   // Distance from the rear axle to the footprint's farthest corner.
 
@@ -95,7 +96,7 @@ class CollisionChecker {
   // Returns the boxes that can be the nearest one for a car with the middle of its footprint at
   // `middle`.
   [[nodiscard]] const std::vector<int>* Near(const Vec2& middle) const;
-  double bin_ = 0.0;  // Side length of a square bin [m].
+  double bin_ = 0.0;  // Side length of a square bin of boxes [m].
   Vec2 low_{0.0, 0.0};
   int columns_ = 0;
   int rows_ = 0;

@@ -22,7 +22,7 @@
 /// tangent length [m], the distance from the corner to either end of its curve.
 namespace trackbed {
 
-/// Policy for the corners of a polyline.
+/// Selects how a planner handles the corners of a polyline.
 enum class Corners {
   /// Corners are rounded so that the car can drive them, if necessary below the planned speed.
   kRound,
@@ -39,7 +39,8 @@ struct CornerLimits {
   double deceleration = 1.0;  ///< Deceleration of the car before the first corner [m/s^2], > 0.
   /// Waypoints of the route [m]; the bound `max_gap` applies to corners that lie at a waypoint.
   std::vector<Vec2> waypoints{};
-  /// Upper limit of the distance of the curve from a corner at a waypoint [m], >= 0.
+  /// Upper limit of the distance between a waypoint and the curve that rounds the corner there [m],
+  /// >= 0.
   double max_gap = std::numeric_limits<double>::infinity();
 };
 
@@ -52,9 +53,9 @@ struct RoundCorner {
   double curvature = 0.0;       ///< Magnitude of the curve's peak curvature kappa [1/m].
   /// Tangent length T, from the corner to either end of its curve [m].
   double tangent_length = 0.0;
-  double gap = 0.0;   ///< Smallest distance of the curve from the corner [m].
-  double from = 0.0;  ///< Station of the curve's start [m].
-  double to = 0.0;    ///< Station of the curve's end [m].
+  double gap = 0.0;   ///< Smallest distance of the rounding curve from the corner [m].
+  double from = 0.0;  ///< Station of the rounding curve's start [m].
+  double to = 0.0;    ///< Station of the rounding curve's end [m].
 };
 void Visit(DiagnosticsVisitor& out, const RoundCorner& corner);
 
@@ -71,25 +72,25 @@ struct RoundedCorners {
 };
 
 /// Computes the curve that rounds a corner of heading change |h| in (0, pi) for a car with the
-/// speed v. The peak curvature of the curve is sqrt(|h| sigma). If sqrt(|h| sigma) exceeds the
-/// maximum curvature, the curve has an arc of the maximum curvature between the clothoids. The
-/// tangent length of the curve grows with the speed v.
+/// speed v. The peak curvature of the curve is sqrt(|h| sigma), with the sharpness sigma of the
+/// clothoids. If sqrt(|h| sigma) exceeds `max_curvature`, the curve has an arc of the maximum
+/// curvature between the clothoids. The tangent length of the curve grows with the speed v.
 RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double speed,
                      double max_curvature);
 
 /// Rounds the corners of a polyline. The polyline must have at least two points, and consecutive
 /// points must differ. The curve of a corner may cover half of each adjacent leg, or all of an
-/// adjacent first or last leg. On the first leg, the curve begins only after the distance that a
-/// rolling car needs to slow down. The planned speed in each corner is as high as the lengths of
-/// the legs allow. If the car's footprint on the rounded path is too near to a box, the function
-/// lowers the speed in the nearest corner. At the lower speed, the path stays closer to the corner.
-/// In a corner at a waypoint, the speed is so low that the curve stays within `max_gap` of the
-/// corner; if no speed is low enough, the status is kWaypointMissed. Guarantees for the status kOk:
-/// the path starts at the first point along the first leg, and ends at the last point. The
-/// curvature of the rounded path is continuous and at most `max_curvature`. At the capped speeds,
-/// the steering rate is within the car's limit. The car's footprint is clear of all boxes
-/// (CollisionChecker). If the status is not kOk, the reason names the corner or the place of the
-/// collision.
+/// adjacent first or last leg. On the first leg, the curve of a corner begins only after the
+/// distance that a rolling car needs to slow down. The planned speed in each corner is as high as
+/// the lengths of the legs allow. If the car's footprint on the rounded path is too near to a box,
+/// the function lowers the speed in the nearest corner. At a lower speed, the curve stays closer to
+/// the corner. In a corner at a waypoint, the speed is so low that the curve stays within `max_gap`
+/// of the corner; if no speed is low enough, the status is kWaypointMissed. Guarantees for the
+/// status kOk: the path starts at the polyline's first point along the first leg, and ends at the
+/// polyline's last point. The curvature of the rounded path is continuous and at most
+/// `max_curvature`. At the capped speeds of the corners, the steering rate is within the car's
+/// limit. On the rounded path, the car's footprint is clear of all boxes (CollisionChecker). If the
+/// status is not kOk, the reason names the corner or the place of the collision.
 RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
                             const CornerLimits& limits, const CollisionChecker& clear);
 

@@ -102,14 +102,14 @@ class MethodDiagnostics {
 
   [[nodiscard]] bool has_value() const { return value_.has_value(); }
 
-  /// Returns the contained struct if its type is `Struct`; else null.
+  /// Returns the contained diagnostics struct if its type is `Struct`; else null.
   template <typename Struct>
   [[nodiscard]] const Struct* GetIf() const {
     return std::any_cast<Struct>(&value_);
   }
 
-  /// Returns the contained struct. Throws InternalError if the type of the contained struct is not
-  /// `Struct`.
+  /// Returns the contained diagnostics struct. Throws InternalError if the type of the contained
+  /// struct is not `Struct`.
   template <typename Struct>
   [[nodiscard]] const Struct& Get() const {
     TRACKBED_CHECK(GetIf<Struct>() != nullptr, "diagnostics of another method: {}",

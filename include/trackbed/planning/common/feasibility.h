@@ -42,21 +42,22 @@ namespace trackbed {
 /// The change that would bring a plan back within a limit.
 enum class Remedy {
   kNone,        ///< Neither lower speeds nor smaller accelerations bring the plan within the limit.
-  kLowerSpeed,  ///< The car must drive more slowly on the same path.
-  kGentlerBraking,  ///< A smaller deceleration is needed.
-  kGentlerDriving,  ///< A smaller acceleration is needed.
-  kGentlerBends,    ///< Lower speeds in bends and smaller accelerations are needed.
+  kLowerSpeed,  ///< The car must drive the plan's path more slowly.
+  kGentlerBraking,  ///< The plan needs a smaller deceleration.
+  kGentlerDriving,  ///< The plan needs a smaller acceleration.
+  kGentlerBends,    ///< The plan needs lower speeds in bends and smaller accelerations.
 };
 
 /// A limit of the car that a plan exceeds.
 struct Excess {
   std::string what;       ///< Name of the limited quantity, such as "steering rate".
-  double required = 0.0;  ///< Value that the plan requires [unit].
-  double limit = 0.0;     ///< Limit of the car for this quantity [unit].
+  double required = 0.0;  ///< Value of the quantity that the plan requires [unit].
+  double limit = 0.0;     ///< Car's limit for the exceeded quantity [unit].
   std::string unit;       ///< Unit of the quantity, such as "rad/s".
   double station = 0.0;   ///< Station of the worst violation [m].
   Remedy remedy = Remedy::kNone;
-  std::string hint{};  ///< Cause and remedy for people; empty if the other members suffice.
+  /// Cause of the violation and its remedy, as text for users; empty if the other members suffice.
+  std::string hint{};
 };
 
 /// Largest planned deceleration, as a multiple of SpeedLimits::deceleration; the speed control can
@@ -64,21 +65,21 @@ struct Excess {
 inline constexpr double kMaxBrakingFactor = 2.0;
 
 /// Finds all limits that the plan exceeds, and returns one entry for each limited quantity, at the
-/// place of its worst violation. Skips limits that are unknown, that is 0 in the vehicle's
-/// parameters. Computing time: 5 us per meter of path.
+/// place of its worst violation. Skips limits of the car that are unknown, that is 0 in the
+/// vehicle's parameters. Computing time: 5 us per meter of path.
 std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request);
 
 /// How much MakeFeasible finds out about the cause of a refusal.
 enum class Refusal {
-  kBrief,  ///< Lists the exceeded limits.
-  /// Also finds the highest feasible start speed if the car starts too fast. A refusal with
-  /// kExplained takes up to ten times as long as with kBrief.
+  kBrief,  ///< Lists only the exceeded limits.
+  /// Besides listing the limits, finds the highest feasible start speed if the car starts too fast.
+  /// With kExplained, refusing a plan takes up to ten times as long as with kBrief.
   kExplained,
 };
 
-/// A plan that has passed MakeFeasible. Only MakeFeasible creates a FeasiblePlan, and cars are
-/// driven only along a FeasiblePlan. The path, speeds and steering of a FeasiblePlan cannot be
-/// changed.
+/// A plan that has passed the feasibility test of MakeFeasible. Only MakeFeasible creates a
+/// FeasiblePlan, and cars are driven only along a FeasiblePlan. The path, speeds and steering of a
+/// FeasiblePlan cannot be changed.
 class FeasiblePlan {
  public:
   /// Makes an empty plan, without path and speed.
@@ -90,7 +91,8 @@ class FeasiblePlan {
   [[nodiscard]] const Plan* operator->() const { return &plan_; }
   operator const Plan&() const { return plan_; }  // NOLINT(google-explicit-constructor)
 
-  /// Adds a remark to the plan. Remarks and diagnostics do not change what the car drives.
+  /// Adds a remark for the user to the plan's notes. Remarks and diagnostics of a plan do not
+  /// change how the car drives.
   void AddNote(std::string note) { plan_.notes.push_back(std::move(note)); }
   [[nodiscard]] PlanDiagnostics& diagnostics() { return plan_.diagnostics; }
 
@@ -102,11 +104,12 @@ class FeasiblePlan {
 };
 
 /// Tests the plan, and applies the policy of the request if the plan exceeds a limit. The policy
-/// slows the plan down where it exceeds the limit, rejects the plan (kInfeasible), or leaves it
-/// unchanged. Plan::notes states what was done. A plan whose status is not kOk stays unchanged. A
-/// plan that would have to be slower than 0.1 m/s is rejected. With PlanRequest::limits, the
-/// function replaces the planned speeds by the speeds at the car's limit. A plan with speeds at the
-/// car's limit is rejected if the car cannot follow the path or starts too fast.
+/// slows the plan down where the plan exceeds the limit, rejects the plan (kInfeasible), or leaves
+/// the plan unchanged. Plan::notes states how the plan was slowed down, or which limits an
+/// unchanged plan exceeds. A plan whose status is not kOk stays unchanged. A plan that would have
+/// to be slower than 0.1 m/s is rejected. With PlanRequest::limits, the function replaces the
+/// planned speeds by the speeds at the car's limit. A plan with speeds at the car's limit is
+/// rejected if the car cannot follow the path or starts too fast.
 FeasiblePlan MakeFeasible(Plan plan, const PlanRequest& request, Refusal refusal = Refusal::kBrief);
 
 /// Makes a PlanRequest that contains a vehicle, speed limits and a road, but no mission.
@@ -114,8 +117,9 @@ PlanRequest RequestOn(const RoadConditions& road, const VehicleParams& vehicle,
                       const SpeedLimits& speed);
 
 /// Same as MakeFeasible, but for a plan that continues another plan: a rerouted plan, or a plan
-/// made during the run. A continuing plan begins at or near the car (replan.h, avoidance.h). The
-/// feasibility test of a continuing plan uses the start of this plan, not the mission's start.
+/// made during the run. A plan that continues another plan begins at or near the car's pose
+/// (replan.h, avoidance.h). The feasibility test of a continuing plan uses the start of this plan,
+/// not the mission's start.
 FeasiblePlan MakeFeasibleFromHere(Plan plan, const PlanRequest& request);
 
 /// Computes the plan's speeds, for closed-loop and open-loop runs, from the plan's path, speed caps
@@ -123,7 +127,7 @@ FeasiblePlan MakeFeasibleFromHere(Plan plan, const PlanRequest& request);
 void SetSpeeds(Plan& plan, double start_speed, const SpeedLimits& limits);
 
 /// Formats an exceeded limit, for example "steering rate 0.95 rad/s exceeds 0.151 rad/s at s = 42
-/// m". If there is a hint (Excess::hint), the hint follows in parentheses.
+/// m". If the excess has a hint (Excess::hint), the text ends with the hint in parentheses.
 std::string ToString(const Excess& excess);
 
 }  // namespace trackbed

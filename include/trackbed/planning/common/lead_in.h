@@ -17,15 +17,15 @@ struct LeadIn {
 };
 
 /// Computes the lead-in, the first meters of a plan, for the car of a request. On the lead-in, the
-/// car first straightens its wheels at the start speed. Then the car continues straight, slows down
-/// to `speed` [m/s] with the deceleration of the request, or less where the road is slippery, and
-/// drives another `beyond` [m].
+/// car first straightens its wheels at the start speed. After straightening its wheels, the car
+/// continues straight, slows down to `speed` [m/s] with the deceleration of the request, or less
+/// where the road is slippery, and drives another `beyond` [m].
 LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond);
 
 /// Returns polylines that leave the start in the direction of the car's heading, the shortest
-/// first. On the first leg of each polyline, a rolling car can stop. Some of the polylines also
-/// make one or two quarter turns, because the first waypoint may be behind the car. Each turn of a
-/// polyline has room for the car's smallest turning radius.
+/// first. The first leg of each polyline is long enough for a rolling car to stop. Some of these
+/// departure polylines also make one or two quarter turns, because the first waypoint may be behind
+/// the car. Each turn of a polyline has room for the car's smallest turning radius.
 std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request);
 
 }  // namespace trackbed

@@ -12,12 +12,13 @@
 /// [1/m], and v the speed as seen from above [m/s]. The ground has the slope z_s along the path,
 /// the slope z_l to the left of the path, and the second derivative of height z_ss along the path
 /// [1/m]. Abbreviations: A^2 = 1 + z_s^2, N^2 = A^2 + z_l^2 and G = g + v^2 z_ss. For an
-/// acceleration a = dv/dt, a point mass of 1 kg needs
+/// acceleration a = dv/dt, with these symbols and abbreviations, a point mass of 1 kg needs
 ///   f_x = A a + z_s G/A,   f_y = (A^2 v^2 kappa + z_l G)/(N A),   f_n = (G - z_l v^2 kappa)/N
 /// as tyre forces (ggv_diagram.h), in addition to the drag.
 ///
-/// The model is steady-state: it neglects the car's yaw acceleration, slip and steering angles. The
-/// model assumes that wheel loads follow the accelerations instantly, and that there is no wind.
+/// The speed model is steady-state: it neglects the car's yaw acceleration, slip and steering
+/// angles. The speed model assumes that wheel loads follow the accelerations instantly, and that
+/// there is no wind.
 namespace trackbed {
 
 /// The quantities that limit the car's speed at a station of the path.
@@ -72,10 +73,10 @@ struct LimitSpeeds {
 /// diagram allows brakes as hard as possible, without a jerk limit. At the first station, the
 /// acceleration may jump.
 ///
-/// The function does not check whether the car can steer fast enough at the resulting speeds; speed
-/// caps (LimitStation::cap) can ensure that. Throws PreconditionError if a number is not finite, if
-/// there are fewer than two stations, or if the stations do not increase. Computing time: 1 to 2 us
-/// per station, 50 % more with a jerk limit.
+/// LimitSpeedsAlong does not check whether the car can steer fast enough at the resulting speeds;
+/// speed caps (LimitStation::cap) can ensure that. Throws PreconditionError if a number is not
+/// finite, if there are fewer than two stations, or if the stations do not increase. Computing
+/// time: 1 to 2 us per station, 50 % more with a jerk limit.
 LimitSpeeds LimitSpeedsAlong(const std::vector<LimitStation>& stations, const GgvDiagram& diagram,
                              const LimitOptions& options, double start_speed, double end_speed);
 

@@ -21,11 +21,11 @@ struct LongLeg {
 /// `excess` [m], > 0, or if there are fewer than two waypoints. The path starts at the first
 /// waypoint, passes the waypoints in their order, and ends at the last waypoint. The stations of
 /// the waypoints are those for which the sum of the distances between path and waypoints is
-/// smallest. Lengths are multiples of a spacing, which is at most a sixteenth of `excess` or, if
-/// larger, a ten thousandth of the path. Time: proportional to the number of waypoints times the
-/// number of samples, at most 10 000. Memory: proportional to the number of waypoints plus the
-/// number of samples. If the whole path exceeds the straight lines by less than `excess`, the
-/// function returns at once.
+/// smallest. Computed lengths are multiples of a sample spacing, which is at most a sixteenth of
+/// `excess` or, if larger, a ten thousandth of the path. Computing time: proportional to the number
+/// of waypoints times the number of path samples, at most 10 000. Memory: proportional to the
+/// number of waypoints plus the number of path samples. If the whole path exceeds the straight
+/// lines by less than `excess`, the function returns nullopt at once.
 std::optional<LongLeg> LongestLeg(const Path& path, const std::vector<Vec2>& waypoints,
                                   double excess);
 

@@ -14,7 +14,9 @@ namespace trackbed {
 /// A grid of square cells in rows along the x axis of the grid. The area outside of the grid does
 /// not count as free.
 struct OccupancyGrid {
-  Pose2 X_WG;         ///< Pose of the middle of cell 0. Columns go along x, rows along y.
+  /// Pose of the grid's frame, at the middle of cell 0. The column index grows along x, the row
+  /// index along y.
+  Pose2 X_WG;
   double cell = 1.0;  ///< Side length of a cell [m], > 0.
   int columns = 0;
   int rows = 0;

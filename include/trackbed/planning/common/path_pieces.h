@@ -53,11 +53,11 @@ double SteeringRateOn(const VehicleParams& vehicle, std::span<const Bend> bends,
                       const PieceSpeed& speed);
 
 /// Returns a speed of at most `at.speed` with which the car needs at most the steering rate `rate`
-/// [rad/s] in all of the `bends`. Returns infinity if the steering rate that the car needs at
-/// `at.speed` is at most `rate`. For an understeering car, the required steering rate increases
-/// with the speed, so the returned speed is the largest possible one, to nine digits. The argument
-/// `at` also contains the acceleration of the car and the friction of the road. A `rate` of 0 means
-/// that the steering rate is not limited.
+/// [rad/s] in all of the `bends`. Returns infinity (no speed limit is needed) if the steering rate
+/// that the car needs at `at.speed` is at most `rate`. For an understeering car, the required
+/// steering rate increases with the speed, so the returned speed is the largest possible one, to
+/// nine digits. Besides the speed, the argument `at` contains the acceleration of the car and the
+/// friction of the road. The value 0 of `rate` means that the steering rate is not limited.
 double SpeedForSteeringRate(const VehicleParams& vehicle, std::span<const Bend> bends, double rate,
                             const PieceSpeed& at);
 

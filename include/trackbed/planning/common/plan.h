@@ -30,7 +30,7 @@ class Track;
 struct TrackLaps {
   /// Track of the mission; null if the mission is not on a track.
   std::shared_ptr<const Track> track{};
-  int laps = 1;  ///< Number of laps to drive, >= 1.
+  int laps = 1;  ///< Number of laps of the track to drive, >= 1.
 };
 
 /// Describes the laps of a plan on a closed track.
@@ -47,7 +47,8 @@ struct PlannedLaps {
 struct LaneMission {
   /// Road network of the mission; null if the mission is not on roads.
   std::shared_ptr<const RoadNetwork> network{};
-  std::vector<LanePlace> route{};  ///< Places that the route visits, from the first to the last.
+  /// Places on lanes that the route visits, from the first to the last.
+  std::vector<LanePlace> route{};
 };
 
 /// A section of a lane-change course that has cones on either side.
@@ -65,7 +66,7 @@ struct PlannedWait {
 
 /// A node of a search tree. The first node of a tree is the start, which is its own parent.
 struct TreeNode {
-  Vec2 position{0.0, 0.0};  ///< Position of the node [m].
+  Vec2 position{0.0, 0.0};  ///< Position of the tree's node [m].
   std::size_t parent = 0;   ///< Index of the node's parent in the tree.
   double cost = 0.0;        ///< Length of the path along the tree from the start to the node [m].
 };
@@ -92,7 +93,7 @@ struct PlanRequest {
   SpeedLimits speed;       ///< Speed, acceleration and deceleration of the mission.
   std::uint64_t seed = 0;  ///< Seed of the planner's random numbers.
   /// Returns the current time [s] from an arbitrary origin. Only planners with a time limit call
-  /// `clock`. If `clock` is empty, time limits are ignored.
+  /// `clock`. If `clock` is empty, planners ignore their time limits.
   std::function<double()> clock{};
   /// Maximum number of random samples that the planner may draw for all search trees together
   /// (PlanDiagnostics::samples), regardless of the planner's options. The maximum number of samples
@@ -111,7 +112,7 @@ struct PlanRequest {
   /// than `max_waypoint_miss` (kWaypointMissed), unless the plan is partial.
   std::optional<double> max_waypoint_miss{};
   /// The car's limits, if the planned speeds should be as high as these limits allow. If `limits`
-  /// is nullopt, the planned speeds follow the mission's `speed`.
+  /// is nullopt, the planned speeds follow the mission's speed limits `speed`.
   std::optional<SpeedAtLimit> limits{};
 };
 
@@ -161,7 +162,7 @@ struct Plan {
   PlanDiagnostics diagnostics;  ///< Describes how the plan was found, for plan.json.
   /// Whether the path interpolates samples of a motion, at most 0.1 m apart. The steering schedule
   /// of a sampled path has the steering rates of the sampled motion. Between the samples, the
-  /// interpolated path may require a higher steering rate than the motion.
+  /// interpolated path may require a higher steering rate than the sampled motion.
   bool sampled = false;
   PlannedLaps laps;  ///< Laps of a plan on a track.
   /// Roads whose lanes the plan follows; null if the plan does not follow lanes.
