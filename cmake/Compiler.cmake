@@ -23,8 +23,8 @@ target_compile_options(
             # the deprecated functions that Trackbed's sources call.
             $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
             # Debian 12's Boost 1.74 casts integers outside an enumeration's range, which is an
-            # error for Clang 16 and later. Clang 20 no longer has the flag that turns this error
-            # off.
+            # error for Clang 16 and later. Clang 20 no longer has a flag to turn off the error
+            # about such casts.
             $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,16>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,20>>:-Wno-enum-constexpr-conversion>
             # Allow long string literals, because the report page is a single literal
             # (ReportPage.cmake).

@@ -1,5 +1,5 @@
 # Finds all libraries among the installed Debian packages (scripts/packages/). MuJoCo may also come
-# from the Python wheel that scripts/setup unpacks. CMake itself downloads nothing.
+# from the Python wheel that scripts/setup unpacks. CMake does not download any library.
 include_guard()
 if(NOT DEFINED TRACKBED_MUJOCO AND EXISTS ${PROJECT_SOURCE_DIR}/build/mujoco)
   set(default_mujoco wheel)

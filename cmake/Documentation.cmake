@@ -1,6 +1,6 @@
-# Installs README.md, docs/ and all files that these pages link, so that links and pictures work
-# without the source tree. Models, scenarios and headers become links to their installed locations;
-# files of tests/, src/ and other folders are copied.
+# Installs README.md, docs/ and all files that these pages link, so that the pages' links and
+# pictures work without the source tree. Models, scenarios and headers become links to their
+# installed locations; files of tests/, src/ and other folders are copied.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN inputs.sha256 EXCLUDE)
 

@@ -37,7 +37,7 @@ foreach(module IN LISTS modules)
 endforeach()
 
 # Headers that programs may include (docs/how-to/embed.md). The public headers and all headers that
-# they include are installed. All other headers are internal.
+# they include are installed. Headers that are not installed are internal.
 set(public_headers
     trackbed.h
     analysis/compare_runs.h
@@ -76,7 +76,8 @@ set(public_headers
 if(NOT TARGET trackbed_testing)
   list(FILTER public_headers EXCLUDE REGEX "^testing/")
 endif()
-# The includes are followed when installing: they may have changed since the configuration.
+# The installation follows the `#include` lines of the public headers anew, because these may have
+# changed since the configuration.
 install(
   CODE "set(include_folder \"${PROJECT_SOURCE_DIR}/include\")
 set(destination \"${CMAKE_INSTALL_INCLUDEDIR}\")
@@ -87,7 +88,7 @@ set_target_properties(trackbed_library PROPERTIES EXPORT_NAME trackbed)
 set_target_properties(trackbed_cli PROPERTIES EXPORT_NAME cli_library)
 set_target_properties(trackbed PROPERTIES EXPORT_NAME cli)
 # Installs MuJoCo from the wheel or the archive into a private folder with the layout of an archive.
-# Projects that link Trackbed compile against MuJoCo's headers in this folder.
+# Projects that link Trackbed compile against MuJoCo's headers in this private folder.
 set(mujoco_folder ${CMAKE_INSTALL_LIBDIR}/trackbed/mujoco)
 if(TRACKBED_MUJOCO_FOLDER)
   install(DIRECTORY ${TRACKBED_MUJOCO_FOLDER}/include/mujoco DESTINATION ${mujoco_folder}/include)

@@ -1,6 +1,6 @@
 # Finds the dependencies of Trackbed's libraries, for Trackbed's own build and for projects that
-# link the installed package. Projects that link shared libraries (trackbed_SHARED) need only the
-# dependencies of public headers.
+# link the installed package. Projects that link Trackbed's shared libraries (trackbed_SHARED) need
+# only the dependencies of public headers.
 find_package(fmt REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Boost 1.74 REQUIRED CONFIG) # CMake 3.30 deprecates its own module
@@ -45,8 +45,8 @@ trackbed_find_library(libzip::zip zip.h zip)
 trackbed_find_library(dlib::dlib dlib/global_optimization.h dlib)
 # libcsv has neither a pkg-config file nor a CMake package.
 trackbed_find_library(csv::csv csv.h csv)
-# Libraries that read bags of ROS 2. The CMake package of zstd and the pkg-config file of lz4 are not
-# used, because not every Debian release has them.
+# Finds the libraries that read ROS 2 bags. The CMake package of zstd and the pkg-config file of lz4
+# are not used, because not every Debian release has them.
 find_package(fastcdr REQUIRED)
 find_package(SQLite3 3.40 REQUIRED)
 trackbed_find_library(lz4::lz4 lz4frame.h lz4)

@@ -27,7 +27,7 @@ function(trackbed_link_folder dir link source)
   file(CREATE_LINK ${source} ${dir}/${link} SYMBOLIC)
 endfunction()
 
-# Lets a unity build compile the sources of a folder in groups of eight.
+# Lets a unity build (which compiles several sources as one) group the sources of a folder by eight.
 function(trackbed_group folder)
   set(count 0)
   foreach(source IN LISTS ARGN)

@@ -26,7 +26,8 @@ endfunction()
 
 set(TRACKBED_MUJOCO_FOLDER "")
 if(TARGET mujoco::mujoco)
-  # Nothing to do: the including project has already defined the target mujoco::mujoco.
+  # The including project may already have defined the target mujoco::mujoco; this file then does
+  # nothing.
 elseif(TRACKBED_MUJOCO STREQUAL "debian")
   find_package(mujoco CONFIG QUIET)
   if(NOT mujoco_FOUND)
@@ -34,7 +35,7 @@ elseif(TRACKBED_MUJOCO STREQUAL "debian")
                         "or set mujoco_DIR")
   endif()
   # Debian's MuJoCo 2.2.2 exports an include folder of libqhull-dev that may not exist; CMake would
-  # reject the target because of a missing folder.
+  # reject the target because of the missing folder.
   get_target_property(folders mujoco::mujoco INTERFACE_INCLUDE_DIRECTORIES)
   set(existing "")
   foreach(folder IN LISTS folders)

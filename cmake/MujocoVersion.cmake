@@ -19,7 +19,7 @@ endif()
 set(mujoco_headers ${CMAKE_MATCH_1})
 set(mujoco_library ${CMAKE_MATCH_2})
 set(TRACKBED_MUJOCO_VERSION ${CMAKE_MATCH_3})
-# Repeat the check of MuJoCo's version at each configuration, because the library may have been
+# Repeat the check of MuJoCo's version at each configuration, because MuJoCo's library may have been
 # replaced.
 unset(mujoco_version_exit CACHE)
 unset(mujoco_version_compiles CACHE)

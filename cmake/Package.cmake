@@ -36,8 +36,8 @@ function(trackbed_owner_of library variable)
   endif()
 endfunction()
 
-# The package requires OSMesa, or EGL with Mesa's drivers. A single list of alternatives cannot
-# express the condition "OSMesa, or both EGL and Mesa's drivers", but two lists can.
+# The package requires OSMesa, or EGL with Mesa's drivers. In the package's dependencies, a single
+# list of alternatives cannot express "OSMesa, or both EGL and Mesa's drivers", but two lists can.
 set(depends "libosmesa6 | libegl1" "libosmesa6 | libgl1-mesa-dri")
 if(TRACKBED_VIDEO)
   foreach(library IN ITEMS avformat avcodec swscale avutil)

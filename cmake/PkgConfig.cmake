@@ -1,6 +1,6 @@
 # Writes trackbed.pc for builds without CMake: the modules' link libraries in pkg-config syntax. A
-# program that links static modules must also link all libraries that the modules use. A program
-# that links shared modules needs only the dependencies of public headers, and so does the compiler.
+# program that links static modules must also link all libraries that the modules use. To compile
+# and link with shared modules, a program needs only the dependencies of their public headers.
 
 set(mujoco -lmujoco)
 if(TRACKBED_MUJOCO_FOLDER)
@@ -54,7 +54,8 @@ foreach(module IN LISTS modules)
   else()
     get_target_property(links trackbed_${name} LINK_LIBRARIES)
   endif()
-  # Exclude Trackbed's own modules and libraries that only Trackbed's own build uses.
+  # Exclude from trackbed.pc Trackbed's own modules and the libraries that only Trackbed's own build
+  # uses.
   list(FILTER links EXCLUDE REGEX "^trackbed_|^\\$<")
   foreach(library IN LISTS links)
     if(NOT ";${pkg_config_names};" MATCHES ";${library}=([^;]*);")

@@ -4,7 +4,8 @@
 # sources. KIND selects the headers and the optimization:
 #   NUMERICS  standard containers, fmt and Eigen, with the optimization of the preset.
 #   LIGHT     also JSON, with -O1, for targets that read, write and evaluate results. Full
-#             optimization of these targets took a third of the compile time without benefit.
+#             optimization of the targets of kind LIGHT took a third of the compile time without
+#             benefit.
 #   TESTS     as LIGHT, with GoogleTest.
 #
 # All targets of a kind share one precompiled header, because GCC takes the optimization level from

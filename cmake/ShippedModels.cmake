@@ -1,5 +1,5 @@
-# Generates a C++ file with the SHA-256 hash of every file in models/. A model in any location
-# counts as shipped with Trackbed if the hashes of all its files are in this list.
+# Generates a C++ file with the SHA-256 hash of every file in models/. A model in any folder counts
+# as shipped with Trackbed if the hashes of all its files are in the generated list.
 file(GLOB_RECURSE model_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/models/*)
 set(shipped_hashes "")
 foreach(file IN LISTS model_files)

@@ -18,8 +18,8 @@ execute_process(COMMAND gzip -9n ${doc}/changelog ${pages} COMMAND_ERROR_IS_FATA
 file(MAKE_DIRECTORY ${root}/share/lintian/overrides)
 file(COPY_FILE ${CPACK_TRACKBED_PACKAGING}/lintian-overrides ${root}/share/lintian/overrides/trackbed)
 
-# Strip the debug symbols here, because CPACK_STRIP_FILES skips static libraries and files that this
-# build did not compile.
+# Strip the debug symbols in this script, because CPACK_STRIP_FILES skips static libraries and files
+# that this build did not compile.
 file(GLOB libraries ${root}/lib/*.a)
 execute_process(COMMAND strip --strip-debug --remove-section=.comment --remove-section=.note
                         --enable-deterministic-archives ${libraries} COMMAND_ERROR_IS_FATAL ANY)

@@ -7,8 +7,8 @@ set(linked "")
 foreach(page IN LISTS pages)
   get_filename_component(folder ${page} DIRECTORY)
   file(READ ${page} text)
-  # Remove the square brackets of links, because CMake does not split a list at semicolons between
-  # brackets.
+  # Remove the square brackets of Markdown links, because CMake does not split a list at semicolons
+  # between brackets.
   string(REPLACE "](" "LINK:" text "${text}")
   string(REGEX MATCHALL "LINK:[^)#: ;]+" links "${text}")
   foreach(link IN LISTS links)

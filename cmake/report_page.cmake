@@ -1,7 +1,7 @@
 # Writes OUTPUT, a C++ file that defines the texts declared in src/report/page_text.h.
 
-# Replaces the placeholders in page.html, which have the form <!-- part --> and are each on a
-# separate line.
+# Replaces the placeholders in the report's template page.html, which have the form <!-- part -->
+# and are each on a separate line.
 file(READ ${PAGE}/page.html page)
 function(put part text)
   string(FIND "${page}" "<!-- ${part} -->" place)

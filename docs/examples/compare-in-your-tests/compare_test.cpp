@@ -1,5 +1,5 @@
-// Compares kinematic with dynamic tracking in a GoogleTest: drives a scenario and checks what must
-// hold.
+// Compares kinematic with dynamic tracking in a GoogleTest: drives a scenario and checks bounds on
+// the differences.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

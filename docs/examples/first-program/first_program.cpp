@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-// Plans a turn, simulates it on two plants, and compares them: how far from the kinematic car does
-// the car with tyres drive?
+// Plans a turn, simulates the turn on two plants, and compares the plants: how far from the
+// kinematic car does the car with tyres drive?
 int main() {
   trackbed::Scenario scenario;
   scenario.name = "corner";

@@ -37,9 +37,9 @@ def plan(request, *, lanelets: str, join: float = 30.0, beyond: float = 20.0):
     points = points[numpy.append(True, steps > 1e-6)]
     s = numpy.append(0.0, numpy.cumsum(numpy.hypot(*numpy.diff(points, axis=0).T)))
 
-    # The car starts beside the path: shift the path so that it begins at the car. The shift is a
-    # quintic polynomial that decreases to zero over `join` meters. The car's center has to reach
-    # the goal, so the path of the rear axle continues beyond the goal.
+    # The car starts beside the path: shift the path so that it begins at the car. The lateral shift
+    # of the path is a quintic polynomial that decreases to zero over `join` meters. The car's
+    # center has to reach the goal, so the path of the rear axle continues beyond the goal.
     start = numpy.array(request.start[:2])
     fine = numpy.arange(0.0, s[-1], 0.25)
     path = numpy.column_stack([numpy.interp(fine, s, points[:, axis]) for axis in (0, 1)])

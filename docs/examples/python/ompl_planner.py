@@ -12,7 +12,7 @@ import trackbed
 util.RNG.setSeed(1)  # OMPL can be seeded only once in a process.
 util.setLogLevel(util.LogLevel.LOG_WARN)
 
-# Largest distance of the smooth path from the Dubins curves, whose curvature jumps [m].
+# Largest distance of the smoothed path from the Dubins curves, whose curvature jumps [m].
 DEVIATION = 0.3
 
 
