@@ -167,9 +167,9 @@ class ActuatorModel {
   double highest_;  // Limits of the steering angle before lag and backlash.
   double lowest_;
   double moved_ = 1.0;          // Fraction of a step completed after lagging for a period.
-  double crossing_lead_ = 1.0;  // Amplification of a step that crosses the backlash.
+  double crossing_lead_ = 1.0;  // Amplification of a command step across the backlash.
   bool crosses_ = false;        // Whether the actuator crosses the backlash after a reversal.
-  double lead_ = 1.0;           // Amplification of a step that does not cross the backlash.
+  double lead_ = 1.0;           // Amplification of a command step without backlash crossing.
   double wanted_;               // Last steering angle that the control law wanted.
   double target_;               // Output of the calibration curve, before backlash.
   double resting_;              // Angle at which the actuator comes to rest after the last command.

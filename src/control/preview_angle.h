@@ -16,8 +16,8 @@ double PreviewStation(const SomePath& path, const Vec2& p, double station, doubl
     return station + distance;
   }
   // A path leaves the circle of radius `distance` around `p` no earlier than a straight path would.
-  // Steps of `distance`/8 find the path's first crossing of the circle if its radii of curvature
-  // exceed one step.
+  // Sampling the path in steps of `distance`/8 finds its first crossing of the circle, if all radii
+  // of curvature of the path exceed one step.
   const double stride = distance / 8.0;
   double inside = station;
   while (beyond(inside + stride) < 0.0) {

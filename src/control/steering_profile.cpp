@@ -34,7 +34,7 @@ double Phase(const SweptSineOptions& options, double tau) {
     return 2.0 * kPi * (f0 + 0.5 * (f1 - f0) * tau / options.duration) * tau;
   }
   // Compute (e^k - 1)/k, with k = ln(f1/f0) tau/duration, by expm1, which is precise for almost
-  // equal frequencies f0 and f1. For equal frequencies, the limit is 1.
+  // equal frequencies f0 and f1. For f0 = f1, the quotient (e^k - 1)/k has the limit 1.
   const double k = std::log(f1 / f0) * tau / options.duration;
   return 2.0 * kPi * f0 * tau * (k == 0.0 ? 1.0 : std::expm1(k) / k);
 }

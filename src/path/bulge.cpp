@@ -114,9 +114,9 @@ bool IsStraighter(const std::vector<double>& turns, const std::vector<double>& l
 /// Returns the ascending fractions of a step between two knots at which points are added. The
 /// distances between the added points grow from `first` [m] at the beginning and `last` [m] at the
 /// end towards the middle of the step. A spline of degree 5 oscillates about its points; between
-/// equidistant knots, the oscillation shrinks from knot to knot by a factor of about 0.43. The
-/// distances between added points grow by much less than the factor 1/0.43, so the oscillation
-/// shrinks despite this growth.
+/// equidistant knots, the oscillation shrinks from knot to knot by a factor of about 0.43. From
+/// one added point to the next, the distance grows by less than 1/0.43, so that the oscillation of
+/// the spline still shrinks.
 std::vector<double> SharesOn(double length, double first, double last) {
   constexpr double kGrowth = 1.25;
   std::vector<double> begin;

@@ -46,7 +46,8 @@ class BagPoseColumns {
 
   [[nodiscard]] bool are_there() const { return position_.has_value(); }
 
-  /// Adds the pose to the points. Returns false if a number is not finite or too large.
+  /// Appends the pose in a row of the bag to the path's points. Returns false if a number is not
+  /// finite or too large.
   bool Take(const std::vector<double>& row, PathPoints& points) {
     const Vec2 position(row[(*position_)[0]], row[(*position_)[1]]);
     if (!position.allFinite() || position.cwiseAbs().maxCoeff() > kMaxPosition) {

@@ -323,11 +323,11 @@ GgvSection ComputeSection(const GripModel& car, double road, double speed) {
   return section;
 }
 
-/// Returns the speeds of the sections of a diagram [m/s]. Sections are interpolated linearly in the
-/// squared speed, because drag and its load transfer are linear in it. The curvature of a turn is
-/// inversely proportional to the squared speed, so the squared speed doubles from each section to
-/// the next. At the lowest speed of the diagram, a turn at the steering limit needs 1 g; at lower
-/// speeds, no turn reaches the grip limit.
+/// Returns the speeds at which a g-g-v diagram is tabulated (its sections) [m/s]. Sections are
+/// interpolated linearly in the squared speed, because drag and its load transfer are linear in it.
+/// The curvature of a turn is inversely proportional to the squared speed, so the squared speed
+/// doubles from each section to the next. At the lowest speed of the diagram, a turn at the
+/// steering limit needs 1 g; at lower speeds, no turn reaches the grip limit.
 std::vector<double> TableSpeeds(const GripModel& car, double top) {
   std::vector<double> speeds;
   const double slowest = std::sqrt(kGravity * car.wheelbase / std::tan(car.steering_limit));

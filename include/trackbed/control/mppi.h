@@ -55,7 +55,7 @@ struct MppiOptions {
   /// Ratio of lambda (in the weights exp(-cost/lambda)) to the spread of the roll-outs' costs [1],
   /// > 0.
   double temperature = 0.1;
-  /// Factor on the standard deviation of the largest steering-rate deviations [1], > 0. The factor
+  /// Scales the random deviations of the steering rate in the roll-outs [1], > 0. The factor
   /// on the steering-rate deviations multiplies the smaller one of two rates: the car's steering
   /// rate, and the rate at which random steering reaches the lateral grip at the end of the
   /// horizon.

@@ -268,10 +268,10 @@ void CheckScenario(const Scenario& scenario);
 /// Formats the scenario as YAML, including all default values. ReadScenario reads an equal scenario
 /// from this YAML, in any folder. The YAML has the coordinates of the scenario's own file, and
 /// states the local origin in the key `origin`. A model that is given by a path is written with its
-/// absolute path. The caller must write data from other files to the folder of the YAML file. A
-/// recording is written as `recording.csv` (RecordingCsv), a recorded drive as `record.csv`
-/// (RecordCsv), and a track as `track.csv` (TrackCsv). A map is written as `map.yaml` and `map.pgm`
-/// (map_file.h), and a road network as `road_network.xodr`.
+/// absolute path. The caller must write the data of a recording, a drive, a track or a map to the
+/// folder of the YAML file. A recording is written as `recording.csv` (RecordingCsv), a recorded
+/// drive as `record.csv` (RecordCsv), and a track as `track.csv` (TrackCsv). A map is written as
+/// `map.yaml` and `map.pgm` (map_file.h), and a road network as `road_network.xodr`.
 std::string ResolvedYaml(const Scenario& scenario);
 
 /// Formats the keys and values of a method's options on one line, such as "distance: 2.5, law:

@@ -10,8 +10,8 @@
 /// Proposes a car file (docs/models.md) for a vehicle model that was written for another program.
 namespace trackbed {
 
-/// Answers to questions that the geometry of a model leaves open. The options of `trackbed model
-/// --adapt` have the names of the members of AdaptOptions.
+/// Options of the adaptation, with answers to questions that the vehicle's geometry leaves open.
+/// The options of `trackbed model --adapt` have the names of the members of AdaptOptions.
 struct AdaptOptions {
   /// Folders for meshes (SceneOptions::asset_folders).
   std::vector<std::filesystem::path> asset_folders{};

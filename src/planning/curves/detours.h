@@ -16,8 +16,9 @@ using CurveLength = std::function<double(const Pose2&, const Pose2&, double)>;
 /// smallest turning radius or more. A path that stops between start and goal, or that the car
 /// cannot drive from its start speed, is a detour, too. If the request has no headings, the
 /// function tries two remedies against a detour or a refusal. The first remedy is other headings at
-/// the waypoints between start and goal. The tried headings are those of the shortest curves among
-/// sixteen directions per waypoint, for up to three turning radii. The second remedy leaves out
+/// the waypoints between start and goal. At each of these waypoints, the
+/// function tries sixteen directions. It uses the headings that give the shortest curves, for up to
+/// three turning radii. The second remedy leaves out
 /// waypoints within a quarter of the car's width from the lines between the other waypoints, if the
 /// path passes them within this distance. A note names the waypoints left out.
 ///

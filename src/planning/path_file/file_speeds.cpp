@@ -71,10 +71,10 @@ std::vector<Standstill> PointsWithoutSpeed(const FittedPath& fitted) {
 }
 
 /// Returns for how long the car stands during the time step between the points i and j [s]. The car
-/// stands at point i and moves at its neighbor j. A car that starts at constant acceleration a
-/// reaches the speed v after the distance d = v^2/(2 a) and the time 2 d/v; at constant jerk, after
-/// 3 d/v. A time step of at most 3 d/v, up to rounding of the file, counts as pure starting without
-/// standing.
+/// has the speed 0 at point i, and moves at the neighboring point j. A car that starts at constant
+/// acceleration a reaches the speed v after the distance d = v^2/(2 a) and the time 2 d/v; at
+/// constant jerk, after 3 d/v. A time step of at most 3 d/v, up to rounding of the file, counts as
+/// pure starting without standing.
 double StandingPart(const FittedPath& fitted, std::size_t i, std::size_t j) {
   const double step = std::abs(fitted.given.time[j] - fitted.given.time[i]);
   const double distance = std::abs(fitted.stations[j] - fitted.stations[i]);

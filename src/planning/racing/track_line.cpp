@@ -197,8 +197,8 @@ double SteeringRateOn(const Join& join, const Track& track, const TrackLine& lin
   return fastest;
 }
 
-/// Returns the transition from the car to the line. If a rolling car cannot steer fast enough on
-/// the usual transition, the transition is longer, up to half a lap.
+/// Returns the transition from the car to the racing line. If a rolling car cannot steer fast
+/// enough on the usual transition to the line, the transition is lengthened to at most half a lap.
 Join DrivableJoin(const Track& track, const TrackLine& line, const FrenetState& car,
                   const PlanRequest& request) {
   constexpr double kGrowth = 1.25;

@@ -128,7 +128,7 @@ std::optional<Vec2> Meeting(const Vec2& a, const Vec2& b, const Vec2& c, const V
 
 /// Returns the points of a path, and the corners at which two of its lines meet if both are
 /// extended. Between the two lines of a corner are at least one and fewer than kSpan other lines.
-/// The corners are sorted by the first line of each corner.
+/// The corners are sorted in the order of the path.
 std::vector<OuterCorner> WithOuterCorners(const std::vector<Vec2>& way) {
   std::vector<OuterCorner> corners{{way.front(), 0}};
   for (std::size_t i = 0; i + 1 < way.size(); ++i) {

@@ -81,9 +81,10 @@ inline constexpr Key kCornerCost{
     "corner_cost", "m", "cost of a corner, as path length: favors fewer corners and longer legs"};
 
 /// Checks whether the car is clear of obstacles at its start, and whether the first points of the
-/// path are free. The first points are free if the lines between them keep the distance
-/// `task.lead_inflation` from obstacles. An initial straight is also free if the car's footprint
-/// keeps `safe_distance`. If a check fails, returns a failed plan with the reason.
+/// path are free. The first points are free (of collisions) if all lines between
+/// two successive points keep the distance `task.lead_inflation` from obstacles. An initial
+/// straight is also free if the car's footprint keeps `safe_distance`. If a check fails, returns a
+/// failed plan with the reason.
 Plan CheckLeadIn(const SamplingTask& task, const PlanRequest& request, double safe_distance);
 
 /// Tangent lengths of corners at the lowest speed, tabulated by heading change.
