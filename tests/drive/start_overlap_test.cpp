@@ -55,7 +55,9 @@ TEST(StartOverlap, RefusesTheRun) {
 }
 
 TEST(PlanScenario, SaysHowToLeaveAnObstacleToReplanning) {
-  const std::string replan = "{global: {method: dubins}, replan: {along: {method: frenet}}}";
+  // Arcs from and to poses on a line cannot pass the obstacle; curves with turned wheels can.
+  const std::string arcs = "{method: dubins, curvature: steps}";
+  const std::string replan = "{global: " + arcs + ", replan: {along: {method: frenet}}}";
   const FeasiblePlan refused = PlanScenario(ScenarioWith(50.0, 0.2, "", replan), ReferenceCar());
   ASSERT_FALSE(refused.ok());
   EXPECT_NE(refused->reason.find("to leave an obstacle to plan.replan, give it known_from: {time: "
@@ -67,7 +69,7 @@ TEST(PlanScenario, SaysHowToLeaveAnObstacleToReplanning) {
       PlanScenario(ScenarioWith(50.0, 0.2, ", known_from: {time: 0.1}", replan), ReferenceCar())
           .ok());
   // If the car did not replan during the run, the remedies of the hint would be wrong.
-  const FeasiblePlan alone = PlanScenario(ScenarioWith(50.0, 0.2, ""), ReferenceCar());
+  const FeasiblePlan alone = PlanScenario(ScenarioWith(50.0, 0.2, "", arcs), ReferenceCar());
   ASSERT_FALSE(alone.ok());
   EXPECT_EQ(alone->reason.find("known_from"), std::string::npos) << alone->reason;
 }
