@@ -101,9 +101,14 @@ TEST(WaypointMetrics, OfSearchesAreAtMostACarLengthUnlessAsked) {
 }
 
 TEST(WaypointMetrics, OfFilletAreBoundedIfAsked) {
-  const RunResult refused = Drive("{method: fillet, max_waypoint_miss: 4}", kHairpin);
+  const RunResult refused =
+      Drive("{method: fillet, max_waypoint_miss: 4}", "[[0, 0], [300, 0], [0, 40]]");
   EXPECT_EQ(refused.plan->status, PlanStatus::kWaypointMissed);
-  EXPECT_THAT(refused.plan->reason, HasSubstr("waypoint 1 at (60, 0) is missed by "));
+  EXPECT_THAT(refused.plan->reason, HasSubstr("waypoint 1 at (300, 0) is missed by "));
+  // In this hairpin, the smallest arc has no room on legs of 60 m, whatever the bound.
+  const RunResult tight = Drive("{method: fillet, max_waypoint_miss: 4}", kHairpin);
+  EXPECT_EQ(tight.plan->status, PlanStatus::kTurnTooTight);
+  EXPECT_THAT(tight.plan->reason, HasSubstr("turn of 161.6 deg at waypoint 1"));
   const RunResult near =
       Drive("{method: fillet, max_waypoint_miss: 4}", "[[0, 0], [60, 0], [60, 60]]");
   ASSERT_TRUE(near.plan.ok()) << near.plan->reason;
