@@ -129,8 +129,7 @@ class SharpEnd {
     return TurnByAngle(circle_, Deflection(side, alpha), half.dot(side.half),
                        order_ * side.side * Cross(side.half, half));
   }
-  /// Returns the heading change alpha of a turn that only straightens the wheels, with the unit
-  /// vector in the direction of half of this heading change.
+  /// Heading change alpha of a turn that only straightens the wheels, with the direction alpha/2.
   [[nodiscard]] HalvedAngle neutral() const {
     return {neutral_, sides_[state_ > 0.0 ? 0 : 1].half};
   }
