@@ -241,9 +241,9 @@ TEST(Tutorial, EndsAsItsPageSays) {
   const std::filesystem::path run = newcomer.corner() / "out/corner";
   const std::filesystem::path kinematic = run / "kinematic.csv";
   const std::filesystem::path tyres = run / "mujoco-magic_formula.csv";
-  EXPECT_THAT(text, testing::HasSubstr(fmt::format(
-                        "The wheels, however, need {:.2f} s to turn from straight ahead",
-                        NumberIn(run / "plan.json", "ramp_time_s"))));
+  EXPECT_THAT(text,
+              testing::HasSubstr(fmt::format("The wheels need {:.2f} s to turn from straight ahead",
+                                             NumberIn(run / "plan.json", "ramp_time_s"))));
   EXPECT_THAT(
       text,
       testing::HasSubstr(fmt::format(
@@ -255,7 +255,8 @@ TEST(Tutorial, EndsAsItsPageSays) {
   EXPECT_THAT(
       text,
       testing::HasSubstr(fmt::format(
-          "this car's yaw rate is {:.2f} times the value that the kinematic model predicts",
+          "the yaw rate of the car on tyres is {:.2f} times the value that the kinematic model "
+          "predicts",
           NumberIn(newcomer.corner() / "out/longer_preview/metrics.json", "yaw_rate_ratio"))));
 }
 
