@@ -130,15 +130,17 @@ class VectorLoop {
 class ObservationRows {
  public:
   explicit ObservationRows(std::size_t count)
-      : rows_({count, std::size(kFields)}), cells_(rows_.mutable_data()) {}
+      : rows_({count, kFields.size()}), cells_(rows_.mutable_data()) {}
 
   /// Writes the observation of a loop to its row; needs no GIL.
   void Write(std::size_t row, const SteppedLoop& loop) {
     const Observation seen = Observe(loop);
-    double* cell = cells_ + row * std::size(kFields);
-    for (const Field& field : kFields) {
-      *cell++ = field.value(seen);
+    double* const cells = cells_ + row * kFields.size();
+    // With constant indices, the compiler reads the members instead of calling the functions.
+    [&]<std::size_t... i>(std::index_sequence<i...>) {
+      ((cells[i] = kFields[i].value(seen)), ...);
     }
+    (std::make_index_sequence<kFields.size()>());
   }
 
   [[nodiscard]] const py::array_t<double>& rows() const { return rows_; }
