@@ -263,7 +263,7 @@ class VectorLoop:
         threads: Optional[int] = None,
         log: bool = False,
     ) -> None:
-        self.count = whole("count", count, 1, INT_MAX)
+        self.count: int = whole("count", count, 1, INT_MAX)
         own = self._seeds(seeds)
         if threads is None:
             threads = len(os.sched_getaffinity(0))

@@ -86,7 +86,7 @@ class PlannedPath:
     ) -> None:
         if isinstance(points, Iterator):
             points = list(points)
-        self.points = doubles("points", points).copy()
+        self.points: Array = doubles("points", points).copy()
         shape = self.points.shape
         if len(shape) != 2 or shape[1] not in (2, 3):
             raise ValueError(f"points has the shape {shape}; must be (n, 2) or (n, 3)")
@@ -95,11 +95,13 @@ class PlannedPath:
         if not numpy.isfinite(self.points).all():
             row = int(numpy.argwhere(~numpy.isfinite(self.points))[0][0])
             raise ValueError(f"points[{row}] is {self.points[row].tolist()}; must be finite")
-        self.speed = None if speed is None else array("speed", speed, (shape[0],)).tolist()
+        self.speed: Optional[list[float]] = (
+            None if speed is None else array("speed", speed, (shape[0],)).tolist()
+        )
         if self.speed is not None and min(self.speed) < 0.0:
             raise ValueError(f"speed has the value {min(self.speed)}; must be at least 0")
-        self.notes = texts("notes", notes)
-        self.max_deviation = number("max_deviation", max_deviation)
+        self.notes: list[str] = texts("notes", notes)
+        self.max_deviation: float = number("max_deviation", max_deviation)
         if self.max_deviation <= 0.0:
             raise ValueError(f"max_deviation is {max_deviation}; must be above 0")
 

@@ -53,11 +53,11 @@ class _Arrays:
     """The columns of an unpickled table, with the members of _trackbed.Columns."""
 
     def __init__(self, columns: dict[str, Array]) -> None:
-        self._columns = columns
+        self._columns: dict[str, Array] = columns
         for column in columns.values():
             column.setflags(write=False)
-        self.names = list(columns)
-        self.rows = max((len(column) for column in columns.values()), default=0)
+        self.names: list[str] = list(columns)
+        self.rows: int = max((len(column) for column in columns.values()), default=0)
 
     def column(self, name: str) -> Array:
         return self._columns[name]
@@ -79,9 +79,9 @@ class Columns(Mapping[str, Array]):
 
     def __init__(self, core: Union[_trackbed.Columns, _Arrays]) -> None:
         require_core(self, core, (_trackbed.Columns, _Arrays), self._source)
-        self._core = core
+        self._core: Union[_trackbed.Columns, _Arrays] = core
 
-    _source = "run[plant]"
+    _source: str = "run[plant]"
 
     def __getitem__(self, name: str) -> Array:
         if not isinstance(name, str) or name not in self._core.names:
@@ -135,7 +135,7 @@ class Log(Columns):
 
     def __init__(self, core: Union[_trackbed.Columns, _Arrays], plant: str) -> None:
         super().__init__(core)
-        self.plant = plant
+        self.plant: str = plant
 
     def _arguments(self) -> tuple[Any, ...]:
         return (self.plant,)
@@ -144,7 +144,7 @@ class Log(Columns):
 class Path(Columns):
     """The planned path, points at most 0.1 m apart: s_m, x_m, y_m, yaw_rad, curvature_radpm, ..."""
 
-    _source = "run.path"
+    _source: str = "run.path"
 
 
 class Run(Mapping[str, Log]):
@@ -152,7 +152,7 @@ class Run(Mapping[str, Log]):
 
     def __init__(self, core: _trackbed.RunResult) -> None:
         require_core(self, core, _trackbed.RunResult, "trackbed.run(scenario)")
-        self._core = core
+        self._core: _trackbed.RunResult = core
         self._metrics: Optional[dict[str, Any]] = None
         self._logs: dict[str, Log] = {}
         self._written: Optional[str] = None

@@ -40,11 +40,12 @@ class Key:
         above: Optional[float] = None,
         allowed: Sequence[str] = (),
     ) -> None:
-        self.unit, self.text = _text("unit", unit), _text("text", text)
-        self.min = None if min is None else number("min", min)
-        self.max = None if max is None else number("max", max)
-        self.above = None if above is None else number("above", above)
-        self.allowed = texts("allowed", allowed)
+        self.unit: str = _text("unit", unit)
+        self.text: str = _text("text", text)
+        self.min: Optional[float] = None if min is None else number("min", min)
+        self.max: Optional[float] = None if max is None else number("max", max)
+        self.above: Optional[float] = None if above is None else number("above", above)
+        self.allowed: list[str] = texts("allowed", allowed)
         if self.max is not None:
             if self.min is not None and self.min > self.max:
                 raise ValueError(f"min is {min}, which exceeds max, {max}: no value is allowed")

@@ -161,7 +161,8 @@ class PathTracking(_Tracking, gymnasium.Env[Observed, Actions]):
 
     With render_mode="rgb_array", render() draws the car off-screen: an array of uint8 with the shape
     (height, width, 3). `size` is (width, height) [px], `camera` one of `trackbed render`. A picture
-    takes about 0.3 s; `trackbed.film(env.unwrapped.loop.result(), FILE)` films a whole episode faster.
+    takes about 0.3 s; `trackbed.film(env.get_wrapper_attr("loop").result(), FILE)` films a whole
+    episode faster.
 
     scenario, plant, set: those of trackbed.Loop. The scenario must have a path.
     """
@@ -170,9 +171,9 @@ class PathTracking(_Tracking, gymnasium.Env[Observed, Actions]):
 
     def _start(self) -> None:
         self._loop = Loop(self._scenario, self._plant, self._set, log=self._keeps_log)
-        self.metadata = self._metadata(self._loop)
-        self.action_space = self._actions
-        self.observation_space = self._observations
+        self.metadata: dict[str, Any] = self._metadata(self._loop)
+        self.action_space: gymnasium.Space[Actions] = self._actions
+        self.observation_space: gymnasium.Space[Observed] = self._observations
 
     @property
     def loop(self) -> Loop:
@@ -243,7 +244,7 @@ class VectorPathTracking(
     def __init__(
         self, num_envs: int = 1, *arguments: Any, threads: Optional[int] = None, **named: Any
     ) -> None:
-        self.num_envs = whole("num_envs", num_envs, 1)
+        self.num_envs: int = whole("num_envs", num_envs, 1)
         self._threads = threads
         super().__init__(*arguments, **named)
 
@@ -256,14 +257,14 @@ class VectorPathTracking(
             threads=self._threads,
             log=self._keeps_log,
         )
-        self.metadata = self._metadata(self._cars.loops[0])
+        self.metadata: dict[str, Any] = self._metadata(self._cars.loops[0])
         modes = getattr(gymnasium.vector, "AutoresetMode", None)  # Since Gymnasium 1.1.
         if modes is not None:
             self.metadata["autoreset_mode"] = modes.NEXT_STEP
-        self.single_action_space = self._actions
-        self.single_observation_space = self._observations
-        self.action_space = batch_space(self._actions, self.num_envs)
-        self.observation_space = batch_space(self._observations, self.num_envs)
+        self.single_action_space: gymnasium.Space[Any] = self._actions
+        self.single_observation_space: gymnasium.Space[Any] = self._observations
+        self.action_space: gymnasium.Space[Any] = batch_space(self._actions, self.num_envs)
+        self.observation_space: gymnasium.Space[Any] = batch_space(self._observations, self.num_envs)
         self._column = {name: i for i, name in enumerate(VectorLoop.columns)}
         self._indices = [self._column[name] for name in self._observed]
         self._done = numpy.zeros(self.num_envs, dtype=bool)
