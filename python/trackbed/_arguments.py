@@ -124,6 +124,18 @@ def mapping(name: str, value: object, of: str) -> Mapping[Any, Any]:
     return value
 
 
+def listed(name: str, value: object, count: int) -> Sequence[Any]:
+    """Returns the argument `name`, after checking that it is a list or an array with a value for each of
+    `count` cars."""
+    if isinstance(value, (str, bytes)) or not isinstance(value, (Sequence, numpy.ndarray)):
+        raise TypeError(f"{name} must be a list of whole numbers, not {type_name(value)}")
+    if isinstance(value, numpy.ndarray) and value.ndim != 1:
+        raise ValueError(f"{name} has the shape {value.shape}; must be ({count},)")
+    if len(value) != count:
+        raise ValueError(f"{name} has {len(value)} values; must have {count}, one for each car")
+    return value  # type: ignore[return-value]
+
+
 def path(name: str, value: object) -> str:
     """Returns the path `value` of the argument `name` as a str."""
     try:
@@ -147,10 +159,10 @@ def instance(name: str, value: object, kind: type) -> None:
 
 
 def require_core(owner: object, core: object, kind: Union[type, tuple[type, ...]], source: str) -> None:
-    """Refuses a constructor's argument that a user gives; `source` returns such objects."""
+    """Refuses a constructor's argument that a user gives; `source` says what makes such objects."""
     if not isinstance(core, kind):
         name = type_name(owner)
-        raise TypeError(f"trackbed.{name} takes no {type_name(core)}; {source} returns a {name}")
+        raise TypeError(f"trackbed.{name} takes no {type_name(core)}; {source} a {name}")
 
 
 def doubles(name: str, value: object) -> Array:

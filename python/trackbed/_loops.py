@@ -21,8 +21,10 @@ from ._arguments import (
     changes,
     flag,
     instance,
+    listed,
     load,
     number,
+    require_core,
     row,
     text,
     type_name,
@@ -47,6 +49,7 @@ class LoopState:
     """The complete state of a loop: car, controller, plan, disturbances and log."""
 
     def __init__(self, core: _trackbed.LoopState, prepared: _trackbed.Prepared, plant: str) -> None:
+        require_core(self, core, _trackbed.LoopState, "loop.state returns")
         self._core = core
         self._prepared = prepared
         self._plant = plant
@@ -326,13 +329,8 @@ class VectorLoop:
         """Returns the seed of each car, after checking the argument `seeds`."""
         if seeds is None:
             return None
-        if isinstance(seeds, (str, bytes)) or not isinstance(seeds, (Sequence, numpy.ndarray)):
-            raise TypeError(f"seeds must be a list of whole numbers, not {type_name(seeds)}")
-        if numpy.ndim(seeds) != 1:
-            raise ValueError(f"seeds has the shape {numpy.shape(seeds)}; must be ({self.count},)")
-        if len(seeds) != self.count:
-            raise ValueError(f"seeds has {len(seeds)} values; must have count = {self.count}")
-        return [whole(f"seeds[{i}]", seed, 0) for i, seed in enumerate(seeds)]
+        given = listed("seeds", seeds, self.count)
+        return [whole(f"seeds[{i}]", seed, 0) for i, seed in enumerate(given)]
 
     def step(
         self,

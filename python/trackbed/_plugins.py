@@ -22,6 +22,7 @@ from ._arguments import (
     doubles,
     flag,
     number,
+    require_core,
     text,
     texts,
     type_name,
@@ -119,6 +120,7 @@ class PlanRequest:
     """
 
     def __init__(self, core: _trackbed.PlanRequest) -> None:
+        require_core(self, core, _trackbed.PlanRequest, "a planner receives")
         self._core = core
         self.waypoints: Array = core.waypoints
         self.headings: list[float] = core.headings

@@ -81,7 +81,7 @@ class Columns(Mapping[str, Array]):
         require_core(self, core, (_trackbed.Columns, _Arrays), self._source)
         self._core: Union[_trackbed.Columns, _Arrays] = core
 
-    _source: str = "run[plant]"
+    _source: str = "run[plant] returns"
 
     def __getitem__(self, name: str) -> Array:
         if not isinstance(name, str) or name not in self._core.names:
@@ -144,14 +144,14 @@ class Log(Columns):
 class Path(Columns):
     """The planned path, points at most 0.1 m apart: s_m, x_m, y_m, yaw_rad, curvature_radpm, ..."""
 
-    _source: str = "run.path"
+    _source: str = "run.path returns"
 
 
 class Run(Mapping[str, Log]):
     """A finished run of a scenario. `run["mujoco"]` is the log of the plant mujoco."""
 
     def __init__(self, core: _trackbed.RunResult) -> None:
-        require_core(self, core, _trackbed.RunResult, "trackbed.run(scenario)")
+        require_core(self, core, _trackbed.RunResult, "trackbed.run(scenario) returns")
         self._core: _trackbed.RunResult = core
         self._metrics: Optional[dict[str, Any]] = None
         self._logs: dict[str, Log] = {}
@@ -305,7 +305,7 @@ class Comparison(Mapping[str, Any]):
     """The differences of two plants or runs at equal stations, as in metrics.json."""
 
     def __init__(self, core: _trackbed.PlantComparison) -> None:
-        require_core(self, core, _trackbed.PlantComparison, "trackbed.compare(run, first, second)")
+        require_core(self, core, _trackbed.PlantComparison, "trackbed.compare(run, first, second) returns")
         self._core = core
         self._values = core.values
 

@@ -38,7 +38,7 @@ class Sweep(Mapping[str, "numpy.typing.NDArray[Any]"]):
     """
 
     def __init__(self, job: _trackbed.SweepJob) -> None:
-        require_core(self, job, _trackbed.SweepJob, "trackbed.sweep(study)")
+        require_core(self, job, _trackbed.SweepJob, "trackbed.sweep(study) returns")
         self._job = job
 
     @property

@@ -26,6 +26,7 @@ from ._arguments import (
     array,
     changes,
     items,
+    listed,
     mapping,
     number,
     positive,
@@ -37,6 +38,12 @@ from ._arguments import (
 )
 from ._loops import Loop, Observation, VectorLoop
 from ._runs import frame, pixels
+
+if int(gymnasium.__version__.partition(".")[0]) < 1:
+    raise ImportError(
+        f"trackbed.gym needs Gymnasium 1.0 or newer, not {gymnasium.__version__}: "
+        "pip install 'gymnasium>=1.0'"
+    )
 
 Observed = numpy.typing.NDArray[numpy.float32]
 """Observations of the environments."""
@@ -93,7 +100,9 @@ class _Tracking:
         self._max_acceleration = (
             None if max_acceleration is None else positive("max_acceleration", max_acceleration)
         )
-        if render_mode not in (None, "rgb_array"):
+        if render_mode is not None and (
+            not isinstance(render_mode, str) or render_mode != "rgb_array"
+        ):
             raise ValueError(f"render_mode is {render_mode!r}; must be None or 'rgb_array'")
         self.render_mode = render_mode
         self._size = pixels("size", size)
@@ -299,9 +308,7 @@ class VectorPathTracking(
         if seed is None:
             seeds: list[Optional[int]] = [None] * self.num_envs
         elif isinstance(seed, (Sequence, numpy.ndarray)) and not isinstance(seed, (str, bytes)):
-            if len(seed) != self.num_envs:
-                raise ValueError(f"seed has {len(seed)} values; must have {self.num_envs}")
-            named = enumerate(seed)
+            named = enumerate(listed("seed", seed, self.num_envs))
             seeds = [None if s is None else whole(f"seed[{i}]", s, 0) for i, s in named]
         else:
             first = whole("seed", seed, 0)

@@ -207,6 +207,7 @@ def test_an_override_that_can_be_read_once_is_refused(values):
         (trackbed.Path, "run.path"),
         (trackbed.Comparison, "trackbed.compare"),
         (trackbed.Sweep, "trackbed.sweep"),
+        (trackbed.PlanRequest, "a planner receives a PlanRequest"),
     ],
 )
 def test_results_that_are_constructed_name_their_function(kind, source):
@@ -214,6 +215,8 @@ def test_results_that_are_constructed_name_their_function(kind, source):
         kind("three_turns")
     with pytest.raises(TypeError, match=r"trackbed\.Log takes no dict; run\[plant\] returns a Log"):
         trackbed.Log({"x_m": [1.0]}, "mujoco")
+    with pytest.raises(TypeError, match=r"trackbed\.LoopState takes no int; loop\.state returns"):
+        trackbed.LoopState(1, 2, "mujoco")
 
 
 def test_a_check_without_a_bound_is_refused(things):

@@ -1,6 +1,8 @@
 """The environment for Gymnasium; skipped where Gymnasium is not installed."""
 
+import importlib
 import inspect
+import sys
 import warnings
 
 import numpy
@@ -137,6 +139,8 @@ def test_vector_form_takes_the_seeds_of_a_list():
     assert (observations[0] != observations[1]).any()
     with pytest.raises(ValueError, match=r"seed has 2 values; must have 3"):
         envs.reset(seed=[1, 2])
+    with pytest.raises(ValueError, match=r"seed has the shape \(\); must be \(3,\)"):
+        envs.reset(seed=numpy.array(1.5))
     with pytest.raises(ValueError, match=r"actions has the shape \(2, 1\); must be \(3, 1\)"):
         envs.step(numpy.zeros((2, 1)))
 
@@ -214,6 +218,13 @@ def test_both_environments_have_the_same_arguments():
             made(reward={})
 
 
+def test_an_old_gymnasium_is_named(monkeypatch):
+    monkeypatch.setattr(gymnasium, "__version__", "0.29.1")
+    monkeypatch.delitem(sys.modules, "trackbed.gym")
+    with pytest.raises(ImportError, match=r"Gymnasium 1\.0 or newer, not 0\.29\.1: pip install"):
+        importlib.import_module("trackbed.gym")
+
+
 def test_wrong_actions_are_named():
     env = trackbed.gym.PathTracking("three_turns", "kinematic")
     env.reset()
@@ -221,3 +232,5 @@ def test_wrong_actions_are_named():
         env.step(numpy.zeros(2, numpy.float32))
     with pytest.raises(ValueError, match="options has the unknown key 'speed'"):
         env.reset(options={"speed": 3})
+    with pytest.raises(ValueError, match="render_mode is array"):
+        trackbed.gym.PathTracking("three_turns", "kinematic", render_mode=numpy.zeros(2))
