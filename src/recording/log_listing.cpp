@@ -80,9 +80,13 @@ LogListing ListGlobe(const fs::path& log) {
   topic.columns.assign(std::begin(kGlobeColumns), std::end(kGlobeColumns));
   listing.topics.push_back(std::move(topic));
   if (times.size() < 2) {
-    listing.problem =
-        "the file has no times, so it is a path and not a recording: drive it with plan: {method: "
-        "path_file}";
+    const std::size_t rows = listing.topics.front().rows;
+    const std::string found =
+        times.empty() ? "the file has no times" : fmt::format("1 of {} points has a time", rows);
+    listing.problem = rows == 1 ? "1 point; a recording has at least 2"
+                                : found +
+                                      ", so the file is a path and not a recording: drive the path "
+                                      "with plan: {method: path_file}";
     return listing;
   }
   LogMap& map = listing.map.emplace();

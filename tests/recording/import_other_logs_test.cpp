@@ -124,6 +124,22 @@ TEST(ListLog, ReadsUnitsAndPosesFromNames) {
   EXPECT_THAT(two.problem, HasSubstr("several columns for x: map_x, odom_x"));
 }
 
+TEST(ListLog, SaysHowManyTimesAFileOfPositionsHas) {
+  const TempFolder folder;
+  const std::string timed = "<trkpt lat='52' lon='9'><time>2024-01-01T00:00:00Z</time></trkpt>";
+  const auto problem = [&](const std::string& points) {
+    const LogListing listing = ListLog(folder.Write(
+        "log.gpx", "<gpx version='1.1'><trk><trkseg>" + points + "</trkseg></trk></gpx>"));
+    EXPECT_FALSE(listing.map);
+    return listing.problem;
+  };
+  EXPECT_EQ(problem(timed), "1 point; a recording has at least 2");
+  EXPECT_THAT(problem(timed + "<trkpt lat='52.1' lon='9'/>"),
+              HasSubstr("1 of 2 points has a time"));
+  EXPECT_THAT(problem("<trkpt lat='52' lon='9'/><trkpt lat='52.1' lon='9'/>"),
+              HasSubstr("the file has no times, so the file is a path"));
+}
+
 // To the east at 10 m/s along the parallel of 52 degrees, over midnight.
 TEST(ListLog, ProposesAMapThatReadsAVboFile) {
   const TempFolder folder;
