@@ -83,6 +83,12 @@ std::vector<double> StepsOf(const ChordPoints& fitted, double period) {
   return steps;
 }
 
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /// Returns whether the polyline's curvature on a step is less than a quarter of the curvature
 /// beside it, as on a straight without points. On a long step on an arc, the curvature equals the
 /// curvature beside the step. At the beginning of an arc, the curvature on a step is half of the
@@ -178,14 +184,12 @@ std::vector<std::size_t> StraightSteps(const CurveBetweenKnots& curve, const Cho
   constexpr double kLargestTurn = 0.25 * kPi;
   const std::vector<double> turns = TurnsOf(fitted, period);
   const std::vector<double> lengths = StepsOf(fitted, period);
-  std::vector<double> sorted = lengths;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double median = Median(lengths);
   const bool has_aside = FindBulge(curve, fitted, period, tolerance).IsAside(tolerance);
   std::vector<std::size_t> straight;
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const std::size_t next = (i + 1) % fitted.points.size();
-    const bool is_long = lengths[i] > kLong * *middle && IsStraighter(turns, lengths, i, period);
+    const bool is_long = lengths[i] > kLong * median && IsStraighter(turns, lengths, i, period);
     if ((!is_long && !has_aside) || std::max(turns[i], turns[next]) > kLargestTurn) {
       continue;
     }
@@ -226,7 +230,8 @@ ChordPoints WithPointsOn(const ChordPoints& fitted, double period,
 }
 
 [[noreturn]] void RefuseBulge(const Bulge& bulge, const ChordPoints& fitted,
-                              const DistinctPoints& distinct, const PathPoints& given) {
+                              const DistinctPoints& distinct, const PathPoints& given,
+                              double tolerance) {
   const std::vector<Vec2>& points = distinct.chords.points;
   const std::size_t before = LastBefore(distinct.chords.u, fitted.u[bulge.knot]);
   const std::size_t after = (before + 1) % points.size();
@@ -237,13 +242,16 @@ ChordPoints WithPointsOn(const ChordPoints& fitted, double period,
     wrong = DetourOf(points, i) > DetourOf(points, wrong) ? i : wrong;
   }
   const std::size_t number = distinct.number[wrong];
+  // A spline through points at equal distances along a polyline leaves the polyline by up to 0.29
+  // of the distance, where the polyline turns back.
+  const double step = std::min(3.0 * tolerance, Median(StepsOf(distinct.chords, 0.0)));
   FailFit("",
           fmt::format(
               "the spline swings up to {:.4g} m aside of the straight line of {:.4g} m from {} "
               "to {}; must be at most {:.4g} m with these turns. Is {} wrong? Else resample the "
-              "points, which keeps to the straight lines, or use fit: polyline",
+              "points every {:.2g} m, which keeps to the straight lines, or use fit: polyline",
               bulge.distance, bulge.chord, NameOf(given, distinct.number[before]),
-              NameOf(given, distinct.number[after]), bulge.plausible, NameOf(given, number)),
+              NameOf(given, distinct.number[after]), bulge.plausible, NameOf(given, number), step),
           LineOf(given, number));
 }
 

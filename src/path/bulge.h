@@ -52,8 +52,10 @@ std::vector<std::size_t> StraightSteps(const CurveBetweenKnots& curve, const Cho
 ChordPoints WithPointsOn(const ChordPoints& fitted, double period,
                          const std::vector<std::size_t>& steps);
 
-/// Throws InputError that names the input point that is probably wrong.
+/// Throws InputError that names the input point that is probably wrong, and the distance at which
+/// resampled points keep the spline within `tolerance` [m] of the polyline.
 [[noreturn]] void RefuseBulge(const Bulge& bulge, const ChordPoints& fitted,
-                              const DistinctPoints& distinct, const PathPoints& given);
+                              const DistinctPoints& distinct, const PathPoints& given,
+                              double tolerance);
 
 }  // namespace trackbed

@@ -418,7 +418,7 @@ void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct,
   fitted.added = filled.points.size() - knots.points.size();
   const Bulge swing = FindBulge(curve, fit.local.knots, distinct.period, tolerance);
   if (swing.IsAside(tolerance)) {
-    RefuseBulge(swing, filled, distinct, fitted.given);
+    RefuseBulge(swing, filled, distinct, fitted.given, tolerance);
   }
   const LocalPoints& local = fit.local;
   SmoothingSpline& spline = *fit.spline;

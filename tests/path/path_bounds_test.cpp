@@ -86,16 +86,16 @@ TEST(PathWithAnOutlier, IsRefusedOrStaysNearItsPoints) {
 TEST(PathWithAnOutlier, NamesThePoint) {
   PathPoints given = SevenPoints();
   given.points[0] += Vec2(740.0, 740.0);
-  EXPECT_THAT(ErrorOf(given),
-              AllOf(HasSubstr("the spline swings up to "),
-                    HasSubstr("Is point 1 at (740, 740) wrong?"), HasSubstr("resample")));
+  EXPECT_THAT(ErrorOf(given), AllOf(HasSubstr("the spline swings up to "),
+                                    HasSubstr("Is point 1 at (740, 740) wrong?"),
+                                    HasSubstr("resample the points every 0.15 m")));
   for (int line = 2; line < 9; ++line) {
     given.lines.push_back(line);
   }
   EXPECT_THAT(ErrorOf(given), HasSubstr("Is row 2 at (740, 740) wrong?"));
   // The message names two remedies. Both must succeed.
   EXPECT_EQ(ErrorOf(given, {.fit = PathFit::kPolyline}), "");
-  EXPECT_EQ(ErrorOf(given, {.max_deviation = 0.5, .resample = 1.0}), "");
+  EXPECT_EQ(ErrorOf(given, {.resample = 0.15}), "");
 }
 
 /// Returns points of a stadium: 15 m apart on half circles of radius 50 m, none on its straights.
