@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 
+#include "tests/sim/cars.h"
 #include "tests/support/case_names.h"
 #include "tests/tolerance.h"
 #include "trackbed/sim/plant.h"
@@ -143,11 +144,32 @@ INSTANTIATE_TEST_SUITE_P(Cars, Coasting,
                                                           "mujoco:contact")),
                          kNamedByParameter);
 
+/// Resistances of a coasting car that runs straight.
+struct Resistance {
+  double mass = 0.0;     // With the inertia of the wheels [kg].
+  double rolling = 0.0;  // [N]
+  double drag = 0.0;     // Drag divided by the squared speed [N s^2/m^2].
+};
+
+Resistance ResistanceOf(const CarModel& car, const std::string& plant_name) {
+  const VehicleParams& params = car.params();
+  const CarParts& parts = car.parts();
+  Resistance result{.mass = params.mass, .drag = 0.5 * kAirDensity * parts.aerodynamics.drag_area};
+  for (std::size_t w = 0; w < 4; ++w) {
+    result.mass += parts.spin_inertia[w] / std::pow(params.wheel_radius, 2);
+    result.rolling += car.get()->dof_frictionloss[parts.spin_dof[w]] / params.wheel_radius;
+    if (plant_name == "mujoco:magic_formula") {
+      const double arm = w < 2 ? params.cg_to_rear : params.cg_to_front();
+      result.rolling += parts.tyres->axle[w / 2].rolling_resistance * 0.5 * params.mass * kGravity *
+                        arm / params.wheelbase;
+    }
+  }
+  return result;
+}
+
 TEST_P(Coasting, LosesSpeedToDragAndRollingResistance) {
   const auto& [name, plant_name] = GetParam();
   const CarModel car = Car(name);
-  const VehicleParams& params = car.params();
-  const CarParts& parts = car.parts();
   const World world;
   constexpr double kSpeed = 25.0;  // [m/s]
   constexpr double kTime = 10.0;   // [s]
@@ -158,26 +180,36 @@ TEST_P(Coasting, LosesSpeedToDragAndRollingResistance) {
   }
   // With the rolling resistance F and the drag c v^2, the coasting car obeys m v' = -F - c v^2. The
   // solution is v = sqrt(F/c) tan(atan(v_0 sqrt(c/F)) - t sqrt(F c)/m).
-  double mass = params.mass;
-  double rolling = 0.0;
-  for (std::size_t w = 0; w < 4; ++w) {
-    mass += parts.spin_inertia[w] / std::pow(params.wheel_radius, 2);
-    rolling += car.get()->dof_frictionloss[parts.spin_dof[w]] / params.wheel_radius;
-    if (std::string(plant_name) == "mujoco:magic_formula") {
-      const double arm = w < 2 ? params.cg_to_rear : params.cg_to_front();
-      rolling += parts.tyres->axle[w / 2].rolling_resistance * 0.5 * params.mass * kGravity * arm /
-                 params.wheelbase;
-    }
-  }
-  const double drag = 0.5 * kAirDensity * parts.aerodynamics.drag_area;
-  const double scale = std::sqrt(rolling / drag);
-  const double expected =
-      scale * std::tan(std::atan(kSpeed / scale) - kTime * std::sqrt(rolling * drag) / mass);
+  const Resistance of = ResistanceOf(car, plant_name);
+  const double scale = std::sqrt(of.rolling / of.drag);
+  const double expected = scale * std::tan(std::atan(kSpeed / scale) -
+                                           kTime * std::sqrt(of.rolling * of.drag) / of.mass);
   const double lost = kSpeed - expected;
   EXPECT_GT(lost, 0.3);
   // The tolerance of 2 % of the speed loss covers the first half second, in which the tyres reach
   // their slip and the body settles on its springs.
   EXPECT_NEAR(plant->Observe().speed, expected, Tolerance(0.02 * lost));
+}
+
+// The brakes of a coasting car are released, so the car rolls back down the slope on which it
+// stood: m v' = -m g sin(slope) + F.
+TEST_P(Coasting, RollsBackDownASlopeFromRest) {
+  const auto& [name, plant_name] = GetParam();
+  constexpr double kSlope = 0.06;
+  World world;
+  world.ground.grade = {kSlope, 0.0};
+  const CarModel car = CarWith(name, {}, 0.002, world);
+  const auto plant = MakePlant(plant_name, {.car = car, .world = world, .start = {}});
+  const int steps = static_cast<int>(std::lround(5.0 / car.timestep()));
+  for (int i = 0; i < steps; ++i) {
+    plant->Step({.coast = true});
+  }
+  const Resistance of = ResistanceOf(car, plant_name);
+  const double pull = car.params().mass * kGravity * std::sin(std::atan(kSlope));
+  const double expected = -(pull - of.rolling) / of.mass * steps * car.timestep();
+  // The drag at the end is 0.4 % of the pull. The tolerance of 2 % also covers the first half
+  // second, in which the body settles on its springs.
+  EXPECT_NEAR(plant->Observe().speed, expected, Tolerance(0.02 * std::abs(expected)));
 }
 
 TEST(Acceleration, IsThatOfTheCenterOfGravityAtItsHeight) {
