@@ -417,7 +417,9 @@ AlongPlan PlanAlongRoute(const RouteFrame& frame, const AlongRequest& request,
                  "speed {} of {}, gaps {} and {}", request.wanted, request.speed.speed,
                  settings.gap, settings.time_gap);
   TRACKBED_CHECK(!SpeedFactors(options).empty(), "no speed factors");
-  return AlongRoute(frame, request, settings, options).Plan();
+  AlongOptions enough = options;
+  AddTimesToShift(enough, request.vehicle, settings.road, request.wanted);
+  return AlongRoute(frame, request, settings, enough).Plan();
 }
 
 void Visit(DiagnosticsVisitor& out, const AlongPlan& along) {

@@ -32,6 +32,12 @@ constexpr double kQuinticJerk = 60.0;
 /// Largest acceleration of the quartic between two speeds that differ by 1 within a time of 1.
 constexpr double kQuarticAcceleration = 1.5;
 
+/// Returns whether a car that drives along the route at an offset [m] is on the road.
+bool IsOnRoad(const VehicleParams& vehicle, const RoadWidths& road, double offset) {
+  const double half = 0.5 * vehicle.width - kRounding;
+  return offset + half <= road.left && half - offset <= road.right;
+}
+
 double RoomBeside(const AlongRequest& request, const AlongSettings& settings) {
   return 0.5 * request.vehicle.width + settings.safe_distance;
 }
@@ -158,6 +164,45 @@ double ShiftLength(const VehicleParams& vehicle, const FrenetLimits& limits, dou
                    speed * std::sqrt(bend / limits.max_lateral_acceleration)});
 }
 
+double LongestShiftTime(const VehicleParams& vehicle, const RoadWidths& road,
+                        const AlongOptions& options, double speed) {
+  if (!(speed > 0.0)) {
+    return 0.0;
+  }
+  return std::visit(
+      [&](const auto& own) {
+        double longest = 0.0;
+        for (const double offset : own.end_offsets) {
+          if (IsOnRoad(vehicle, road, offset)) {
+            longest = std::max(longest, ShiftLength(vehicle, own.limits, speed, offset) / speed);
+          }
+        }
+        return longest;
+      },
+      options);
+}
+
+void AddTimesToShift(AlongOptions& options, const VehicleParams& vehicle, const RoadWidths& road,
+                     double speed) {
+  constexpr double kGrowth = 1.25;
+  auto* frenet = std::get_if<FrenetOptions>(&options);
+  if (frenet == nullptr || frenet->end_times.empty()) {
+    return;
+  }
+  const double needed = LongestShiftTime(vehicle, road, options, speed);
+  const double given = *std::max_element(frenet->end_times.begin(), frenet->end_times.end());
+  if (given >= needed) {
+    return;
+  }
+  double last = given;
+  while (last < kGrowth * needed) {
+    last *= kGrowth;
+    frenet->end_times.push_back(last);
+  }
+  frenet->weights.k_dt *= given / last;
+  frenet->weights.k_st *= given / last;
+}
+
 std::vector<double> PassingOffsets(const AlongRequest& request, const AlongSettings& settings,
                                    const Leader& leader, const AlongOptions& options) {
   const double room = RoomBeside(request, settings);
@@ -167,10 +212,9 @@ std::vector<double> PassingOffsets(const AlongRequest& request, const AlongSetti
         offsets.insert(offsets.end(), own.end_offsets.begin(), own.end_offsets.end());
       },
       options);
-  const double half = 0.5 * request.vehicle.width - kRounding;
   std::erase_if(offsets, [&](double d) {
-    return !ClearsLaterally(request, settings, leader, d) || d + half > settings.road.left ||
-           half - d > settings.road.right;
+    return !ClearsLaterally(request, settings, leader, d) ||
+           !IsOnRoad(request.vehicle, settings.road, d);
   });
   return offsets;
 }

@@ -43,6 +43,20 @@ bool ClearsLaterally(const AlongRequest& request, const AlongSettings& settings,
 double ShiftLength(const VehicleParams& vehicle, const FrenetLimits& limits, double speed,
                    double aside);
 
+/// Returns the time [s] that a car at the constant speed `speed` > 0 [m/s] needs for the longest
+/// lateral move from the route to one of the method's end offsets on the road. The result is 0 for
+/// a car that stands.
+double LongestShiftTime(const VehicleParams& vehicle, const RoadWidths& road,
+                        const AlongOptions& options, double speed);
+
+/// Adds longer durations to the end times of the method `frenet`, if a slow car turns its wheels
+/// too slowly to move to the side within the given end times. Each added duration is a quarter
+/// longer than the duration before; the last one is at least a quarter longer than the
+/// LongestShiftTime. The weights of time decrease as much as the longest duration increases.
+/// Otherwise, the car would stay beside the route, because a slow return takes too long.
+void AddTimesToShift(AlongOptions& options, const VehicleParams& vehicle, const RoadWidths& road,
+                     double speed);
+
 /// Returns the offsets [m] at which the car can pass the leader on the road. The result has the
 /// offsets of the method's options that clear the leader, and, on each side, the nearest offset
 /// that clears the leader. The list of offsets is empty if the road is too narrow.

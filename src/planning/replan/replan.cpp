@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/planning/replan/passing.h"
 #include "src/planning/replan/stop_planner.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -388,6 +389,12 @@ Replanned Replan(const ReplanRequest& request, const Driving& driving,
   ReplanOptions own = options;
   own.settings.look_ahead = std::max(
       own.settings.look_ahead, request.speed.speed / request.speed.deceleration + 2.0 * own.period);
+  if (own.along) {
+    // A slow car must know of an obstacle before the move to the side begins.
+    own.settings.look_ahead = std::max(
+        own.settings.look_ahead,
+        LongestShiftTime(request.vehicle, own.settings.road, *own.along, request.speed.speed));
+  }
   return Replanning(request, driving, own).Run();
 }
 

@@ -228,6 +228,59 @@ TEST_P(Passing, GetsPastFromManyStarts) {
   }
 }
 
+TEST_P(Passing, GetsPastWhatStandsAtWalkingPace) {
+  // At 0.5 m/s, a lateral move by 2 m takes the wheels 22 s (ShiftLength).
+  for (const double speed : {0.5, 0.8, 1.2, 2.0, 3.0}) {
+    SCOPED_TRACE(fmt::format("{} m/s", speed));
+    Road road(speed, 0.0, 25.0);
+    road.request.wanted = speed;
+    road.settings.look_ahead =
+        std::max(road.settings.look_ahead,
+                 LongestShiftTime(ReferenceCar(), road.settings.road, GetParam().defaults, speed));
+    double nearest = 1e9;
+    // The time for 25 m up to the box, the lengths of car and box, and two lateral moves of up to
+    // 48 m, the length of the default lattice.
+    const double time = (25.0 + 10.0 + 2.0 * 48.0) / speed;
+    EXPECT_LT(TimeToPass(road, GetParam().defaults, time, nearest), time);
+    EXPECT_GE(nearest, AlongSettings{}.safe_distance - 0.01);
+  }
+}
+
+TEST(LongestShiftTime, IsThatOfTheFarthestOffsetOnTheRoad) {
+  const VehicleParams car = ReferenceCar();
+  FrenetOptions options;
+  options.end_offsets = {0.0, 1.0, -2.0, 3.5};
+  // At low speeds, the steering rate limits the move: T = cbrt(60 L D/(rate v^2)).
+  const auto time = [&](double shift, double speed) {
+    return std::cbrt(60.0 * car.wheelbase * shift / (car.steering_rate * speed * speed));
+  };
+  const RoadWidths wide{10.0, 10.0};
+  EXPECT_NEAR(LongestShiftTime(car, wide, options, 1.0), time(3.5, 1.0), Tolerance(1e-12));
+  const RoadWidths narrow{2.0, 3.0};  // too narrow on the left for 3.5 m
+  EXPECT_NEAR(LongestShiftTime(car, narrow, options, 1.0), time(2.0, 1.0), Tolerance(1e-12));
+  EXPECT_EQ(LongestShiftTime(car, wide, options, 0.0), 0.0);
+}
+
+TEST(AddTimesToShift, AddsTimesOnlyToASlowCar) {
+  const VehicleParams car = ReferenceCar();
+  const RoadWidths road{10.0, 10.0};
+  for (const double speed : {0.3, 0.5, 1.0, 2.0, 3.0, 10.0}) {
+    AlongOptions options = FrenetOptions{};
+    AddTimesToShift(options, car, road, speed);
+    const auto& own = std::get<FrenetOptions>(options);
+    const double needed = LongestShiftTime(car, road, options, speed);
+    if (needed <= FrenetOptions{}.end_times.back()) {
+      EXPECT_EQ(own.end_times, FrenetOptions{}.end_times) << speed;
+      EXPECT_EQ(own.weights.k_dt, FrenetWeights{}.k_dt) << speed;
+      continue;
+    }
+    EXPECT_GE(own.end_times.back(), 1.25 * needed) << speed;
+    EXPECT_LT(own.end_times.back(), 1.25 * 1.25 * needed) << speed;
+    EXPECT_NEAR(own.weights.k_dt * own.end_times.back(), FrenetWeights{}.k_dt * 8.0,
+                Tolerance(1e-12));
+  }
+}
+
 TEST_P(Passing, GetsPastOnShortRoutes) {
   // The route ends 90 m ahead. At the desired speed of 8 m/s, the car would need most of it for
   // speeding up (1.5 x 6 m/s / 1.5 m/s^2 x 5 m/s = 30 m), pulling in (25 m) and stopping
