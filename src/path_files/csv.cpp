@@ -112,11 +112,11 @@ class CsvPath {
     }
     const std::string& name = layout_.names[layout_.columns[kYaw]->index];
     PathPoints& points = found_.points;
-    // Do not look for degrees if the unit is given, or is part of the name.
-    const bool is_unit_known = layout_.columns[kYaw]->factor != 1.0 || requested_.yaw_unit ||
-                               boost::iends_with(name, "_rad");
-    const HeadingReading reading =
-        ReadHeadings(points, boost::iequals(name, "psi_rad"), is_unit_known);
+    const HeadingUnit unit = layout_.columns[kYaw]->factor != 1.0 || requested_.yaw_unit
+                                 ? HeadingUnit::kGiven
+                             : boost::iends_with(name, "_rad") ? HeadingUnit::kNamedRadians
+                                                               : HeadingUnit::kUnknown;
+    const HeadingReading reading = ReadHeadings(points, boost::iequals(name, "psi_rad"), unit);
     if (!reading.problem.empty() && layout_.is_globe && !requested_.yaw) {
       points.yaw.clear();
       found_.notes.push_back(fmt::format("column {} is ignored: {}", name, reading.problem));

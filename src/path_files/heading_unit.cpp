@@ -91,7 +91,7 @@ bool IsMuchBetter(double other, double least) {
 
 }  // namespace
 
-HeadingReading ReadHeadings(const PathPoints& points, bool is_racing_line, bool is_unit_known) {
+HeadingReading ReadHeadings(const PathPoints& points, bool is_racing_line, HeadingUnit unit) {
   const std::vector<Heading> headings = HeadingsOf(points);
   if (headings.empty()) {
     return {};
@@ -103,12 +103,14 @@ HeadingReading ReadHeadings(const PathPoints& points, bool is_racing_line, bool 
   const bool exceeds_turn = std::any_of(headings.begin(), headings.end(), [](const Heading& own) {
     return std::abs(own.number) > 2.0 * kPi;
   });
+  const bool may_be_degrees = unit == HeadingUnit::kUnknown
+                                  ? exceeds_turn || least > kFits
+                                  : unit == HeadingUnit::kNamedRadians && exceeds_turn;
   const HeadingMeaning* best = nullptr;
   double best_difference = kFits;
   for (const HeadingMeaning& meaning : kOthers) {
     const double difference = MeanDifference(headings, meaning);
-    const bool counts = meaning.unit == 1.0 || (!is_unit_known && (exceeds_turn || least > kFits));
-    if (counts && difference < best_difference) {
+    if ((meaning.unit == 1.0 || may_be_degrees) && difference < best_difference) {
       best = &meaning;
       best_difference = difference;
     }

@@ -337,6 +337,12 @@ TEST(PathCsv, RecognizesHeadingsInOtherUnits) {
   PathMap map;
   map.columns.yaw_unit = "deg";
   EXPECT_EQ(Error("p.csv", degrees, map), "");
+  // The name of the column may be wrong, too.
+  for (const char* name : {"x_m,y_m,yaw_rad", "x_m,y_m,psi_rad", "x,y,heading_rad"}) {
+    const std::string named = name + degrees.substr(degrees.find('\n'));
+    EXPECT_THAT(Error("p.csv", named), HasSubstr("degrees; set columns.yaw_unit: deg")) << name;
+    EXPECT_EQ(Error("p.csv", named, map), "") << name;
+  }
   EXPECT_THAT(Error("p.csv", ArcWithHeadings([](double yaw) { return 90.0 - yaw * 180.0 / kPi; })),
               HasSubstr("degrees, clockwise from north; convert them"));
   EXPECT_THAT(Error("p.csv", ArcWithHeadings([](double yaw) { return 0.5 * kPi - yaw; })),
