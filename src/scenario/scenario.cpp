@@ -88,6 +88,21 @@ void RefuseStudy(const YAML::Node& root, const std::string& file) {
   }
 }
 
+/// Applies the overrides to the YAML tree, and appends their keys to `keys`. Returns the problems
+/// of the overrides that could not be applied.
+std::vector<Problem> ApplyOverrides(YAML::Node& root, const std::vector<Override>& overrides,
+                                    std::vector<std::string>& keys) {
+  std::vector<Problem> problems;
+  for (const Override& override_text : overrides) {
+    try {
+      keys.push_back(ApplyOverride(root, override_text));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  return problems;
+}
+
 }  // namespace
 
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
@@ -97,9 +112,7 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   YAML::Node root = LoadYaml(yaml, name);
   RefuseStudy(root, name);
   ReaderContext context{.file = name, .overridden = {}, .problems = {}};
-  for (const Override& override_text : overrides) {
-    context.overridden.push_back(ApplyOverride(root, override_text));
-  }
+  std::vector<Problem> problems = ApplyOverrides(root, overrides, context.overridden);
   Scenario scenario;
   scenario.folder = folder;
   scenario.asset_folders = asset_folders;
@@ -109,6 +122,11 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   YamlReader reader(context, root, "");
   Visit(reader, scenario);
   reader.Finish();
+  if (!problems.empty()) {
+    // An override often fails because an earlier key is misspelled, so report both.
+    problems.insert(problems.end(), context.problems.begin(), context.problems.end());
+    throw InputError(problems);
+  }
   const auto add_error = [&](const std::string& key, std::string message) {
     context.AddError(NodeAt(root, key).Mark(), key, std::move(message));
   };

@@ -59,6 +59,14 @@ class StudyFiles : public testing::Test {
   TempFolder folder_;
 };
 
+TEST_F(StudyFiles, NameAMisspelledKeyBesideASettingThatNeedsIt) {
+  // The element [0] exists only if the key `gusts` of `set` has the right name.
+  EXPECT_EQ(ErrorMessages("set:\n  world.wind: {gustss: [{from: 1, y: 5, duration: 1}]}\n"
+                          "vary:\n  world.wind.gusts[0].y: [3, 4]\n"),
+            "study.yaml:5:15: world.wind.gustss: unknown key 'gustss'; did you mean 'gusts'?\n"
+            "study.yaml:7:27: world.wind.gusts[0].y: element [0] does not exist");
+}
+
 /// "key=value key=value" of each point.
 std::vector<std::string> Written(const StudyPoints& points) {
   std::vector<std::string> texts;
