@@ -3,12 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/error_text.h"
+#include "tests/support/temp_folder.h"
+#include "trackbed/scenario/identification.h"
 #include "trackbed/scenario/keys.h"
+#include "trackbed/scenario/record.h"
 #include "trackbed/scenario/scenario.h"
+#include "trackbed/scenario/study_reader.h"
 
 namespace trackbed {
 namespace {
@@ -58,19 +66,56 @@ std::string DottedIn(const OneSection& section, const std::string& key) {
   return section.key.empty() ? key : section.key + "." + key;
 }
 
+/// A kind of file: its keys, and a function that reads a text and returns the error messages.
+struct FileKind {
+  std::vector<KeySection> sections;
+  std::function<std::string(const std::string& yaml)> messages;
+};
+
+FileKind Scenarios() {
+  return {ScenarioKeys(), Messages};
+}
+
+template <typename Read>
+FileKind ReadByPath(std::vector<KeySection> sections, const Read& read) {
+  const auto folder = std::make_shared<TempFolder>();
+  return {std::move(sections), [folder, read](const std::string& yaml) {
+            return ErrorText([&] { read(folder->Write("test.yaml", yaml)); });
+          }};
+}
+
+FileKind Studies() {
+  return ReadByPath(StudyKeys(), [](const std::filesystem::path& file) { ReadStudy(file); });
+}
+
+FileKind Identifications() {
+  return ReadByPath(IdentificationKeys(),
+                    [](const std::filesystem::path& file) { ReadIdentification(file); });
+}
+
+FileKind LogMaps() {
+  return ReadByPath(LogMapKeys(), [](const std::filesystem::path& file) { ReadLogMap(file); });
+}
+
+/// Returns the text that selects the method of a section, with a comma; empty without a method.
+std::string MethodOf(const KeySection& section) {
+  const char* key = section.key == "vary.KEY" ? "distribution" : "method";
+  return section.method.empty() ? "" : fmt::format("{}: {}, ", key, section.method);
+}
+
 /// Checks that a file whose section has `key` with its last letter doubled is refused for this key.
-void CheckMisspelling(const KeySection& section, const KeyInfo& key) {
+void CheckMisspelling(const FileKind& kind, const KeySection& section, const KeyInfo& key) {
   const std::string wrong = key.name + key.name.back();
   const bool is_known = std::any_of(section.keys.begin(), section.keys.end(),
                                     [&](const KeyInfo& other) { return other.name == wrong; });
   if (is_known) {
     return;
   }
-  const std::string method = section.method.empty() ? "" : "method: " + section.method + ", ";
+  const std::string method = MethodOf(section);
   const OneSection file =
       WriteSection(section.key, section.key.empty() ? wrong + ": 1" : method + wrong + ": 1");
   const std::size_t column = section.key.empty() ? 1 : 3 + method.size();
-  const std::string all = Messages(file.yaml);
+  const std::string all = kind.messages(file.yaml);
   SCOPED_TRACE(file.yaml);
   EXPECT_THAT(all, HasSubstr(fmt::format("test.yaml:2:{}: {}: unknown key '{}'; did you mean '",
                                          column, DottedIn(file, wrong), wrong)));
@@ -80,31 +125,44 @@ void CheckMisspelling(const KeySection& section, const KeyInfo& key) {
   }
 }
 
-TEST(MisspelledKey, IsNamedInEverySection) {
+/// Checks every key of a kind of file; `fewest` is a lower bound of the number of keys.
+void CheckAllMisspellings(const FileKind& kind, std::size_t fewest) {
   std::size_t keys = 0;
-  for (const KeySection& section : ScenarioKeys()) {
+  for (const KeySection& section : kind.sections) {
     for (const KeyInfo& key : section.keys) {
-      CheckMisspelling(section, key);
+      CheckMisspelling(kind, section, key);
       ++keys;
     }
   }
-  EXPECT_GT(keys, 300U);
+  EXPECT_GT(keys, fewest);
 }
 
-TEST(MisspelledKey, IsNamedBesideAMissingKey) {
+TEST(MisspelledKey, IsNamedInEverySection) {
+  CheckAllMisspellings(Scenarios(), 300);
+}
+
+TEST(MisspelledKey, IsNamedInStudiesAndIdentifications) {
+  CheckAllMisspellings(Studies(), 40);
+  CheckAllMisspellings(Identifications(), 20);
+  CheckAllMisspellings(LogMaps(), 20);
+}
+
+/// Checks that an unknown key is named beside each missing key of a kind of file; `fewest` is a
+/// lower bound of the number of required keys.
+void CheckBesideMissingKeys(const FileKind& kind, std::size_t fewest) {
   std::size_t required = 0;
-  for (const KeySection& section : ScenarioKeys()) {
+  for (const KeySection& section : kind.sections) {
     for (const KeyInfo& key : section.keys) {
       if (!key.required) {
         continue;
       }
       ++required;
-      const std::string method = section.method.empty() ? "" : "method: " + section.method + ", ";
+      const std::string method = MethodOf(section);
       const OneSection file =
           WriteSection(section.key, section.key.empty() ? "qqzzxw: 1" : method + "qqzzxw: 1");
       const std::size_t column = section.key.empty() ? 1 : 3 + method.size();
       SCOPED_TRACE(file.yaml);
-      const std::string all = Messages(file.yaml);
+      const std::string all = kind.messages(file.yaml);
       EXPECT_THAT(all, HasSubstr(fmt::format("test.yaml:2:{}: {}: unknown key 'qqzzxw'; ", column,
                                              DottedIn(file, "qqzzxw"))));
       // Sections inside a section without a method are not read, so their keys are not missed.
@@ -113,7 +171,17 @@ TEST(MisspelledKey, IsNamedBesideAMissingKey) {
       }
     }
   }
-  EXPECT_GT(required, 30U);
+  EXPECT_GT(required, fewest);
+}
+
+TEST(MisspelledKey, IsNamedBesideAMissingKey) {
+  CheckBesideMissingKeys(Scenarios(), 30);
+}
+
+TEST(MisspelledKey, IsNamedBesideAMissingKeyOfStudiesAndIdentifications) {
+  CheckBesideMissingKeys(Studies(), 10);
+  CheckBesideMissingKeys(Identifications(), 3);
+  CheckBesideMissingKeys(LogMaps(), 0);
 }
 
 TEST(MisspelledKey, OfAMethodIsNamed) {
