@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "trackbed/planning/common/speed_at_limit.h"
-#include "trackbed/world/world.h"
 
 // Finds speeds at which a car can drive a given path (used by feasibility.cpp).
 // 1. The path is divided into pieces of at most kCheckSpacing.
@@ -52,8 +51,7 @@ RoadHold::Combined CombinedOver(const RoadHold& road, const Path& path, const Pa
 
 std::string FrictionForSlope(const Excess& slope, const Path& path, const PlanRequest& request) {
   constexpr double kReserve = 1.1;
-  const double factor = RoadFactor(request.friction, request.friction_patches,
-                                   path.At(slope.station).pose.position());
+  const double factor = RoadHold(request).Factor(path.At(slope.station).pose);
   const double needed = 0.01 * std::ceil(100.0 * kReserve * factor * slope.required / slope.limit);
   return fmt::format(
       "the road has a friction factor of {:.3g} there; set world.friction, or that of the friction "

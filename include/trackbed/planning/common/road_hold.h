@@ -70,6 +70,10 @@ class RoadHold {
   /// pull that the car can resist.
   [[nodiscard]] Pull Slope(const Path& path, double s) const;
 
+  /// Returns the road's friction factor under a car at a pose: the lower of the factors under the
+  /// two axles.
+  [[nodiscard]] double Factor(const Pose2& pose) const;
+
   /// Returns the factor on the tyres' friction force at a station: the friction factor of the road
   /// times the cosine of its slope.
   [[nodiscard]] double FrictionAt(const Path& path, double s) const;
@@ -106,7 +110,6 @@ class RoadHold {
   /// gravity's pull across the path leaves. The argument `road` is the road's factor on the tyres'
   /// friction.
   [[nodiscard]] double BesideSlope(double along, double road, const Tilt& tilt) const;
-  [[nodiscard]] double Factor(const Pose2& pose) const;
   [[nodiscard]] Tilt TiltAt(const PathPoint& at) const;
 
   const PlanRequest& request_;
