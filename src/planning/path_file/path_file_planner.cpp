@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/path_file/steerable_fit.h"
+#include "trackbed/vehicle/steering_reach.h"
 
 // The planner `path_file`: drives a path from a file.
 // 1. ReadPath reads the points with the map of the scenario, and fits a curve (fit_path.h).
@@ -75,6 +77,27 @@ SteeringSchedule ScheduleOf(const FittedPath& fitted, const PlanRequest& request
   return SteeringSchedule::Through(std::move(knots));
 }
 
+/// Returns why the car cannot steer the path, with the `max_deviation` that helps; empty if the car
+/// can steer the path, or if no `max_deviation` helps.
+std::string NoiseProblem(const FittedPath& fitted, const VehicleParams& vehicle) {
+  const SharpestPoint sharpest = SharpestPointOf(fitted.path);
+  const double angle = SteeringForCurvature(vehicle, sharpest.curvature);
+  const double limit = SteeringReach(vehicle, 0.0);
+  if (!fitted.jumps.empty() || angle <= limit) {
+    return "";
+  }
+  const std::optional<double> helps = SteerableDeviation(fitted, vehicle);
+  if (!helps) {
+    return "";
+  }
+  const Vec2 at = fitted.path.At(sharpest.station).pose.position();
+  return fmt::format(
+      "the path is not feasible: steering angle {:.3g} rad exceeds {:.3g} rad at s = {:.4g} m, "
+      "({:.6g}, {:.6g}); if the path bends there because of noise of the points, set "
+      "plan.max_deviation to at least {:.3g}",
+      angle, limit, sharpest.station, at.x(), at.y(), *helps);
+}
+
 Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
   Plan plan;
   if (options.path == nullptr) {
@@ -104,6 +127,13 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
         fitted.jumps.size(), largest->angle, largest->s, largest->position.x(),
         largest->position.y());
     return plan;
+  }
+  if (request.infeasible != InfeasiblePolicy::kAllow) {
+    if (const std::string wrong = NoiseProblem(fitted, request.vehicle); !wrong.empty()) {
+      plan.status = PlanStatus::kInfeasible;
+      plan.reason = wrong;
+      return plan;
+    }
   }
   plan.reference.path = fitted.path;
   if (HasReversePieces(fitted.path)) {

@@ -217,6 +217,28 @@ PathPoints ThreePointTurn() {
 }
 
 // A kinematic car steered by the schedule stays on the path (RK4 over knots 0.1 m apart).
+TEST(PathFilePlanner, NamesTheDeviationThatTakesNoise) {
+  Random random(47);
+  for (const double noise : {0.02, 0.04}) {
+    std::vector<Vec2> points;
+    for (int i = 0; i <= 300; ++i) {
+      points.emplace_back(0.2 * i + noise * random.Uniform(-1.0, 1.0),
+                          noise * random.Uniform(-1.0, 1.0));
+    }
+    const PathFitOptions close{.max_deviation = 0.3 * noise};
+    const PathFileOptions options = Options(points, close);
+    const Plan plan = MakePlan(RequestAlong(options), options);
+    EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
+    const std::string remedy = "set plan.max_deviation to at least ";
+    const std::size_t at = plan.reason.find(remedy);
+    ASSERT_NE(at, std::string::npos) << plan.reason;
+    const PathFileOptions smoother =
+        Options(points, {.max_deviation = std::stod(plan.reason.substr(at + remedy.size()))});
+    const Plan smooth = MakePlan(RequestAlong(smoother), smoother);
+    EXPECT_EQ(smooth.reason.find("steering angle"), std::string::npos) << smooth.reason;
+  }
+}
+
 TEST(PathFilePlanner, DrivesReversePieces) {
   PathFileOptions options;
   options.path = std::make_shared<const FittedPath>(FitPath(ThreePointTurn(), {}));

@@ -24,4 +24,20 @@ struct SteerableFit {
 std::optional<SteerableFit> FitWithinSteering(const FittedPath& fitted,
                                               const VehicleParams& vehicle);
 
+/// The point of a path with the largest absolute curvature.
+struct SharpestPoint {
+  double curvature = 0.0;  ///< Absolute curvature [1/m], >= 0.
+  double station = 0.0;    ///< Station of the point [m].
+};
+
+/// Returns the sharpest point of a fitted path. The segments of a fitted path are so short that the
+/// curvature is largest at an end of a segment.
+SharpestPoint SharpestPointOf(const Path& path);
+
+/// Returns a value of PathFitOptions::max_deviation [m] with which the points give a path that the
+/// car can steer, as the remedy for points with noise. Doubles the given value until the car can
+/// steer the path. Returns nullopt if the car can steer no path within a meter, or if the path is a
+/// polyline. Computing time: up to ten times that of FitPath.
+std::optional<double> SteerableDeviation(const FittedPath& fitted, const VehicleParams& vehicle);
+
 }  // namespace trackbed
