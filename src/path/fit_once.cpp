@@ -174,6 +174,27 @@ std::vector<EndHeadings> HeadingsOfLegs(const PathPoints& given, const std::vect
   return headings;
 }
 
+/// Fits a leg whose begin has exactly the heading of `wanted`, in the leg's direction of travel. A
+/// spline that is sampled is turned a little, so that it ends at the last point. The next fit
+/// compensates for this turn. JoinLegs would turn the whole leg otherwise, because it begins a leg
+/// with the heading at the end of the leg before.
+FittedPath FitFromHeading(const PathPoints& given, const PathFitOptions& options,
+                          const EndHeadings& wanted, double max_curvature) {
+  constexpr int kFits = 6;
+  constexpr double kEqual = 1e-9;  // [rad]
+  EndHeadings headings = wanted;
+  FittedPath fit = FitLeg(given, options, headings, max_curvature);
+  for (int i = 1; i < kFits && wanted.begin && options.fit == PathFit::kSpline; ++i) {
+    const double error = AngleDifference(*wanted.begin, fit.path.At(0.0).pose.yaw);
+    if (std::abs(error) <= kEqual) {
+      break;
+    }
+    headings.begin = *headings.begin + error;
+    fit = FitLeg(given, options, headings, max_curvature);
+  }
+  return fit;
+}
+
 /// Joins the fits of all legs to one path.
 FittedPath JoinLegs(const std::vector<Leg>& legs, const std::vector<FittedPath>& fits) {
   FittedPath joined;
@@ -245,7 +266,14 @@ FittedPath FitOnce(PathPoints given, const PathFitOptions& options, double max_c
       std::vector<EndHeadings> headings = HeadingsOfLegs(given, legs, fits);
       headings.front().begin = start.begin;
       for (std::size_t i = 0; i < legs.size(); ++i) {
-        fits[i] = FitLeg(std::move(fits[i].given), options, headings[i], max_curvature);
+        if (i > 0 && options.fit == PathFit::kSpline) {
+          // The leg before may end with another heading than the prescribed one, by its noise.
+          const Path& before = fits[i - 1].path;
+          const double heading =
+              CarHeading(before.At(before.length()).pose.yaw, legs[i - 1].direction);
+          headings[i].begin = CarHeading(heading, legs[i].direction);
+        }
+        fits[i] = FitFromHeading(fits[i].given, options, headings[i], max_curvature);
       }
       fitted = JoinLegs(legs, fits);
     }

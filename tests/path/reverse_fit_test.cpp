@@ -100,6 +100,34 @@ TEST(FitReversePath, FindsTheLegsFromAnyEvidence) {
   }
 }
 
+TEST(FitReversePath, KeepsTheDeviationOverNoisyLegs) {
+  // The headings at the cusps are prescribed. A leg that did not keep them would turn the legs
+  // after it.
+  std::mt19937 random(47);
+  const auto uniform = [&](double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random);
+  };
+  std::normal_distribution<double> noise(0.0, 0.002);
+  for (int i = 0; i < 60; ++i) {
+    std::vector<Segment> segments;
+    for (int leg = 0; leg < 3; ++leg) {
+      segments.push_back({.length = uniform(3.0, 9.0),
+                          .curvature = uniform(-0.15, 0.15),
+                          .direction = leg % 2 == i % 2 ? 1 : -1});
+    }
+    PathPoints given = SamplesOf(Path({}, segments), 0.1);
+    given.yaw.clear();
+    for (Vec2& point : given.points) {
+      point += Vec2(noise(random), noise(random));
+    }
+    const FittedPath fitted = FitPath(given, {.max_deviation = 0.02});
+    ASSERT_TRUE(fitted.reversals.empty()) << i;
+    EXPECT_LE(fitted.deviation, 0.02 * (1.0 + 1e-6)) << i;
+    const Vec2 end = fitted.path.At(fitted.path.length()).pose.position();
+    EXPECT_LE((end - given.points.back()).norm(), Tolerance(1e-7)) << i;
+  }
+}
+
 TEST(FitReversePath, DrivesAWholePathInReverse) {
   const Path path({0.0, 0.0, 1.0}, {{.length = 12.0, .curvature = 0.08, .direction = -1}});
   PathPoints given = SamplesOf(path, 0.5);
