@@ -142,9 +142,9 @@ ShortestCurve Shortest(const TurnCircle& circle, CurveMotion motion, const Curve
 }
 
 /// Returns the shortest curve for each sequence of turn sides and directions of motion, the
-/// shortest curve first.
+/// shortest curve first. Leaves out curves of the length `limit` or more.
 std::vector<ShortestCurve> AllWords(const TurnCircle& circle, CurveMotion motion,
-                                    const CurveTask& problem) {
+                                    const CurveTask& problem, double limit) {
   if (problem.IsSolved()) {
     return {ShortestCurve{}};
   }
@@ -154,9 +154,9 @@ std::vector<ShortestCurve> AllWords(const TurnCircle& circle, CurveMotion motion
   const ChainFinder finder(circle, motion);
   std::vector<ShortestCurve> curves;
   finder.Find(
-      starts, goals, [] { return kNoCurve; },
+      starts, goals, [limit] { return limit; },
       [&](const TurnChain& chain) { curves.push_back(ChainCurve(circle, chain, both_ways)); });
-  const ShortestCurve sharp = SharpCurve(circle, motion, problem, kNoCurve);
+  const ShortestCurve sharp = SharpCurve(circle, motion, problem, limit);
   if (sharp.length < kNoCurve) {
     curves.push_back(sharp);
   }
@@ -192,7 +192,14 @@ ShortestCurve ContinuousCurves::Dubins(const CurveState& from, const CurveState&
 
 std::vector<ShortestCurve> ContinuousCurves::DubinsWords(const CurveState& from,
                                                          const CurveState& to) const {
-  return InMeters(AllWords(circle_, CurveMotion::kForwards, CurveTask(limits_, from, to)),
+  return DubinsWords(from, to, kNoCurve);
+}
+
+std::vector<ShortestCurve> ContinuousCurves::DubinsWords(const CurveState& from,
+                                                         const CurveState& to,
+                                                         double longest) const {
+  return InMeters(AllWords(circle_, CurveMotion::kForwards, CurveTask(limits_, from, to),
+                           longest / limits_.radius),
                   limits_.radius);
 }
 
@@ -202,7 +209,14 @@ ShortestCurve ContinuousCurves::ReedsShepp(const CurveState& from, const CurveSt
 
 std::vector<ShortestCurve> ContinuousCurves::ReedsSheppWords(const CurveState& from,
                                                              const CurveState& to) const {
-  return InMeters(AllWords(circle_, CurveMotion::kContinuous, CurveTask(limits_, from, to)),
+  return ReedsSheppWords(from, to, kNoCurve);
+}
+
+std::vector<ShortestCurve> ContinuousCurves::ReedsSheppWords(const CurveState& from,
+                                                             const CurveState& to,
+                                                             double longest) const {
+  return InMeters(AllWords(circle_, CurveMotion::kContinuous, CurveTask(limits_, from, to),
+                           longest / limits_.radius),
                   limits_.radius);
 }
 
@@ -213,7 +227,14 @@ ShortestCurve ContinuousCurves::HybridReedsShepp(const CurveState& from,
 
 std::vector<ShortestCurve> ContinuousCurves::HybridReedsSheppWords(const CurveState& from,
                                                                    const CurveState& to) const {
-  return InMeters(AllWords(circle_, CurveMotion::kHybrid, CurveTask(limits_, from, to)),
+  return HybridReedsSheppWords(from, to, kNoCurve);
+}
+
+std::vector<ShortestCurve> ContinuousCurves::HybridReedsSheppWords(const CurveState& from,
+                                                                   const CurveState& to,
+                                                                   double longest) const {
+  return InMeters(AllWords(circle_, CurveMotion::kHybrid, CurveTask(limits_, from, to),
+                           longest / limits_.radius),
                   limits_.radius);
 }
 

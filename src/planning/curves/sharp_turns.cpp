@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "src/planning/curves/clothoid.h"
+#include "src/planning/curves/sharp_end.h"
 
 // Finds the shortest curve (word) of a turn, a straight and a turn of continuous curvature, all
 // forwards.
@@ -21,140 +21,6 @@
 // Source: Fraichard and Scheuer 2004.
 namespace trackbed {
 namespace {
-
-/// Returns the direction of twice the angle of a direction.
-Vec2 DoubleAngle(const Vec2& half) {
-  return {half.x() * half.x() - half.y() * half.y(), 2.0 * half.x() * half.y()};
-}
-
-/// An angle with the direction of its half, which takes a cosine and a sine to compute.
-struct HalvedAngle {
-  double angle = 0.0;
-  Vec2 half{1, 0};
-
-  /// Returns the angle plus half a turn (`sign` +1) or minus half a turn (`sign` -1).
-  [[nodiscard]] HalvedAngle Opposite(double sign) const {
-    return {angle + sign * kPi, sign * LeftNormal(half)};
-  }
-};
-
-/// A turn between curvatures of 0.
-struct ZeroTurn {
-  double along = 0.0;   // Distance from start to end along the final heading.
-  double across = 0.0;  // Distance from start to end across the final heading, positive outward.
-  double length = 0.0;
-  double slope = 0.0;  // Value of along - d(across)/d(angle), exact for full turns.
-};
-
-/// Returns the turn with the deflection a >= 0; `cos` and `sin` are the cosine and sine of a/2.
-ZeroTurn TurnByAngle(const TurnCircle& circle, double a, double cos, double sin) {
-  ZeroTurn turn;
-  double chord = 0.0;
-  if (a < 2.0 * circle.least) {
-    turn.length = 2.0 * std::sqrt(a / circle.sharpness);
-    turn.slope = 0.25 * turn.length;
-    chord = turn.length * ChordPerLength(0.5 * a);
-  } else {
-    turn.length = 2.0 / circle.sharpness + a - 2.0 * circle.least;
-    turn.slope = circle.along;
-    chord = 2.0 * (circle.across * sin + circle.along * cos);
-  }
-  turn.along = chord * cos;
-  turn.across = chord * sin;
-  return turn;
-}
-
-/// One end of a curve turn-straight-turn: a forward turn between a state and curvature 0.
-class SharpEnd {
- public:
-  /// Makes the first turn (`order` +1) or the last turn (`order` -1).
-  SharpEnd(const TurnCircle& circle, const CurveState& state, int order)
-      : circle_(circle), state_(state.curvature), order_(order) {
-    const double turned = 0.5 * state_ * state_ / circle.sharpness;
-    neutral_ = state.pose.yaw + order * std::copysign(turned, state_);
-    for (const int side : {-1, 1}) {
-      // The clothoid from the state toward `side` has the curvature 0 at the point `zero`.
-      Side& own = sides_[side < 0 ? 0 : 1];
-      own.side = side;
-      own.yaw = state.pose.yaw - order * side * turned;
-      own.zero = state.pose.position();
-      own.done = side * state_ / circle.sharpness;
-      if (state_ == 0.0 && side > 0) {
-        own.half = sides_[0].half;
-        continue;
-      }
-      own.half = Direction(0.5 * own.yaw);
-      if (state_ != 0.0) {
-        const Vec2 done = ClothoidTo(side * state_, circle.sharpness);
-        const Vec2 ahead = order * DoubleAngle(own.half);
-        own.zero -= done.x() * ahead + done.y() * side * order * LeftNormal(ahead);
-      }
-    }
-  }
-
-  struct Side {
-    int side = 1;
-    Vec2 zero{0, 0};    // Position at which the turn's curvature is 0.
-    double yaw = 0.0;   // Heading at which the turn's curvature is 0.
-    Vec2 half{1, 0};    // Direction of half the heading `yaw`.
-    double done = 0.0;  // Length of the clothoid from `zero` to the state.
-  };
-
-  /// Returns the end of the word with `circles` full turns added to its heading: -1, 0 or 1.
-  [[nodiscard]] SharpEnd Wound(int circles) const {
-    SharpEnd wound = *this;
-    const double turns = circles * 2.0 * kPi;
-    wound.neutral_ += turns;
-    for (Side& side : wound.sides_) {
-      side.yaw += turns;
-      side.half = circles == 0 ? side.half : Vec2(-side.half);
-    }
-    return wound;
-  }
-  /// Returns the side of a turn between the state and the heading alpha.
-  [[nodiscard]] const Side& SideFor(double alpha) const {
-    return sides_[order_ * (alpha - neutral_) < 0.0 ? 0 : 1];
-  }
-  /// Returns the heading change of the turn from the point where its curvature is 0 to its end.
-  /// Where a turn changes its side, a tiny deflection is set to 0: the length of a small turn, a
-  /// square root of the deflection, would amplify its rounding error.
-  [[nodiscard]] double Deflection(const Side& side, double alpha) const {
-    const double deflection = order_ * side.side * (alpha - side.yaw);
-    const double least = side.done > 0.0 ? 0.0 : kTurnRounding;
-    return deflection > least ? deflection : 0.0;
-  }
-  /// Returns the turn between curvature 0 and the heading alpha; `half` is the direction of
-  /// alpha/2.
-  [[nodiscard]] ZeroTurn Turn(const Side& side, double alpha, const Vec2& half) const {
-    return TurnByAngle(circle_, Deflection(side, alpha), half.dot(side.half),
-                       order_ * side.side * Cross(side.half, half));
-  }
-  /// Heading change alpha of a turn that only straightens the wheels, with the direction alpha/2.
-  [[nodiscard]] HalvedAngle neutral() const {
-    return {neutral_, sides_[state_ > 0.0 ? 0 : 1].half};
-  }
-
-  [[nodiscard]] CurvePiece Piece(const Side& side, double alpha) const {
-    const double a = Deflection(side, alpha);
-    const bool is_small = a < 2.0 * circle_.least;
-    const double peak = is_small ? std::sqrt(a * circle_.sharpness) : 1.0;
-    return {.bend = side.side < 0 ? Bend::kRight : Bend::kLeft,
-            .sweep = is_small ? 0.0 : a - 2.0 * circle_.least,
-            .ramps = {.first = order_ > 0 ? state_ : 0.0,
-                      .peak = side.side * std::min(peak, 1.0),
-                      .last = order_ > 0 ? 0.0 : state_,
-                      .sharpness = circle_.sharpness}};
-  }
-
-  [[nodiscard]] const TurnCircle& circle() const { return circle_; }
-
- private:
-  TurnCircle circle_;
-  double state_;
-  int order_;
-  double neutral_ = 0.0;
-  std::array<Side, 2> sides_{};
-};
 
 /// The curves turn-straight-turn to a goal, as functions of the straight's heading alpha. The
 /// interval of alpha is one in which no turn changes its side. The heading of the goal includes
@@ -231,6 +97,15 @@ class SharpWords {
   /// Returns a lower bound of the curve's length for all headings alpha between the curves a and b.
   [[nodiscard]] double LeastLength(const Word& a, const Word& b) const {
     return std::min(a.turns[0], b.turns[0]) + std::min(a.turns[1], b.turns[1]) - done_;
+  }
+
+  /// Returns the same bound for all headings between two headings, without the curves there. A
+  /// curve is at least as long as the distance between its ends.
+  [[nodiscard]] double LeastLength(double from, double to) const {
+    const double turns =
+        std::min(first_.Length(first_side_, from), first_.Length(first_side_, to)) +
+        std::min(last_.Length(last_side_, from), last_.Length(last_side_, to));
+    return std::max(turns, distance_) - done_;
   }
 
   /// Returns an upper bound of the change of the word's length per change of the straight's heading
@@ -355,6 +230,7 @@ class AlphaSearch {
     const double sign = a.across < 0.0 ? -1.0 : 1.0;
     Word word = std::abs(a.across) < std::abs(b.across) ? a : b;
     double slope = word.slope;
+    const double per_angle = words_.MostLengthPerAngle();
     for (int i = 1; i <= kMostSteps; ++i) {
       double next = word.alpha + word.across / slope;
       const bool is_slow = i % 4 == 0 && high - low > 0.25 * width;
@@ -363,7 +239,7 @@ class AlphaSearch {
         next = 0.5 * (low + high);
       }
       const double step = next - word.alpha;
-      if (word.length - 2.0 * std::abs(step) * words_.MostLengthPerAngle() >= limit_) {
+      if (word.length - 2.0 * std::abs(step) * per_angle >= limit_) {
         return true;
       }
       const Word found = words_.At(next);
@@ -422,6 +298,9 @@ ShortestCurve SharpWord(const TurnCircle& at_start, const TurnCircle& at_goal, d
     for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
       if (knots[i].angle < knots[i + 1].angle) {
         const SharpWords words(first, last, knots[i].angle, knots[i + 1].angle);
+        if (words.LeastLength(knots[i].angle, knots[i + 1].angle) >= limit) {
+          continue;
+        }
         AlphaSearch search(words, limit);
         search.Search(knots[i], knots[i + 1]);
         if (search.best()) {
@@ -435,13 +314,13 @@ ShortestCurve SharpWord(const TurnCircle& at_start, const TurnCircle& at_goal, d
 }
 
 ShortestCurve TwoTurns(double radius, double first_sharpness, double last_sharpness,
-                       const CurveState& from, const CurveState& to) {
+                       const CurveState& from, const CurveState& to, double limit) {
   const Vec2 local = ToLocal(from.pose, to.pose.position()) / radius;
   const double square = radius * radius;
   ShortestCurve curve = SharpWord(
       MakeTurnCircle(first_sharpness * square), MakeTurnCircle(last_sharpness * square),
       from.curvature * radius,
-      {{local.x(), local.y(), to.pose.yaw - from.pose.yaw}, to.curvature * radius}, kNoCurve);
+      {{local.x(), local.y(), to.pose.yaw - from.pose.yaw}, to.curvature * radius}, limit / radius);
   curve.radius = radius;
   curve.length *= radius;
   return curve;

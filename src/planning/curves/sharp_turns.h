@@ -28,9 +28,9 @@ ShortestCurve SharpWord(const TurnCircle& at_start, const TurnCircle& at_goal, d
                         const CurveState& goal, double limit);
 
 /// Returns the shortest forward curve of two turns and a straight between two states [m]. Both
-/// turns have the radius `radius` [m], and each has a given sharpness [1/m^2]. The length is
-/// infinite if no such curve exists.
+/// turns have the radius `radius` [m], and each has a given sharpness [1/m^2]. If no such curve is
+/// shorter than `limit` [m], returns a curve of infinite length.
 ShortestCurve TwoTurns(double radius, double first_sharpness, double last_sharpness,
-                       const CurveState& from, const CurveState& to);
+                       const CurveState& from, const CurveState& to, double limit = kNoCurve);
 
 }  // namespace trackbed

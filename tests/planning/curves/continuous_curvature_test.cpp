@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "tests/planning/poses.h"
 #include "tests/tolerance.h"
@@ -104,6 +107,33 @@ TEST(ContinuousCurvature, JoinsStatesByEveryWord) {
       EXPECT_NEAR(shortest, (curves.*kind.shortest)(from, to).length, Tolerance(1e-11));
       for (const ShortestCurve& word : words) {
         ExpectJoins(kCar, kind, from, to, word);
+      }
+    }
+  }
+}
+
+TEST(ContinuousCurvature, WordsBelowALengthAreTheFirstOfAllWords) {
+  Random random(6);
+  const ContinuousCurves curves(kCar);
+  using WordsBelow = std::vector<ShortestCurve> (ContinuousCurves::*)(
+      const CurveState&, const CurveState&, double) const;
+  const std::vector<WordsBelow> below{&ContinuousCurves::DubinsWords,
+                                      &ContinuousCurves::ReedsSheppWords,
+                                      &ContinuousCurves::HybridReedsSheppWords};
+  for (int i = 0; i < 40; ++i) {
+    const CurveState from = RandomState(random, 20.0, 1.0 / kCar.radius);
+    const CurveState to = RandomState(random, 20.0, 1.0 / kCar.radius);
+    for (std::size_t k = 0; k < below.size(); ++k) {
+      const std::vector<ShortestCurve> all = (curves.*kKinds[k].words)(from, to);
+      const double longest = all[all.size() / 2].length * (1.0 - 1e-9);
+      const std::vector<ShortestCurve> some = (curves.*below[k])(from, to, longest);
+      const auto end = std::find_if(all.begin(), all.end(), [&](const ShortestCurve& word) {
+        return word.length >= longest;
+      });
+      ASSERT_EQ(some.size(), static_cast<std::size_t>(end - all.begin()));
+      for (std::size_t n = 0; n < some.size(); ++n) {
+        EXPECT_EQ(CurveWord(some[n]), CurveWord(all[n]));
+        EXPECT_EQ(some[n].length, all[n].length);
       }
     }
   }

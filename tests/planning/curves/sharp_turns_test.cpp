@@ -60,5 +60,19 @@ TEST(SharpTurns, TwoTurnsAreNotShorterThanTheShortestCurveOfTheSharperTurn) {
   }
 }
 
+TEST(SharpTurns, TwoTurnsKeepTheirLengthBelowTheLimit) {
+  Random random(3);
+  for (int i = 0; i < 500; ++i) {
+    const double most = 1.0 / 3.0;
+    const CurveState from{RandomPose(random, 20.0), random.Uniform(-most, most)};
+    const CurveState to{RandomPose(random, 20.0), random.Uniform(-most, most)};
+    const double shortest = TwoTurns(3.0, 0.2, 0.1, from, to).length;
+    if (std::isfinite(shortest)) {
+      EXPECT_EQ(TwoTurns(3.0, 0.2, 0.1, from, to, shortest * (1.0 + 1e-9)).length, shortest) << i;
+      EXPECT_EQ(TwoTurns(3.0, 0.2, 0.1, from, to, shortest * (1.0 - 1e-9)).length, kNoCurve) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trackbed

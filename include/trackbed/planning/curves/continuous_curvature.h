@@ -66,9 +66,12 @@ class ContinuousCurves {
   [[nodiscard]] ShortestCurve Dubins(const CurveState& from, const CurveState& to) const;
 
   /// Returns the shortest CC-Dubins curve for each word (sequence of turns such as "L+S+R+",
-  /// CurveWord), shortest curve first.
+  /// CurveWord), shortest curve first. Given a length `longest` [m], leaves out curves that are not
+  /// shorter.
   [[nodiscard]] std::vector<ShortestCurve> DubinsWords(const CurveState& from,
                                                        const CurveState& to) const;
+  [[nodiscard]] std::vector<ShortestCurve> DubinsWords(const CurveState& from, const CurveState& to,
+                                                       double longest) const;
 
   /// Returns the shortest curve for a car that drives forwards and backwards, with continuous
   /// curvature also at cusps (CC-Reeds-Shepp). The CC-Reeds-Shepp curve is never longer than the
@@ -76,6 +79,9 @@ class ContinuousCurves {
   [[nodiscard]] ShortestCurve ReedsShepp(const CurveState& from, const CurveState& to) const;
   [[nodiscard]] std::vector<ShortestCurve> ReedsSheppWords(const CurveState& from,
                                                            const CurveState& to) const;
+  [[nodiscard]] std::vector<ShortestCurve> ReedsSheppWords(const CurveState& from,
+                                                           const CurveState& to,
+                                                           double longest) const;
 
   /// Returns the shortest curve for a car that drives forwards and backwards, and whose curvature
   /// may step at a cusp, where the car stands (HC-Reeds-Shepp). If the curve has a cusp right at
@@ -88,6 +94,9 @@ class ContinuousCurves {
   /// returns the Reeds-Shepp curves without curvature steps.
   [[nodiscard]] std::vector<ShortestCurve> HybridReedsSheppWords(const CurveState& from,
                                                                  const CurveState& to) const;
+  [[nodiscard]] std::vector<ShortestCurve> HybridReedsSheppWords(const CurveState& from,
+                                                                 const CurveState& to,
+                                                                 double longest) const;
 
   [[nodiscard]] const CurveLimits& limits() const { return limits_; }
 
