@@ -66,6 +66,28 @@ std::vector<LegPiece> LegPieces(const LegLimits& limits, const std::vector<Segme
   return pieces;
 }
 
+double LeastLegTime(const LegLimits& limits, const std::vector<Segment>& segments, double least) {
+  double time = 0.0;
+  for (const Segment& segment : segments) {
+    // The fastest place is the end with the smaller curvature for the lateral acceleration, and the
+    // end with the larger curvature for the steering rate.
+    const double from = segment.curvature;
+    const double to = segment.CurvatureAt(segment.length);
+    const double low = from * to < 0.0 ? 0.0 : std::min(std::abs(from), std::abs(to));
+    double speed = limits.speed.speed;
+    if (low > 0.0) {
+      speed = std::min(speed, std::sqrt(limits.lateral / low));
+    }
+    if (segment.sharpness != 0.0) {
+      const double bend = limits.wheelbase * std::max(std::abs(from), std::abs(to));
+      speed = std::min(speed, limits.steering_rate * (1.0 + bend * bend) /
+                                  (limits.wheelbase * std::abs(segment.sharpness)));
+    }
+    time += segment.length / std::max(speed, std::min(least, limits.speed.speed));
+  }
+  return time;
+}
+
 double LegTime(const LegLimits& limits, const std::vector<LegPiece>& pieces, double start,
                double end) {
   // Speeds between pieces: a backward pass applies the speed limits and braking, then a forward

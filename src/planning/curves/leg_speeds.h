@@ -35,6 +35,10 @@ double SharpestCurvature(const std::vector<Segment>& segments);
 std::vector<LegPiece> LegPieces(const LegLimits& limits, const std::vector<Segment>& segments,
                                 double least, int parts = 8);
 
+/// Returns a lower bound of the time in which the car drives the pieces of segments (LegPieces with
+/// any number of parts), without the time to speed up and to brake [s].
+double LeastLegTime(const LegLimits& limits, const std::vector<Segment>& segments, double least);
+
 /// Returns the driving time of pieces from the speed `start` to the speed `end` [s]. The car speeds
 /// up and brakes at the limits, and stops at changes of direction.
 double LegTime(const LegLimits& limits, const std::vector<LegPiece>& pieces, double start,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/planning/poses.h"
 #include "tests/tolerance.h"
 
 namespace trackbed {
@@ -60,6 +61,24 @@ TEST(LegSpeeds, KeepsTheLeastSpeedButNotAboveTheMission) {
   const Segment sharp{.length = 1.0, .sharpness = 10.0};
   EXPECT_EQ(LegPieces(kLegLimits, {sharp}, 0.5).front().speed, 0.5);
   EXPECT_EQ(LegPieces(kLegLimits, {sharp}, 5.0).front().speed, 3.0);
+}
+
+TEST(LegSpeeds, LeastTimeIsBelowTheTimeAndThatOfConstantSpeed) {
+  // At the speed of its lateral acceleration, 2 m/s, the car needs 2.5 s for an arc of 5 m.
+  EXPECT_NEAR(LeastLegTime(kLegLimits, {{.length = 5.0, .curvature = -0.25}}, 0.0), 2.5,
+              Tolerance(1e-12));
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    std::vector<Segment> segments;
+    for (int k = 0; k < 4; ++k) {
+      segments.push_back({.length = random.Uniform(0.1, 9.0),
+                          .curvature = random.Uniform(-0.2, 0.2),
+                          .sharpness = k % 2 == 0 ? random.Uniform(-0.2, 0.2) : 0.0});
+    }
+    const double speed = random.Uniform(0.1, 3.0);
+    const double time = LegTime(kLegLimits, LegPieces(kLegLimits, segments, speed), speed, speed);
+    EXPECT_LE(LeastLegTime(kLegLimits, segments, speed), time * (1.0 + Tolerance(1e-12))) << i;
+  }
 }
 
 }  // namespace
