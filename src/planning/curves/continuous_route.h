@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/planning/curves/continuous_words.h"
+#include "src/planning/curves/leg_costs.h"
 #include "src/planning/curves/leg_speeds.h"
 #include "trackbed/planning/curves/curve_planners.h"
 
@@ -27,7 +28,10 @@ struct ContinuousRoute {
 /// The wheels are straight at a start at rest and at the goal. With the objective `time`, the car
 /// turns its wheels before it starts, and reaches the goal with turned wheels, if the route with
 /// straight wheels takes more than kMostTime times as long.
-Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request);
+///
+/// Uses and adds the costs of legs in `known`, which may come from other requests with the same
+/// car, obstacles and speeds.
+Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request, LegCosts& known);
 
 /// Returns the limits on the motion along a route.
 LegLimits LimitsOfMotion(const ContinuousRoute& route, const PlanRequest& request);

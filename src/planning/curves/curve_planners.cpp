@@ -197,14 +197,15 @@ ContinuousRoute RouteFor(const Options& options, const PlanRequest& request, Cur
 
 /// Plans a path of curves of continuous curvature.
 template <typename Options>
-Plan PlanContinuous(const Options& options, const PlanRequest& request, CurveMotion motion) {
+Plan PlanContinuous(const Options& options, const PlanRequest& request, CurveMotion motion,
+                    LegCosts& known) {
   for (Plan refused : {CheckPoses(request), CheckRadius(request.vehicle, options.radius),
                        CheckStops(PlannedStops(request), request, options.safe_distance)}) {
     if (!refused.ok()) {
       return refused;
     }
   }
-  return PlanContinuousRoute(RouteFor(options, request, motion), request);
+  return PlanContinuousRoute(RouteFor(options, request, motion), request, known);
 }
 
 /// Makes a route of continuous curvature faster, after its legs have been chosen.
@@ -219,27 +220,28 @@ Plan Faster(const Options& options, const PlanRequest& request, CurveMotion moti
 /// Plans a path of curves among `words`, or of continuous curvature, as the options demand.
 template <typename Options, typename Words>
 Plan PlanWithCurvature(const Options& options, const PlanRequest& request, CurveMotion continuous,
-                       const Words& words) {
+                       const Words& words, LegCosts& known) {
   switch (options.curvature) {
     case CurveCurvature::kSteps:
       return PlanCurves(options, request, words);
     case CurveCurvature::kContinuous:
     case CurveCurvature::kCuspSteps:
-      return PlanContinuous(options, request, continuous);
+      return PlanContinuous(options, request, continuous, known);
     case CurveCurvature::kAuto:
       break;
   }
   return ContinuousOrSteps(
-      PlanContinuous(options, request, continuous), PlanCurves(options, request, words), request,
-      [&](Plan plan) { return Faster(options, request, continuous, std::move(plan)); });
+      PlanContinuous(options, request, continuous, known), PlanCurves(options, request, words),
+      request, [&](Plan plan) { return Faster(options, request, continuous, std::move(plan)); });
 }
 
 Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
   const auto length = [](const Pose2& from, const Pose2& to, double radius) {
     return Dubins(from, to, radius).length;
   };
+  LegCosts known;
   Plan plan = WithoutDetours(request, length, [&](const PlanRequest& own) {
-    return PlanWithCurvature(options, own, CurveMotion::kForwards, DubinsWords);
+    return PlanWithCurvature(options, own, CurveMotion::kForwards, DubinsWords, known);
   });
   return Faster(options, request, CurveMotion::kForwards, std::move(plan));
 }
@@ -259,8 +261,9 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
   const CurveMotion motion = options.curvature == CurveCurvature::kContinuous
                                  ? CurveMotion::kContinuous
                                  : CurveMotion::kHybrid;
+  LegCosts known;
   Plan plan = WithoutDetours(request, ReedsSheppLength, [&](const PlanRequest& own) {
-    return PlanWithCurvature(options, own, motion, words);
+    return PlanWithCurvature(options, own, motion, words, known);
   });
   return Faster(options, request, motion, std::move(plan));
 }
