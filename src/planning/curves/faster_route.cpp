@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -16,8 +17,10 @@
 // 1. A section is a part of the route in one direction between two waypoints or cusps. For each
 //    section, FindFasterLeg searches a faster path with the same poses and speeds at both ends.
 // 2. Take() replaces all these sections at once, and computes the speed profile of the whole route.
-// 3. If a replaced section is not faster, or the car cannot drive the plan, Take() tries each half
-//    of the sections. Most routes need one speed profile, whatever the number of sections.
+// 3. If a replaced section is not faster, Take() tries again without this section. If the car
+// cannot
+//    drive the plan, Take() tries each half of the sections. Most routes need a few speed profiles,
+//    whatever the number of sections.
 namespace trackbed {
 namespace {
 
@@ -45,6 +48,52 @@ struct Section {
   }
 };
 
+/// The times along a speed profile, as SpeedProfile computes them, but found by binary search.
+class ProfileTimes {
+ public:
+  explicit ProfileTimes(const SpeedProfile& profile) : knots_(profile.knots()) {
+    for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
+      times_.push_back(times_.back() + Duration(i, knots_[i + 1].s, knots_[i + 1].speed));
+    }
+  }
+
+  /// Returns the time at which the car passes a station within the profile [s].
+  [[nodiscard]] double TimeAt(const SpeedProfile& profile, double s) const {
+    const auto after = std::lower_bound(
+        knots_.begin(), knots_.end(), s,
+        [](const SpeedProfile::Knot& knot, double value) { return knot.s < value; });
+    const auto i = static_cast<std::size_t>(after - knots_.begin());
+    if (i == 0 || i == knots_.size() || knots_[i].s == s) {
+      return times_[std::min(i, times_.size() - 1)];
+    }
+    return times_[i - 1] + Duration(i - 1, s, profile.SpeedAt(s));
+  }
+
+  /// Returns the station that the car passes at a time [m]. Between two knots at rest, the duration
+  /// is infinite, and the car stays at the first of both.
+  [[nodiscard]] double StationAt(double time) const {
+    const auto after = std::upper_bound(times_.begin(), times_.end(), time);
+    const auto i = static_cast<std::size_t>(after - times_.begin());
+    if (i == 0 || i == times_.size()) {
+      return i == 0 ? 0.0 : knots_.back().s;
+    }
+    const SpeedProfile::Knot& a = knots_[i - 1];
+    const SpeedProfile::Knot& b = knots_[i];
+    const double duration = Duration(i - 1, b.s, b.speed);
+    const double left = time - times_[i - 1];
+    return a.s + left * (a.speed + 0.5 * left * (b.speed - a.speed) / duration);
+  }
+
+ private:
+  /// Returns the time from a knot to a station before the next knot, passed at `speed` [s].
+  [[nodiscard]] double Duration(std::size_t knot, double s, double speed) const {
+    return 2.0 * (s - knots_[knot].s) / (knots_[knot].speed + speed);
+  }
+
+  const std::vector<SpeedProfile::Knot>& knots_;
+  std::vector<double> times_{0.0};
+};
+
 /// Stations and times at the ends of the sections of a plan.
 class SectionEnds {
  public:
@@ -52,9 +101,10 @@ class SectionEnds {
     for (const Section& section : sections) {
       stations_.push_back(stations_.back() + section.Length());
     }
+    const SpeedProfile& profile = plan.reference.speed;
+    const ProfileTimes times(profile);
     for (const double station : stations_) {
-      times_.push_back(
-          plan.reference.speed.TimeAt(std::min(station, plan.reference.path.length())));
+      times_.push_back(times.TimeAt(profile, std::min(station, plan.reference.path.length())));
     }
   }
 
@@ -82,10 +132,11 @@ class RouteRefiner {
   [[nodiscard]] Plan Make() {
     sections_ = SectionsOf(best_);
     const SectionEnds ends(best_, sections_);
+    const ProfileTimes times(best_.reference.speed);
     std::vector<Section> faster = sections_;
     std::vector<std::size_t> changed;
     for (std::size_t i = 0; i < sections_.size(); ++i) {
-      if (std::optional<std::vector<Segment>> found = Faster(i, ends)) {
+      if (std::optional<std::vector<Segment>> found = Faster(i, ends, times)) {
         faster[i].segments = *std::move(found);
         faster[i].is_faster = true;
         changed.push_back(i);
@@ -118,7 +169,8 @@ class RouteRefiner {
   }
 
   /// Replaces sections of the best plan by the faster ones, if each of them becomes faster and the
-  /// car can drive the plan. Otherwise tries each half of the sections.
+  /// car can drive the plan. Otherwise tries the sections that become faster and the other sections
+  /// apart. If all sections become faster in a plan that the car cannot drive, tries each half.
   void Take(const std::vector<Section>& faster, std::span<const std::size_t> changed) {
     if (changed.empty()) {
       return;
@@ -128,35 +180,46 @@ class RouteRefiner {
       sections[i] = faster[i];
     }
     Plan plan = PlanOf(sections);
-    if (plan.ok() && AreFaster(plan, sections, changed) && IsFeasible(plan)) {
+    const std::vector<std::size_t> gaining = Gaining(plan, sections, changed);
+    const bool all_gain = changed.size() == 1 || gaining.size() == changed.size();
+    if (plan.ok() && all_gain && IsFaster(plan, changed) && IsFeasible(plan)) {
       best_ = std::move(plan);
       sections_ = std::move(sections);
-    } else if (changed.size() > 1) {
+    } else if (!gaining.empty() && !all_gain) {
+      std::vector<std::size_t> others;
+      std::set_difference(changed.begin(), changed.end(), gaining.begin(), gaining.end(),
+                          std::back_inserter(others));
+      Take(faster, gaining);
+      Take(faster, others);
+    } else if (changed.size() > 1 && (all_gain || !plan.ok())) {
       Take(faster, changed.first(changed.size() / 2));
       Take(faster, changed.subspan(changed.size() / 2));
     }
   }
 
-  /// Returns whether a plan is faster than the best plan. If several sections are changed, each of
-  /// them must be faster.
-  [[nodiscard]] bool AreFaster(const Plan& plan, const std::vector<Section>& sections,
-                               std::span<const std::size_t> changed) const {
-    const SectionEnds before(best_, sections_);
-    const SectionEnds after(plan, sections);
-    double least = 0.0;
-    for (const std::size_t i : changed) {
-      const double least_gain = kLeastGain * before.Duration(i);
-      if (changed.size() > 1 && after.Duration(i) >= before.Duration(i) - least_gain) {
-        return false;
-      }
-      least += least_gain;
+  /// Returns those of the changed sections that take less time in `plan` than in the best plan.
+  [[nodiscard]] std::vector<std::size_t> Gaining(const Plan& plan,
+                                                 const std::vector<Section>& sections,
+                                                 std::span<const std::size_t> changed) const {
+    std::vector<std::size_t> gaining;
+    if (plan.ok()) {
+      const SectionEnds before(best_, sections_);
+      const SectionEnds after(plan, sections);
+      std::copy_if(changed.begin(), changed.end(), std::back_inserter(gaining), [&](std::size_t i) {
+        return after.Duration(i) < (1.0 - kLeastGain) * before.Duration(i);
+      });
     }
-    return DrivingTime(plan, request_.vehicle) < DrivingTime(best_, request_.vehicle) - least;
+    return gaining;
   }
 
-  /// Returns the time at a station of the best plan [s]; stations beyond the end count as the end.
-  [[nodiscard]] double TimeAt(double station) const {
-    return best_.reference.speed.TimeAt(std::min(station, best_.reference.path.length()));
+  /// Returns whether a plan takes less time than the best plan.
+  [[nodiscard]] bool IsFaster(const Plan& plan, std::span<const std::size_t> changed) const {
+    const SectionEnds before(best_, sections_);
+    double least = 0.0;
+    for (const std::size_t i : changed) {
+      least += kLeastGain * before.Duration(i);
+    }
+    return DrivingTime(plan, request_.vehicle) < DrivingTime(best_, request_.vehicle) - least;
   }
 
   /// Returns whether the car can drive a plan at its speeds.
@@ -168,7 +231,8 @@ class RouteRefiner {
 
   /// Returns a faster course of a section that is free of obstacles.
   [[nodiscard]] std::optional<std::vector<Segment>> Faster(std::size_t section,
-                                                           const SectionEnds& ends) const {
+                                                           const SectionEnds& ends,
+                                                           const ProfileTimes& times) const {
     const Section& own = sections_[section];
     const SpeedProfile& profile = best_.reference.speed;
     const double from = ends.Start(section);
@@ -188,10 +252,13 @@ class RouteRefiner {
     if (!std::isfinite(duration) || duration <= least * (1.0 + kLeastGain)) {
       return std::nullopt;
     }
+    const auto time_at = [&](double s) {
+      return times.TimeAt(profile, std::min(s, best_.reference.path.length()));
+    };
     double station = from;
     for (const Segment& segment : own.segments) {
-      const double start = TimeAt(station);
-      const double end = TimeAt(station + segment.length);
+      const double start = time_at(station);
+      const double end = time_at(station + segment.length);
       // Round with a tolerance, so that equal segments get equally many parts.
       constexpr double kShareRounding = 1e-3;
       const double parts =
@@ -201,8 +268,8 @@ class RouteRefiner {
         const double to =
             part == parts
                 ? segment.length
-                : std::clamp(profile.StationAt(start + (end - start) * part / parts) - station,
-                             done, segment.length);
+                : std::clamp(times.StationAt(start + (end - start) * part / parts) - station, done,
+                             segment.length);
         leg.lengths.push_back(to - done);
         leg.speeds.push_back(profile.SpeedAt(station + to));
         done = to;
