@@ -1,4 +1,5 @@
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/spaces/DubinsStateSpace.h>
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
@@ -15,13 +16,16 @@
 #include "bench/in_turn.h"
 #include "tests/planning/maps.h"
 #include "tests/planning/poses.h"
+#include "tests/planning/routes.h"
 #include "tests/vehicle/reference_car.h"
+#include "trackbed/planning/curves/curve_planners.h"
 #include "trackbed/planning/curves/dubins.h"
 #include "trackbed/planning/curves/reeds_shepp.h"
 #include "trackbed/planning/grid/astar.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 
-// Compares shortest curves with OMPL's and A* with a plain Dijkstra, and times hybrid A*.
+// Compares shortest curves with OMPL's and A* with a plain Dijkstra, and times hybrid A* and routes
+// of many waypoints.
 namespace trackbed::bench {
 namespace {
 
@@ -201,6 +205,28 @@ HybridAStarProblem Rows() {
   return problem;
 }
 
+/// Times the planner `dubins` on a route through random waypoints.
+void TimeDubinsRoute(benchmark::State& state, int legs) {
+  Random random(47);
+  PlanRequest request;
+  request.vehicle = ReferenceCar();
+  request.waypoints = RandomRoute(random, legs + 1, 20.0, 60.0, 2.4);
+  const Vec2 leg = request.waypoints[1] - request.waypoints[0];
+  request.start = {request.waypoints[0].x(), request.waypoints[0].y(),
+                   std::atan2(leg.y(), leg.x())};
+  request.speed = {.speed = 5.0, .acceleration = 1.0, .deceleration = 1.5};
+  const PlannerEntry dubins = DubinsPlanner();
+  for ([[maybe_unused]] auto round : state) {
+    const Plan plan = dubins.plan(request, dubins.defaults);
+    if (!plan.ok()) {
+      state.SkipWithError(plan.reason.c_str());
+      break;
+    }
+  }
+  state.counters["time_per_leg"] = benchmark::Counter(
+      legs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 bool RegisterSearches() {
   constexpr int kSide = 500;
   const auto all = static_cast<std::size_t>(kSide) * kSide;
@@ -220,6 +246,10 @@ bool RegisterSearches() {
   }
   RegisterGuarded("HybridAStar/rows", TimeHybridAStar, Rows(), HybridAStarOptions{})
       ->Unit(benchmark::kMillisecond);
+  for (const int legs : {25, 250}) {
+    RegisterGuarded(fmt::format("DubinsRoute/{}_legs", legs), TimeDubinsRoute, legs)
+        ->Unit(benchmark::kMillisecond);
+  }
   return true;
 }
 
