@@ -10,12 +10,13 @@ void BoundedRegulator::PredictWithoutBounds(const ErrorModel& model, const Regul
   const ErrorModel::Matrix closed = model.a - model.b * regulator.gain;
   ErrorModel::Vector s = ErrorModel::Vector::Zero(z.size());
   for (std::size_t k = inputs_.size(); k-- > 0;) {
-    s = (regulator.cost * pushes_[k] + closed.transpose() * s).eval();
+    const ErrorModel::Vector push = pushes_[k] + path_rates_[k] * model.b;
+    s = (regulator.cost * push + closed.transpose() * s).eval();
     inputs_[k] = -model.b.dot(s) / regulator.input_cost;
   }
   ErrorModel::Vector state = z;
   for (std::size_t k = 0; k < inputs_.size(); ++k) {
-    inputs_[k] -= regulator.gain.dot(state);
+    inputs_[k] += path_rates_[k] - regulator.gain.dot(state);
     state = (model.a * state + inputs_[k] * model.b + pushes_[k]).eval();
   }
 }

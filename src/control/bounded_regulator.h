@@ -12,9 +12,10 @@ namespace trackbed {
 /// The deviation z of a car from its path follows
 ///   z(k+1) = A z(k) + b w(k) + g(k),  abs(w(k)) <= w_max for k < n,
 /// with the steering input w and known disturbances g(0) to g(n-1) caused by the path ahead. The
-/// disturbance g(k) is 0 for k >= n. Without bounds on w, the cost of the Regulator (gain K, cost
+/// cost counts the difference of w(k) from the steering rate r(k) of the path. The disturbance g(k)
+/// and the rate r(k) are 0 for k >= n. Without bounds on w, the cost of the Regulator (gain K, cost
 /// matrix P) is minimized by
-///   w*(k) = -K z*(k) - b' s(k)/(R + b'Pb),  s(k) = P g(k) + (A - b K)' s(k+1).
+///   w*(k) = r(k) - K z*(k) - b' s(k)/(R + b'Pb),  s(k) = P (g(k) + b r(k)) + (A - b K)' s(k+1).
 /// Let q = w - w* and x = z - z* be the differences from the optimum w* without bounds and its
 /// states z*. Any input other than w* exceeds the minimum cost by (R + b'Pb) J, with the weight R
 /// of the input and
@@ -36,9 +37,16 @@ class BoundedRegulator {
   static constexpr double kGap = 1e-9;
 
   /// Removes all disturbances g of the path ahead.
-  void Clear() { pushes_.clear(); }
-  /// Appends the disturbance g that the path causes in the next step.
-  void Append(const ErrorModel::Vector& push) { pushes_.push_back(push); }
+  void Clear() {
+    pushes_.clear();
+    path_rates_.clear();
+  }
+  /// Appends the disturbance g that the path causes in the next step, and the steering rate r of
+  /// the path in this step.
+  void Append(const ErrorModel::Vector& push, double path_rate) {
+    pushes_.push_back(push);
+    path_rates_.push_back(path_rate);
+  }
 
   /// Returns the input w(0) within [-most, most], for the deviation z(0). `most` is the bound
   /// w_max, > 0. The returned input does not depend on earlier calls. Each iteration costs O(n) for
@@ -82,6 +90,7 @@ class BoundedRegulator {
   [[nodiscard]] double MeanProduct(double part) const;
 
   std::vector<ErrorModel::Vector> pushes_;
+  std::vector<double> path_rates_;  // r
   std::vector<Step> steps_;
   std::vector<double> inputs_;  // w
   int iterations_ = 0;

@@ -239,9 +239,11 @@ Vector Ahead::Next(const ErrorModel& model) {
     return path_ ? path_->At(station) : input_.reference.path.At(station);
   };
   const PathPoint next = point(station_ + stride);
-  if (next.direction != direction_) {
-    // At a cusp of the path, return no disturbance: the car stops there, and its wheels keep their
-    // angle until then.
+  const bool ends = station_ + stride >= input_.reference.path.length();
+  if (next.direction != direction_ || ends) {
+    // At a cusp or at the end of the path, return no disturbance: the car stops there, and its
+    // wheels keep their angle until then. Beyond an end on a bend, the path would be straight.
+    rate_ = 0.0;
     return Vector::Zero(steady_.size());
   }
   station_ += stride;
@@ -264,7 +266,10 @@ Vector Ahead::Next(const ErrorModel& model) {
       model.c * (TangentExcess(steering(mean)) - TangentExcess(steering(curvature_)));
   yaw_ = next.pose.yaw;
   curvature_ = next.curvature;
+  const double before = steady_[kActuator];
   steady_ = SteadyState(input_.vehicle, MotionOn(curvature_), model_);
+  const double most = input_.vehicle.steering_rate;
+  rate_ = std::clamp((steady_[kActuator] - before) / model.period, -most, most);
   return after - steady_;
 }
 

@@ -87,8 +87,10 @@ class CommandedAngle {
 };
 
 /// Weights of the cost of LQR and MPC: of the offset e, the heading error psi minus its steady
-/// value psi_0, and the steering rate w. The cost is the sum over all steps of
-///   cross_track e^2 + heading (psi - psi_0)^2 + rate w^2.
+/// value psi_0, and the steering rate w minus its steady value r. The cost is the sum over all
+/// steps of
+///   cross_track e^2 + heading (psi - psi_0)^2 + steering_rate (w - r)^2,
+/// with the steering rate r of the steady turn on the path (Ahead::rate).
 struct ErrorWeights {
   double cross_track = 1.0;  ///< Weight of the squared offset e^2 in the cost [1/m^2], > 0.
   double heading = 1.0;      ///< Weight of the squared heading error in the cost [1/rad^2], >= 0.
@@ -156,8 +158,8 @@ ErrorModel::Vector StateCost(const ErrorModel& model, const ErrorWeights& weight
 /// speed. The speed on the path ahead determines the length of a step and the steady turn x_0(k). A
 /// car that is much slower than planned is assumed to reach the planned speed or the minimum speed
 /// of the model, whichever is smaller. The class Ahead looks along the path only up to the next
-/// cusp. If `path` is not null, the car follows the ramped path `path`, and `tracking` must come
-/// from RampedPath::Track.
+/// cusp or the path's end. If `path` is not null, the car follows the ramped path `path`, and
+/// `tracking` must come from RampedPath::Track.
 class Ahead {
  public:
   Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model,
@@ -173,6 +175,9 @@ class Ahead {
   /// made for the motion that Now returns.
   ErrorModel::Vector Next() { return Next(model_); }
   ErrorModel::Vector Next(const ErrorModel& model);
+  /// Returns the steering rate of the steady turn in the last step of Next [rad/s], limited to the
+  /// car's largest steering rate.
+  [[nodiscard]] double rate() const { return rate_; }
 
  private:
   /// Returns the motion that a car should have at the present station, on a path of the given
@@ -188,6 +193,7 @@ class Ahead {
   double curvature_;
   ErrorModel::Vector steady_;
   double yaw_;
+  double rate_ = 0.0;
 };
 
 /// Returns the distance [m] that the car drives within `steps` steps of `period` [s], at the speeds

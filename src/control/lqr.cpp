@@ -32,7 +32,8 @@ class Lqr final : public SteeringController {
 
     bounded_.Clear();
     for (long k = 0; k < steps; ++k) {
-      bounded_.Append(ahead.Next());
+      const ErrorModel::Vector push = ahead.Next();
+      bounded_.Append(push, ahead.rate());
     }
     const double rate = bounded_.Input(model, regulator, z, vehicle.steering_rate);
     return angle_.Turn(input, rate);

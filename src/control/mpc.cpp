@@ -51,6 +51,7 @@ class Mpc final : public SteeringController {
         model = MakeErrorModelFor(vehicle, motion, step, options_.tyres);
       }
       z.free = (model.a * z.free + ahead.Next(model)).eval();
+      program.linear[k] -= weights.steering_rate * ahead.rate();
       z.reach = (model.a * z.reach).eval();
       z.reach.col(k) += model.b;
       const bool last = k + 1 == options_.horizon;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -44,19 +45,24 @@ struct Case {
     std::normal_distribution<double> normal;
     start = Vector{{0.3 * normal(random), 0.3 * normal(random), 0.3 * normal(random)}};
     pushes.assign(kSteps, Vector::Zero(3));
+    path_rates.assign(kSteps, 0.0);
+    for (double& rate : path_rates) {
+      rate = std::clamp(0.5 * normal(random), -kMost, kMost);
+    }
     for (const int at : {5, 20, 30}) {
       pushes[static_cast<std::size_t>(at)] = Vector{{0.0, 0.0, 0.5 * normal(random)}};
     }
   }
   double Input(BoundedRegulator& bounded, const Integrators& loop, double most = kMost) const {
     bounded.Clear();
-    for (const Vector& push : pushes) {
-      bounded.Append(push);
+    for (std::size_t k = 0; k < pushes.size(); ++k) {
+      bounded.Append(pushes[k], path_rates[k]);
     }
     return bounded.Input(loop.model, loop.regulator, start, most);
   }
   Vector start;
   std::vector<Vector> pushes;
+  std::vector<double> path_rates;
 };
 
 /// States x = free + reach w, written out for all inputs: the quadratic program, without a Riccati
@@ -64,7 +70,8 @@ struct Case {
 QuadraticProgram WriteOut(const Integrators& loop, const Case& at) {
   QuadraticProgram program;
   program.hessian = loop.weights.steering_rate * Eigen::MatrixXd::Identity(kSteps, kSteps);
-  program.linear.setZero(kSteps);
+  program.linear =
+      -loop.weights.steering_rate * Eigen::Map<const Eigen::VectorXd>(at.path_rates.data(), kSteps);
   Eigen::MatrixXd reach = Eigen::MatrixXd::Zero(3, kSteps);
   Eigen::VectorXd state = at.start;
   const Eigen::MatrixXd a = loop.model.a;
@@ -141,9 +148,10 @@ TEST(BoundedRegulator, IsTheRegulatorWithinItsBounds) {
   std::mt19937 random(7);
   const Case at(random);
   const ErrorModel::Matrix closed = loop.model.a - loop.model.b * loop.regulator.gain;
-  double expected = -loop.regulator.gain.dot(at.start);
+  double expected = at.path_rates[0] - loop.regulator.gain.dot(at.start);
   Vector reach = loop.model.b;
-  for (const Vector& push : at.pushes) {
+  for (std::size_t k = 0; k < at.pushes.size(); ++k) {
+    const Vector push = at.pushes[k] + at.path_rates[k] * loop.model.b;
     expected -= reach.dot(loop.regulator.cost * push) / loop.regulator.input_cost;
     reach = (closed * reach).eval();
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "tests/control/loop.h"
 #include "tests/geometry/random.h"
@@ -103,6 +104,22 @@ TEST(Mpc, LooksAheadForTheTimeOfTheWheelsToTheirLimit) {
   const SpeedProfile speed({{0.0, 4.0}});
   EXPECT_EQ(SteerBeforeCircle({.step = 0.1}, speed, 12.0), 0.0);
   EXPECT_NE(SteerBeforeCircle({}, speed, 12.0), 0.0);
+}
+
+TEST(Mpc, KeepsTheWheelsTurnedUpToTheEnd) {
+  // The path ends on a bend, 1 m ahead. The car stops there with turned wheels, so that it need not
+  // straighten them for the straight tangent beyond the end. The same holds for lqr.
+  const VehicleParams car = ReferenceCar();
+  const Reference reference{Path({}, {{20.0, 0.1, 1}}), SpeedProfile({{0.0, 1.0}})};
+  VehicleState state;
+  state.pose = reference.path.At(19.0).pose;
+  state.speed = 1.0;
+  state.steering = SteeringForCurvature(car, 0.1);
+  state.steering_actuator = state.steering;
+  const std::vector<ControllerOptions> both{MpcOptions{}, LqrOptions{}};
+  for (const ControllerOptions& options : both) {
+    EXPECT_NEAR(Steer(options, car, reference, state, 19.0, 0.02), state.steering, Tolerance(1e-9));
+  }
 }
 
 TEST(Mpc, ComesBackFromFarAway) {

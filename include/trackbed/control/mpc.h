@@ -10,7 +10,8 @@ namespace trackbed {
 /// Linear model-predictive controller that respects the car's limits on steering angle and rate.
 /// The cost function of LqrOptions is summed over the next `horizon` steps; the Riccati matrix P
 /// accounts for all later steps:
-///   minimize  sum_{k<N} (cross_track e_k^2 + heading (psi_k - psi_0)^2 + steering_rate w_k^2)
+///   minimize  sum_{k<N} (cross_track e_k^2 + heading (psi_k - psi_0)^2 + steering_rate (w_k -
+///   r_k)^2)
 ///             + z_N' P z_N
 ///   subject to  abs(w_k) <= omega,  abs(delta_k) <= delta_max  for every step.
 ///
