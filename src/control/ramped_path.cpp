@@ -26,7 +26,8 @@ struct Offset {
 const double kTailBend = 10.0 / std::sqrt(3.0);
 
 /// Returns the offset of the ramped path at the distance x from a curvature step of height 1. The
-/// fraction `before` of the ramp's sideways shift lies before the curvature step.
+/// argument `tail` is the length of the tail on the side of x. The fraction `before` of the ramp's
+/// sideways shift lies before the curvature step.
 Offset OffsetFrom(double x, double ramp, double tail, double before) {
   const double side = x < 0.0 ? -1.0 : 1.0;
   const double half = 0.5 * ramp;
@@ -40,10 +41,10 @@ Offset OffsetFrom(double x, double ramp, double tail, double before) {
             .slope = left * left / (2.0 * ramp),
             .bend = -side * left / ramp};
   }
-  const double u = (d - half) / tail;
-  if (u >= 1.0) {
+  if (d - half >= tail) {
     return {};
   }
+  const double u = (d - half) / tail;
   const double v = 1.0 - u;
   return {.e = end * v * v * v * (1.0 + 3.0 * u + 6.0 * u * u),
           .slope = -side * end * 30.0 * u * u * v * v / tail,
@@ -70,20 +71,27 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
   const auto end_leg = [&] {
     for (std::size_t i = kept; i < steps_.size(); ++i) {
       Step& step = steps_[i];
-      const double room = std::min(step.station - step.tail, station - step.station);
-      step.ramp = std::min(step.ramp, room / (0.5 + kShortestTail));
-      step.tail = std::min(kTail * step.ramp, room - 0.5 * step.ramp);
+      const double room_before = step.station - step.tail_before;
+      const double room_after = station - step.station;
+      step.ramp = std::min({step.ramp, 2.0 * room_before, 2.0 * room_after,
+                            std::max(room_before, room_after) / (0.5 + kShortestTail)});
+      step.tail_before = std::min(kTail * step.ramp, room_before - 0.5 * step.ramp);
+      step.tail_after = std::min(kTail * step.ramp, room_after - 0.5 * step.ramp);
       // The tails of two neighboring curvature steps may overlap, so their curvatures add up. The
       // factor 2 in `bend` leaves enough steering angle for two overlapping tails.
-      const double ramp_by_tail = step.ramp / step.tail;
-      const double bend = 2.0 * kTailBend / 24.0 * ramp_by_tail * ramp_by_tail;
-      const auto share = [&](double curvature) {
+      const double bend = 2.0 * kTailBend / 24.0 * step.ramp * step.ramp;
+      const auto share = [&](double tail, double curvature) {
         const double left = std::max(tightest - std::abs(curvature), 0.0);
-        return std::min(left / (bend * std::abs(step.height)), 0.5);
+        return std::min(tail * tail * left / (bend * std::abs(step.height)), 0.5);
       };
-      const double ahead_share = share(step.from);
-      const double shares = ahead_share + share(step.from + step.height);
-      step.before = shares > 0.0 ? ahead_share / shares : 0.5;
+      // The steering rate on a tail is proportional to its share, divided by the cube of its
+      // length.
+      const double rate_before = std::pow(step.tail_before, 3);
+      const double rate_after = std::pow(step.tail_after, 3);
+      const double share_before = rate_before * share(step.tail_before, step.from);
+      const double share_after = rate_after * share(step.tail_after, step.from + step.height);
+      step.before = share_before + share_after > 0.0 ? share_before / (share_before + share_after)
+                                                     : rate_before / (rate_before + rate_after);
     }
     kept = steps_.size();
     leg = station;
@@ -104,7 +112,8 @@ void RampedPath::Update(const ControlInput& input, double ahead) {
                             .from = end,
                             .height = segment.curvature - end,
                             .ramp = ramp,
-                            .tail = leg,  // start of the leg; end_leg replaces this value
+                            .tail_before = leg,  // start of the leg; end_leg replaces this value
+                            .tail_after = 0.0,
                             .before = 0.5,
                             .direction = segment.direction});
         }
@@ -124,7 +133,9 @@ void RampedPath::UpdateWithoutRamps(const ControlInput& input) {
 PathPoint RampedPath::At(double s) const {
   PathPoint point = input_->reference.path.At(s);
   for (const Step& step : steps_) {
-    const auto [e, slope, bend] = OffsetFrom(s - step.station, step.ramp, step.tail, step.before);
+    const double x = s - step.station;
+    const double tail = x < 0.0 ? step.tail_before : step.tail_after;
+    const auto [e, slope, bend] = OffsetFrom(x, step.ramp, tail, step.before);
     if (step.direction != point.direction) {
       continue;
     }

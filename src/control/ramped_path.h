@@ -19,7 +19,7 @@ namespace trackbed {
 ///   kappa   height of the step [1/m]
 ///   S       length of the ramp [m]: v abs(Delta delta)/omega, driven while the wheels turn
 ///   e       offset of the ramped path from the path [m], positive to the left
-///   T       length of the tails [m]: 2 S
+///   T       length of a tail [m]: 2 S, or less before a cusp or path end
 ///
 /// The curvature of the ramped path rises linearly over the ramp, where abs(x) < S/2. A ramp of
 /// length S shifts the path sideways by kappa S^2/24. For a curvature step to the left, the offset
@@ -32,9 +32,11 @@ namespace trackbed {
 /// curvature step. The offsets that several curvature steps cause are added.
 ///
 /// A path without steps of the curvature is returned unchanged. At cusps and at the ends of the
-/// path, the wheels turn at rest, so curvature steps at these points remain. Ramp and tail of a
-/// curvature step are shortened to end before the nearest cusp or path end. The ramped path
-/// therefore passes through the cusps and ends of the original path.
+/// path, the wheels turn at rest, so curvature steps at these points remain. The tails of a
+/// curvature step end before the nearest cusp or path end; the side with the shorter tail gets less
+/// of the sideways shift. If a half of the ramp has no room before a cusp or path end, or no tail
+/// has the length S, the ramp is shortened. The ramped path therefore passes through the cusps and
+/// ends of the original path.
 class RampedPath {
  public:
   /// Finds the curvature steps whose ramps or tails lie between the car's station and `ahead` [m]
@@ -65,10 +67,11 @@ class RampedPath {
  private:
   struct Step {
     double station;
-    double from;    // Curvature before the curvature step.
-    double height;  // Height kappa of the curvature step.
-    double ramp;    // Ramp length S.
-    double tail;    // Tail length T.
+    double from;         // Curvature before the curvature step.
+    double height;       // Height kappa of the curvature step.
+    double ramp;         // Ramp length S.
+    double tail_before;  // Length T of the tail before the ramp.
+    double tail_after;
     double before;  // Fraction of the sideways shift before the curvature step.
     int direction;
   };

@@ -144,6 +144,35 @@ TEST(RampedPath, PassesThroughEndsAndCusps) {
             1e-3);
 }
 
+TEST(RampedPath, TurnsTheWheelsWithinTheirRateNearAnEnd) {
+  // Between the end and the step, there is room for half of the ramp, but not for a tail. The whole
+  // sideways shift kappa S^2/24 is on the other side of the step.
+  const double ramp = RampOf(ReferenceCar());
+  for (const bool at_start : {true, false}) {
+    const Segment arc{0.6 * ramp, 1.0 / kRadius, 1};
+    const Segment straight{60.0, 0.0, 1};
+    const RampedPathCase at(at_start ? Path({}, {arc, straight}) : Path({}, {straight, arc}));
+    const double step = at_start ? arc.length : straight.length;
+    const ControlInput input = at.At(step, 1);
+    RampedPath ramped;
+    ramped.Update(input, 60.0);
+    constexpr double h = 0.01;
+    for (double s = 0.0; s + h < at.reference.path.length(); s += h) {
+      const double turned = SteeringForCurvature(at.car, ramped.At(s + h).curvature) -
+                            SteeringForCurvature(at.car, ramped.At(s).curvature);
+      EXPECT_LT(std::abs(turned) * kSpeed / h, 1.12 * at.car.steering_rate) << s;
+    }
+    const double before = step + (at_start ? -0.5 : 0.5) * ramp;
+    const double behind = step + (at_start ? 0.5 : -0.5) * ramp;
+    const auto offset = [&](double s) {
+      return (ramped.At(s).pose.position() - at.reference.path.At(s).pose.position()).norm();
+    };
+    // The share of a side grows with the cube of its tail, here 0.1 S and 2 S.
+    EXPECT_LT(offset(before), 0.001 * ramp * ramp / (24.0 * kRadius));
+    EXPECT_GT(offset(behind), 0.999 * ramp * ramp / (24.0 * kRadius));
+  }
+}
+
 class FollowerOfSteps : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Laws, FollowerOfSteps,
