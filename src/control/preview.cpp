@@ -43,11 +43,19 @@ class Preview final : public SteeringController {
     const bool slip = options_.slip && HasTyres(vehicle);
     const double slip_angle = slip ? SteadyHeading(input, direction) : 0.0;
     const Vec2 to_left(-std::sin(tracking.foot.pose.yaw), std::cos(tracking.foot.pose.yaw));
-    const auto toward = [&](double angle_to_point) {
-      const double u = angle_to_point + slip_angle;
+    const auto bend_toward = [&](double u) {
       // In reverse gear, steering to the right turns the direction of motion to the left.
-      const double bend =
-          direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
+      return direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
+    };
+    // Where the curvature changes, the circle to the preview point differs from the path. The
+    // difference for a car on its path is not an error, so the law leaves it out.
+    const double correction = options_.distance
+                                  ? 0.0
+                                  : path_.CurvatureAfter(ResponseDistance(input)) -
+                                        bend_toward(AngleTo(path_, direction, tracking.foot.pose,
+                                                            input.station, distance));
+    const auto toward = [&](double angle_to_point) {
+      const double bend = bend_toward(angle_to_point + slip_angle) + correction;
       const double limit = vehicle.steering_limit;
       return std::clamp(SteeringOn(input, bend, direction), -limit, limit);
     };

@@ -136,6 +136,11 @@ double ResponseTime(const VehicleParams& vehicle, double speed, double period) {
   return period + vehicle.steering_delay() + tyres;
 }
 
+double ResponseDistance(const ControlInput& input) {
+  const double speed = input.state.speed;
+  return std::abs(speed) * ResponseTime(input.vehicle, speed, input.period);
+}
+
 double ShortestPreview(const VehicleParams& vehicle, double speed, double period, double delay) {
   // For a differential drive, `wheelbase` is the distance between the wheels of the axle.
   const double size = vehicle.kind == VehicleKind::kDifferential

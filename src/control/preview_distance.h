@@ -53,6 +53,10 @@ inline constexpr double kReturnOffset = 0.125;
 /// constant m v/(C_f + C_r) of the tyres is 0 for a car without tyre coefficients.
 double ResponseTime(const VehicleParams& vehicle, double speed, double period);
 
+/// Returns the distance [m] that the car drives within its response time T. A control law that
+/// commands the path's curvature from this distance ahead turns the car in time.
+double ResponseDistance(const ControlInput& input);
+
 /// Returns the default preview distance R [m] on a straight path: max(3/4 L, 3 v T), with the
 /// wheelbase L, the speed v and the response time T. The argument `delay` [s] is added to the
 /// response time T.

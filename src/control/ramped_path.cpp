@@ -167,8 +167,7 @@ Tracking RampedPath::Track() const {
   return tracking;
 }
 
-double RampedPath::CurvatureAfterLag() const {
-  const double way = WayInLag(*input_);
+double RampedPath::CurvatureAfter(double way) const {
   const PathPoint here = At(input_->station);
   const PathPoint ahead = At(input_->station + way);
   return ahead.direction == here.direction ? ahead.curvature : here.curvature;

@@ -60,9 +60,9 @@ class RampedPath {
   /// Returns the position of the car relative to the ramped path.
   [[nodiscard]] Tracking Track() const;
 
-  /// Returns the ramped path's curvature [1/m] at the place reached after the steering lag
-  /// (CurvatureAfterLag).
-  [[nodiscard]] double CurvatureAfterLag() const;
+  /// Returns the ramped path's curvature [1/m] at the distance `way` [m] ahead of the car, but not
+  /// beyond a cusp.
+  [[nodiscard]] double CurvatureAfter(double way) const;
 
  private:
   struct Step {

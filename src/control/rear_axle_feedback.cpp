@@ -37,7 +37,7 @@ class RearAxleFeedback final : public SteeringController {
       return *steering;
     }
     const VehicleParams& vehicle = input.vehicle;
-    path_.Update(input, std::max(WayInLag(input), TimelySteering::Horizon(input)));
+    path_.Update(input, std::max(ResponseDistance(input), TimelySteering::Horizon(input)));
     const Tracking tracking = path_.Track();
     const int direction = tracking.foot.direction;
     const double speed = direction * std::abs(input.state.speed);
@@ -45,7 +45,7 @@ class RearAxleFeedback final : public SteeringController {
     const double steady_heading = SteadyTurnOn(vehicle, curvature, speed).heading_error;
     const double d =
         options_.distance ? *options_.distance : DefaultDistance(input, tracking.cross_track);
-    const double later_curvature = path_.CurvatureAfterLag();
+    const double later_curvature = path_.CurvatureAfter(ResponseDistance(input));
     const auto law = [&](const GainedErrors& gained) {
       const double e = tracking.cross_track + gained.cross_track;
       const double psi = tracking.heading_error - steady_heading + gained.heading;

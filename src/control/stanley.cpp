@@ -26,12 +26,13 @@ class Stanley final : public SteeringController {
       return *steering;
     }
     const VehicleParams& vehicle = input.vehicle;
-    path_.Update(input, std::max(WayInLag(input), TimelySteering::Horizon(input)));
+    path_.Update(input, std::max(ResponseDistance(input), TimelySteering::Horizon(input)));
     const Tracking tracking = path_.Track();
     const int direction = tracking.foot.direction;
     const double speed = std::abs(input.state.speed);
     const SteadyTurn turn = SteadyTurnOn(vehicle, tracking.foot.curvature, direction * speed);
-    const SteadyTurn ahead = SteadyTurnOn(vehicle, path_.CurvatureAfterLag(), direction * speed);
+    const SteadyTurn ahead =
+        SteadyTurnOn(vehicle, path_.CurvatureAfter(ResponseDistance(input)), direction * speed);
     const CarScale scale = ComputeCarScale(vehicle);
     const double gain = options_.gain.value_or(1.0 / scale.time);
     const double softening = options_.softening.value_or(scale.length / scale.time);

@@ -15,18 +15,6 @@ Tracking ProjectOntoPath(const ControlInput& input) {
   return tracking;
 }
 
-double WayInLag(const ControlInput& input) {
-  return std::abs(input.state.speed) * input.vehicle.steering_response.time_constant;
-}
-
-double CurvatureAfterLag(const ControlInput& input) {
-  const double way = WayInLag(input);
-  const Path& path = input.reference.path;
-  const PathBend here = path.BendAt(input.station);
-  const PathBend ahead = path.BendAt(input.station + way);
-  return ahead.direction == here.direction ? ahead.curvature : here.curvature;
-}
-
 bool RearAxleSlips(const ControlInput& input) {
   constexpr double kRounding = 1e-9;
   const double turning = input.vehicle.cg_to_rear * input.state.yaw_rate;

@@ -17,15 +17,6 @@ struct Tracking {
 
 Tracking ProjectOntoPath(const ControlInput& input);
 
-/// Returns the distance [m] that the car drives within the lag of its steering actuator
-/// (SteeringResponse::time_constant).
-double WayInLag(const ControlInput& input);
-
-/// Returns the curvature of the path [1/m] at the place that the car reaches after the lag of its
-/// steering actuator (SteeringResponse::time_constant), but not beyond a cusp. By using the
-/// curvature after the lag, a control law without preview turns the lagging wheels in time.
-double CurvatureAfterLag(const ControlInput& input);
-
 /// Returns whether the rear axle moves sideways, which is impossible for a kinematic car.
 bool RearAxleSlips(const ControlInput& input);
 

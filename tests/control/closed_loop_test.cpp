@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -153,6 +154,36 @@ TEST_P(EveryFollower, KeepsTheKinematicCarOnItsCircle) {
       at.state.steering = SteeringForCurvature(at.vehicle, curvature);
       at.state.steering_actuator = at.state.steering;
       EXPECT_NEAR(Steer(GetParam().defaults, at), at.state.steering, Tolerance(kRounding));
+    }
+  }
+}
+
+TEST_P(EveryFollower, StaysOnRampsThatTheWheelsCanFollow) {
+  const std::set<std::string> exact{"preview", "lqr", "mpc", "stanley", "rear_axle_feedback"};
+  if (!exact.contains(GetParam().name)) {
+    GTEST_SKIP() << "does not command the path's own steering";
+  }
+  // On the ramps, the wheels turn at 0.9 of their rate. A law with the steering of the path has no
+  // error on them; what is left comes from the control period, and from the steps of mpc of 0.16 s.
+  // A law that steers for a circle to a point 3/4 L ahead would be 0.07 m beside the path.
+  for (const double speed : {1.0, -1.0, 3.0}) {
+    for (const VehicleParams& vehicle : {ReferenceCar(), ReferenceCarWithTyres()}) {
+      const int direction = speed < 0.0 ? -1 : 1;
+      const double most = 0.15;  // [1/m]
+      const double sharpness =
+          0.9 * vehicle.steering_rate / (vehicle.wheelbase * std::abs(speed));  // [1/m^2]
+      const double ramp = most / sharpness;
+      LoopSetup setup;
+      setup.vehicle = vehicle;
+      setup.path = Path({}, {{5.0, 0.0, direction},
+                             {ramp, 0.0, direction, sharpness},
+                             {2.0 * ramp, most, direction, -sharpness},
+                             {ramp, -most, direction, sharpness},
+                             {5.0, 0.0, direction}});
+      setup.speed = speed;
+      setup.duration = setup.path.length() / std::abs(speed);
+      SCOPED_TRACE(fmt::format("{} m/s, {}", speed, vehicle.cornering_stiffness_front));
+      EXPECT_LT(LargestOffset(Loop(GetParam().defaults, setup)), 0.03);
     }
   }
 }

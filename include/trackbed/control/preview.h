@@ -25,10 +25,10 @@ enum class PreviewLaw {
 /// distance R from the path, the preview point is the path point whose station is R ahead of the
 /// path point nearest to the car.
 ///
-/// With a long preview distance R, the car cuts corners; on a circle of radius r, the car drives
-/// R^2/(8 r) further inside. With a short preview distance, the control is less robust to the
-/// limited steering rate. If the option `distance` is not given, the preview distance R is computed
-/// from the wheelbase L, the speed v and the response time T:
+/// With a long preview distance R, the textbook law cuts corners; at the start of a circle of
+/// radius r, the car drives R^2/(8 r) further inside. With a short preview distance, the control is
+/// less robust to the limited steering rate. If the option `distance` is not given, the preview
+/// distance R is computed from the wheelbase L, the speed v and the response time T:
 ///   R = max(3/4 L,  3 v T).
 /// The response time T [s] is the sum of the control period, the steering lag, and the response
 /// time m v/(C_f + C_r) of the tyres, which is 0 for a car without tyre coefficients. The other
@@ -41,6 +41,11 @@ enum class PreviewLaw {
 /// with a limited steering rate can drive the path with ramps. The path with curvature ramps leaves
 /// the given path by at most kappa S^2/24, where kappa is the height of the curvature step and S
 /// the distance driven while the wheels turn.
+///
+/// Without the option `distance`, the controller leaves out the turn toward the preview point that
+/// a car on its path would make. The controller commands the curvature of the path instead, at the
+/// distance v T ahead. A car on a path that its wheels can follow therefore has no cross-track
+/// error but those of its tyres.
 ///
 /// Without the option `distance`, the controller begins to turn the wheels back early enough for
 /// their limited rate. The controller predicts the errors of the car after its wheels have turned
