@@ -116,6 +116,9 @@ std::vector<double> LegFinder::Speeds() const {
     speeds.push_back(
         std::max(speeds.back() * (fine ? kSpeedRatio : kCoarseSpeedRatio), route_.min_speed));
   }
+  if (kCrawlingSpeed < speeds.back()) {
+    speeds.push_back(kCrawlingSpeed);
+  }
   return speeds;
 }
 

@@ -37,6 +37,8 @@ class LegFinder {
   LegFinder(const ContinuousRoute& route, const PlanRequest& request);
 
   /// Returns the choices of speeds for a leg [m/s], from the mission's speed to the lowest speed.
+  /// On a leg without room for turns at the lowest speed, the car crawls instead of turning its
+  /// wheels at rest.
   [[nodiscard]] std::vector<double> Speeds() const;
 
   /// Returns the largest curvature at `speed` [1/m].

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "trackbed/planning/common/driving_time.h"
+#include "src/planning/curves/route_time.h"
 #include "trackbed/planning/common/feasibility.h"
 
 namespace trackbed {
@@ -24,10 +24,10 @@ Plan ContinuousOrSteps(Plan continuous, Plan steps, const PlanRequest& request,
   }
   std::string why = smooth->reason;
   if (smooth.ok()) {
-    double time = DrivingTime(smooth, request.vehicle);
-    const double with_steps = DrivingTime(stepping, request.vehicle);
+    double time = TotalTime(request, smooth);
+    const double with_steps = TotalTime(request, stepping);
     if (time > kMostTime * with_steps && faster) {
-      time = DrivingTime(MakeFeasible(faster(continuous), strict), request.vehicle);
+      time = TotalTime(request, MakeFeasible(faster(continuous), strict));
     }
     if (time <= kMostTime * with_steps) {
       return continuous;

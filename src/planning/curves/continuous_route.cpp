@@ -18,7 +18,6 @@
 #include <numeric>
 
 #include "src/planning/curves/continuous_legs.h"
-#include "src/planning/curves/continuous_or_steps.h"
 #include "src/planning/curves/leg_speeds.h"
 #include "src/planning/curves/route_time.h"
 #include "trackbed/planning/common/driving_time.h"
@@ -57,7 +56,7 @@ class RoutePlanner {
       best = BestLegs(finder_.Speeds());
       std::vector<ContinuousLeg> constant = BestLegs({speed_});
       const auto time = [this](const std::vector<ContinuousLeg>& legs) {
-        return DrivingTime(PlanOf(legs), request_.vehicle);
+        return TotalTime(request_, PlanOf(legs));
       };
       if (!constant.empty() && (best.empty() || time(constant) <= time(best))) {
         best = std::move(constant);
@@ -81,7 +80,8 @@ class RoutePlanner {
     }
     const double most = finder_.MaxCurvature(route_.min_speed);
     if (is_end) {
-      return route_.turns_at_rest ? std::vector<double>{0.0, most, -most} : std::vector{0.0};
+      const bool turns = stop == 0 ? route_.turns_at_start : route_.turns_at_goal;
+      return turns ? std::vector<double>{0.0, most, -most} : std::vector{0.0};
     }
     std::vector<double> choices{0.0, 0.5 * most, -0.5 * most, most, -most};
     // Half of the car's largest curvature may be too much at the mission's speed.
@@ -115,7 +115,7 @@ class RoutePlanner {
     std::vector<std::vector<Arrival>> arrivals(1);
     for (const double curvature : CurvaturesAt(0)) {
       arrivals[0].push_back(
-          {.cost = route_.turns_at_rest ? TimeBeforeStart(request_, curvature) : 0.0});
+          {.cost = route_.turns_at_start ? TimeBeforeStart(request_, curvature) : 0.0});
     }
     for (std::size_t leg = 0; leg + 1 < stops_.size(); ++leg) {
       arrivals.push_back(ArrivalsAfter(leg, arrivals.back(), speeds));
@@ -246,17 +246,7 @@ double LateralAccelerationOnClothoids(const VehicleParams& vehicle, double frict
 
 Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request,
                          LegCosts& known) {
-  Plan straight = RoutePlanner(route, request, known).Make();
-  const double time = TotalTime(request, straight);
-  // Other motions turn the car in little room by cusps.
-  if (route.objective != CurveObjective::kTime || route.motion != CurveMotion::kForwards ||
-      time <= kMostTime * LeastForwardTime(request, route.radius)) {
-    return straight;
-  }
-  ContinuousRoute turned = route;
-  turned.turns_at_rest = true;
-  Plan other = RoutePlanner(turned, request, known).Make();
-  return time > kMostTime * TotalTime(request, other) ? other : straight;
+  return RoutePlanner(route, request, known).Make();
 }
 
 }  // namespace trackbed

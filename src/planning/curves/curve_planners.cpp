@@ -10,6 +10,7 @@
 #include "src/planning/curves/continuous_route.h"
 #include "src/planning/curves/detours.h"
 #include "src/planning/curves/faster_route.h"
+#include "src/planning/curves/route_time.h"
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/curves/drivable_curve.h"
@@ -195,17 +196,26 @@ ContinuousRoute RouteFor(const Options& options, const PlanRequest& request, Cur
           .min_speed = options.min_speed};
 }
 
+/// The ends of a route at which the wheels are turned at rest.
+struct TurnedEnds {
+  bool start = false;
+  bool goal = false;
+};
+
 /// Plans a path of curves of continuous curvature.
 template <typename Options>
 Plan PlanContinuous(const Options& options, const PlanRequest& request, CurveMotion motion,
-                    LegCosts& known) {
+                    TurnedEnds may_turn, LegCosts& known) {
   for (Plan refused : {CheckPoses(request), CheckRadius(request.vehicle, options.radius),
                        CheckStops(PlannedStops(request), request, options.safe_distance)}) {
     if (!refused.ok()) {
       return refused;
     }
   }
-  return PlanContinuousRoute(RouteFor(options, request, motion), request, known);
+  ContinuousRoute route = RouteFor(options, request, motion);
+  route.turns_at_start = may_turn.start;
+  route.turns_at_goal = may_turn.goal;
+  return PlanContinuousRoute(route, request, known);
 }
 
 /// Makes a route of continuous curvature faster, after its legs have been chosen.
@@ -217,22 +227,34 @@ Plan Faster(const Options& options, const PlanRequest& request, CurveMotion moti
   return FasterRoute(RouteFor(options, request, motion), request, std::move(plan));
 }
 
-/// Plans a path of curves among `words`, or of continuous curvature, as the options demand.
+/// Plans a path of curves among `words`, or of continuous curvature, as the options demand. At
+/// the ends in `may_turn`, the wheels of a path of continuous curvature may be turned.
 template <typename Options, typename Words>
 Plan PlanWithCurvature(const Options& options, const PlanRequest& request, CurveMotion continuous,
-                       const Words& words, LegCosts& known) {
+                       const Words& words, LegCosts& known, TurnedEnds may_turn = {}) {
   switch (options.curvature) {
     case CurveCurvature::kSteps:
       return PlanCurves(options, request, words);
     case CurveCurvature::kContinuous:
     case CurveCurvature::kCuspSteps:
-      return PlanContinuous(options, request, continuous, known);
+      return PlanContinuous(options, request, continuous, may_turn, known);
     case CurveCurvature::kAuto:
       break;
   }
-  return ContinuousOrSteps(
-      PlanContinuous(options, request, continuous, known), PlanCurves(options, request, words),
-      request, [&](Plan plan) { return Faster(options, request, continuous, std::move(plan)); });
+  return ContinuousOrSteps(PlanContinuous(options, request, continuous, may_turn, known),
+                           PlanCurves(options, request, words), request, [&](Plan plan) {
+                             return Faster(options, request, continuous, std::move(plan));
+                           });
+}
+
+/// Returns the ends of a plan at which the wheels are turned.
+TurnedEnds TurnedEndsOf(const Plan& plan) {
+  const std::vector<Segment>& segments = plan.reference.path.segments();
+  if (segments.empty()) {
+    return {};
+  }
+  const Segment& last = segments.back();
+  return {segments.front().curvature != 0.0, last.CurvatureAt(last.length) != 0.0};
 }
 
 Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
@@ -240,10 +262,31 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
     return Dubins(from, to, radius).length;
   };
   LegCosts known;
-  Plan plan = WithoutDetours(request, length, [&](const PlanRequest& own) {
-    return PlanWithCurvature(options, own, CurveMotion::kForwards, DubinsWords, known);
-  });
-  return Faster(options, request, CurveMotion::kForwards, std::move(plan));
+  const auto plan = [&](TurnedEnds may_turn) {
+    Plan found = WithoutDetours(request, length, [&](const PlanRequest& own) {
+      return PlanWithCurvature(options, own, CurveMotion::kForwards, DubinsWords, known, may_turn);
+    });
+    return Faster(options, request, CurveMotion::kForwards, std::move(found));
+  };
+  if (options.objective != CurveObjective::kTime || options.curvature == CurveCurvature::kSteps) {
+    return plan({});
+  }
+  Plan best = plan({.start = true, .goal = true});
+  // The planner estimates the times of legs, but FasterRoute makes them faster. Compare the times
+  // of the final plans with those of straight wheels at the start, and at both ends.
+  const auto compare = [&](TurnedEnds may_turn) {
+    Plan other = plan(may_turn);
+    if (TotalTime(request, other) <= TotalTime(request, best)) {
+      best = std::move(other);
+    }
+  };
+  if (TurnedEndsOf(best).start) {
+    compare({.start = false, .goal = true});
+  }
+  if (TurnedEndsOf(best).goal) {
+    compare({});
+  }
+  return best;
 }
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {

@@ -30,9 +30,6 @@ constexpr double kParts = 8.0;
 /// Smallest relative gain in driving time for which a leg is changed.
 constexpr double kLeastGain = 0.01;
 
-/// Lowest speed between pieces of a leg [m/s]; a slower car could not follow its path.
-constexpr double kLowestSpeed = 0.1;
-
 /// A part of the route in one direction between two waypoints or cusps.
 struct Section {
   std::vector<Segment> segments;
@@ -239,8 +236,8 @@ class RouteRefiner {
     const double length = own.Length();
     FastestLeg leg{.start = own.segments,
                    .curvature = 1.0 / route_.radius,
-                   .min_speed = std::max(route_.min_speed, kLowestSpeed),
-                   .held_speed = kLowestSpeed,
+                   .min_speed = std::max(route_.min_speed, kCrawlingSpeed),
+                   .held_speed = kCrawlingSpeed,
                    .limits = limits_};
     leg.speeds.push_back(profile.SpeedAt(from));
     const double duration = ends.Duration(section);
@@ -275,6 +272,10 @@ class RouteRefiner {
         done = to;
       }
       station += segment.length;
+    }
+    // A leg may crawl where its turns have no room at the lowest speed of the route.
+    for (std::size_t i = 1; i + 1 < leg.speeds.size(); ++i) {
+      leg.min_speed = std::clamp(leg.speeds[i], kCrawlingSpeed, leg.min_speed);
     }
     // A rolling car may start too fast for the mission or for its bend; it then slows down first.
     const double first = leg.speeds.front();

@@ -1,13 +1,9 @@
 #include "src/planning/curves/route_time.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "trackbed/planning/common/driving_time.h"
-#include "trackbed/planning/common/route.h"
-#include "trackbed/planning/curves/dubins.h"
 
 namespace trackbed {
 
@@ -22,15 +18,6 @@ double TotalTime(const PlanRequest& request, const Plan& plan) {
   }
   return DrivingTime(plan, request.vehicle) +
          TimeBeforeStart(request, plan.reference.path.segments().front().curvature);
-}
-
-double LeastForwardTime(const PlanRequest& request, double radius) {
-  const std::vector<Pose2> stops = PlannedStops(request);
-  double length = 0.0;
-  for (std::size_t i = 1; i < stops.size(); ++i) {
-    length += Dubins(stops[i - 1], stops[i], radius).length;
-  }
-  return length / std::max(request.speed.speed, request.start_speed);
 }
 
 }  // namespace trackbed

@@ -12,8 +12,4 @@ double TimeBeforeStart(const PlanRequest& request, double curvature);
 /// Returns the driving time of a plan with TimeBeforeStart [s]; infinite without a path.
 double TotalTime(const PlanRequest& request, const Plan& plan);
 
-/// Returns a lower bound of the driving time of a forward path through the stops whose radius is at
-/// least `radius` [m]. The bound is the time for the Dubins curves at the mission's speed [s].
-double LeastForwardTime(const PlanRequest& request, double radius);
-
 }  // namespace trackbed

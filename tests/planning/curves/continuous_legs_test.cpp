@@ -117,7 +117,8 @@ TEST(ContinuousLegs, CostsFromOtherRoutesChangeNoPlan) {
     for (const double y : {8.0, 11.0}) {
       for (const bool at_rest : {false, true}) {
         ContinuousRoute route = TimeRoute();
-        route.turns_at_rest = at_rest;
+        route.turns_at_start = at_rest;
+        route.turns_at_goal = at_rest;
         PlanRequest request = RequestThrough({{0, 0}, {14, 9}, {30, y}, {38, -9}, {60, 0}});
         request.start_speed = start_speed;
         LegCosts own;
