@@ -261,7 +261,7 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
   const auto length = [](const Pose2& from, const Pose2& to, double radius) {
     return Dubins(from, to, radius).length;
   };
-  LegCosts known;
+  LegCosts known;  // The plans with other headings or waypoints share most legs.
   const auto plan = [&](TurnedEnds may_turn) {
     Plan found = WithoutDetours(request, length, [&](const PlanRequest& own) {
       return PlanWithCurvature(options, own, CurveMotion::kForwards, DubinsWords, known, may_turn);
@@ -304,7 +304,7 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
   const CurveMotion motion = options.curvature == CurveCurvature::kContinuous
                                  ? CurveMotion::kContinuous
                                  : CurveMotion::kHybrid;
-  LegCosts known;
+  LegCosts known;  // The plans with other headings or waypoints share most legs.
   Plan plan = WithoutDetours(request, ReedsSheppLength, [&](const PlanRequest& own) {
     return PlanWithCurvature(options, own, motion, words, known);
   });
