@@ -9,7 +9,7 @@
 /// Costs of legs of continuous curvature that several routes share.
 namespace trackbed {
 
-/// What is known about the cost of the cheapest leg between two states.
+/// The known cost of the cheapest leg between two states, or a lower bound of the cost.
 struct LegCost {
   double cost = kNoCurve;  ///< Cost of the leg; infinite: unknown, or the leg is blocked.
   double least = 0.0;      ///< Lower bound of an unknown cost; infinite: the leg is blocked.
