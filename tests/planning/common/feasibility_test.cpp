@@ -429,10 +429,10 @@ TEST(Feasibility, NamesTheFrictionThatASlopeNeeds) {
     request.friction = std::stod(reason.substr(at + remedy.size()));
     EXPECT_EQ(Course(request, straight).status, PlanStatus::kOk) << reason;
   }
-  // On the downhill road, the front axle reaches the ice before the rear axle.
+  // On the downhill road of 60 m, only the front axle reaches the ice.
   PlanRequest request = Request(3.0, {{0.0, 0.0}});
   request.ground.grade = {-0.09, 0.0};
-  request.friction_patches = {IceAcross(30.0, 20.0)};
+  request.friction_patches = {IceAcross(61.0, 9.0)};
   const std::vector<CoursePiece> straight{{.length = 60.0, .curvature = 0.0}};
   const std::string reason = Course(request, straight).reason;
   EXPECT_NE(reason.find("friction factor of 0.05 there"), std::string::npos) << reason;
