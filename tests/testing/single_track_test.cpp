@@ -25,9 +25,11 @@ TEST(SingleTrack, DrivesAPlanLikeTheOthersAtWalkingSpeed) {
   // adds 1.1 % of 2.5^2/(2 x 29) m to this offset, which is 1.2 mm. At the beginning and the end of
   // a turn, the offset is larger by half.
   EXPECT_THAT(run, StaysWithin("kinematic", "single_track", Tolerance(0.008)));
-  // MuJoCo's servo lags by 10 ms, so the steering angle errs by up to 1.5 mrad. This displaces the
-  // car by 1.5 mm. The camber thrust of its tyres has a smaller effect.
-  EXPECT_THAT(run, StaysWithin("single_track", "mujoco:magic_formula", Tolerance(0.002)));
+  // MuJoCo's servo lags by 10 ms, so the steering angle errs by up to 1.5 mrad while the wheels
+  // turn. The feedback compensates this error at an offset of 2.5^2/(2 x 2.7) m x 1.5 mrad, which
+  // is 1.7 mm. From a turn to the left to one to the right, the wheels turn twice in the same
+  // direction, so the offset may double. The camber thrust of the tyres has a smaller effect.
+  EXPECT_THAT(run, StaysWithin("single_track", "mujoco:magic_formula", Tolerance(0.0035)));
 }
 
 TEST(SingleTrack, UndersteersAsMujocosCarOnItsTyresDoes) {
