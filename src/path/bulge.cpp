@@ -7,6 +7,14 @@
 
 #include "trackbed/core/error.h"
 
+// Finds where a fitted spline swings aside of the straight line between two points.
+// 1. FindBulge measures the largest distance between the curve and each chord, and compares the
+//    distance with the plausible one: a circle through neighboring points leaves its chord by no
+//    more.
+// 2. StraightSteps finds the steps on which the points leave out a straight, and WithPointsOn adds
+//    points to these steps.
+// 3. RefuseBulge names the input point that is probably wrong, and the remedies.
+
 namespace trackbed {
 namespace {
 

@@ -446,6 +446,10 @@ vary:
   drive.timestep: [0.002, 0.003]
   mission.waypoints[7]: [[1, 2]]
 )"),
+            "study.yaml:6:18: mission.sped: unknown key 'sped'; did you mean 'speed'?\n"
+            "study.yaml:7:22: mission.speed: -1 is out of range; must be at least 0.1 and at most "
+            "100\n"
+            "study.yaml:7:26: mission.speed: expected a number, found 'fast'\n"
             "study.yaml:9:26: mission.waypoints[7]: element [7] does not exist");
   EXPECT_EQ(ErrorMessages(R"(set: {render.camera: chas}
 vary:
