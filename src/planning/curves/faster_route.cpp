@@ -17,10 +17,9 @@
 // 1. A section is a part of the route in one direction between two waypoints or cusps. For each
 //    section, FindFasterLeg searches a faster path with the same poses and speeds at both ends.
 // 2. Take() replaces all these sections at once, and computes the speed profile of the whole route.
-// 3. If a replaced section is not faster, Take() tries again without this section. If the car
-// cannot
-//    drive the plan, Take() tries each half of the sections. Most routes need a few speed profiles,
-//    whatever the number of sections.
+// 3. If a replaced section is not faster, Take() tries the faster sections and the others apart. If
+//    all sections are faster in a plan that the car cannot drive, Take() tries each half of the
+//    sections. Most routes need a few speed profiles, whatever the number of sections.
 namespace trackbed {
 namespace {
 

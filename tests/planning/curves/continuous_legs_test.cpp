@@ -111,7 +111,7 @@ TEST(ContinuousLegs, BoundOnlyLeavesOutLegsThatCostMore) {
 
 TEST(ContinuousLegs, CostsFromOtherRoutesChangeNoPlan) {
   // Routes that differ in a waypoint, in the start speed and in the turns at rest share the costs
-  // of their legs. Each plan must equal the plan with costs of its own.
+  // of their legs. Each plan must equal the plan that shares no costs.
   LegCosts shared;
   for (const double start_speed : {0.0, 4.0}) {
     for (const double y : {8.0, 11.0}) {
