@@ -1,5 +1,5 @@
-// Runs the program's commands in the shell blocks of README.md and docs/. Each command is a test in
-// a separate folder, after the commands that produce the results it reads.
+// Runs the program's commands in the shell blocks of README.md and docs/. Each page is a test in a
+// separate folder, which runs the page's commands in their order, like a reader.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,19 +26,31 @@ const fs::path kSource = TRACKBED_SOURCE_DIR;
 /// A command that runs all scenarios of a folder is split into this many tests.
 constexpr std::size_t kParts = 8;
 
-struct Command {
-  std::string name;                 ///< of the test
-  std::vector<std::string> words;   ///< without the program; including quotes
-  std::vector<std::string> before;  ///< the preceding commands on its page, in order
-  std::size_t part = 0;
-  std::size_t parts = 1;
+/// Arguments of a command, without the program; with their quotes.
+using Words = std::vector<std::string>;
+
+/// The commands of a page, in order.
+struct Page {
+  std::string name;  ///< of the test
+  std::vector<Words> commands;
 };
 
-void PrintTo(const Command& command, std::ostream* out) {
-  *out << command.name;
+void PrintTo(const Page& page, std::ostream* out) {
+  *out << page.name;
 }
 
-std::string Joined(const std::vector<std::string>& words) {
+/// One of the kParts parts of a command that runs all scenarios of a folder.
+struct FolderPart {
+  std::string name;  ///< of the test
+  std::string folder;
+  std::size_t part = 0;
+};
+
+void PrintTo(const FolderPart& part, std::ostream* out) {
+  *out << part.name;
+}
+
+std::string Joined(const Words& words) {
   std::string text;
   for (const std::string& word : words) {
     text += (text.empty() ? "" : " ") + word;
@@ -46,65 +58,73 @@ std::string Joined(const std::vector<std::string>& words) {
   return text;
 }
 
-std::vector<std::string> Words(const std::string& command) {
+Words WordsOf(const std::string& command) {
   static const std::regex kWord(R"((?:[^\s']|'[^']*')+)");
-  std::vector<std::string> words;
+  Words words;
   for (std::sregex_iterator it(command.begin(), command.end(), kWord), end; it != end; ++it) {
     words.push_back(it->str());
   }
   return words;
 }
 
-std::vector<std::string> CommandsOf(const fs::path& page) {
+std::vector<Words> CommandsOf(const fs::path& page) {
   const std::string program = "build/release/trackbed ";
   std::istringstream text(ReadFile(page));
-  std::vector<std::string> commands;
+  std::vector<Words> commands;
   for (std::string line; std::getline(text, line);) {
     if (line.starts_with(program)) {
-      commands.push_back(line.substr(program.size(), line.find(" #") - program.size()));
+      commands.push_back(WordsOf(line.substr(program.size(), line.find(" #") - program.size())));
     }
   }
   return commands;
 }
 
-bool IsTestOfAFolder(const std::vector<std::string>& words) {
+bool IsTestOfAFolder(const Words& words) {
   return words.size() == 2 && words[0] == "test" && fs::is_directory(kSource / words[1]);
 }
 
-std::vector<Command> DocumentedCommands() {
-  std::vector<fs::path> pages{kSource / "README.md"};
+std::string TestName(const fs::path& page) {
+  std::string name = page.lexically_relative(kSource).replace_extension().string();
+  std::replace_if(
+      name.begin(), name.end(),
+      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+  return name;
+}
+
+/// Returns all pages that have commands.
+std::vector<Page> DocumentedPages() {
+  std::vector<fs::path> files{kSource / "README.md"};
   for (const auto& entry : fs::recursive_directory_iterator(kSource / "docs")) {
     if (entry.path().extension() == ".md") {
-      pages.push_back(entry.path());
+      files.push_back(entry.path());
     }
   }
-  std::sort(pages.begin() + 1, pages.end());
-  std::vector<Command> commands;
-  for (const fs::path& page : pages) {
-    std::string title = page.lexically_relative(kSource).replace_extension().string();
-    std::replace_if(
-        title.begin(), title.end(),
-        [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
-    const std::vector<std::string> own = CommandsOf(page);
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      Command command{.words = Words(own[i]),
-                      .before = {own.begin(), own.begin() + static_cast<std::ptrdiff_t>(i)}};
-      std::string verb = command.words.front();
-      std::erase(verb, '-');
-      command.name = title + "_" + std::to_string(i + 1) + "_" + verb;
-      command.parts = IsTestOfAFolder(command.words) ? kParts : 1;
-      const std::string name = command.name;
-      for (command.part = 0; command.part < command.parts; ++command.part) {
-        command.name = command.parts == 1 ? name : name + "_" + std::to_string(command.part + 1);
-        commands.push_back(command);
+  std::sort(files.begin() + 1, files.end());
+  std::vector<Page> pages;
+  for (const fs::path& file : files) {
+    if (std::vector<Words> commands = CommandsOf(file); !commands.empty()) {
+      pages.push_back({TestName(file), std::move(commands)});
+    }
+  }
+  return pages;
+}
+
+std::vector<FolderPart> DocumentedFolders() {
+  std::vector<FolderPart> parts;
+  for (const Page& page : DocumentedPages()) {
+    for (const Words& words : page.commands) {
+      for (std::size_t part = 0; IsTestOfAFolder(words) && part < kParts; ++part) {
+        parts.push_back(
+            {page.name + "_" + TestName(kSource / words[1]) + "_" + std::to_string(part + 1),
+             words[1], part});
       }
     }
   }
-  return commands;
+  return parts;
 }
 
 /// The arguments of options that name outputs.
-std::vector<std::string> Outputs(const std::vector<std::string>& words) {
+std::vector<std::string> Outputs(const Words& words) {
   static const std::vector<std::string> kOptions{"-o",     "--out",    "--junit",
                                                  "--save", "--report", ">"};
   std::vector<std::string> outputs;
@@ -117,7 +137,7 @@ std::vector<std::string> Outputs(const std::vector<std::string>& words) {
 }
 
 /// Output folder or file of a command; "" if it writes none.
-std::string MadeBy(const std::vector<std::string>& words) {
+std::string MadeBy(const Words& words) {
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (words[i - 1] == "-o" || words[i - 1] == "--out" || words[i - 1] == ">") {
       return words[i];
@@ -133,7 +153,7 @@ std::string MadeBy(const std::vector<std::string>& words) {
 }
 
 /// Results that a command reads.
-std::vector<std::string> ReadBy(const std::vector<std::string>& words) {
+std::vector<std::string> ReadBy(const Words& words) {
   const std::vector<std::string> outputs = Outputs(words);
   std::vector<std::string> read;
   std::copy_if(words.begin(), words.end(), std::back_inserter(read), [&](const std::string& word) {
@@ -143,33 +163,29 @@ std::vector<std::string> ReadBy(const std::vector<std::string>& words) {
   return read;
 }
 
-class Documented : public testing::TestWithParam<Command> {
+/// A folder in which the commands of a page run, in their order.
+class DocumentedCommands : public testing::Test {
  protected:
-  Documented() {
+  DocumentedCommands() {
     for (const char* name : {"scenarios", "models", "tests"}) {
       fs::create_directory_symlink(kSource / name, folder_.path() / name);
     }
     fs::create_directory(folder_.path() / "out");
   }
 
-  /// Runs the commands that produce the inputs of `words`: preceding commands on the same page, or
-  /// commands of the README.
-  void Prepare(const std::vector<std::string>& words, const std::vector<std::string>& before) {
+  /// Runs the commands of the README that produce the inputs of `words` which are missing.
+  void Prepare(const Words& words) {
     for (const std::string& result : ReadBy(words)) {
-      bool is_made = fs::exists(folder_.path() / result);
-      for (const auto& commands : {before, CommandsOf(kSource / "README.md")}) {
-        for (std::size_t i = 0; i < commands.size() && !is_made; ++i) {
-          const std::vector<std::string> maker = Words(commands[i]);
-          const std::string made = MadeBy(maker);
-          if (!made.empty() && (result + "/").starts_with(made + "/")) {
-            Prepare(maker, {commands.begin(), commands.begin() + static_cast<std::ptrdiff_t>(i)});
-            Do(maker);
-          }
+      for (const Words& maker : CommandsOf(kSource / "README.md")) {
+        const std::string made = MadeBy(maker);
+        if (!fs::exists(folder_.path() / result) && !made.empty() &&
+            (result + "/").starts_with(made + "/")) {
+          Prepare(maker);
+          Do(maker);
         }
-        is_made = fs::exists(folder_.path() / result);
       }
-      ASSERT_TRUE(is_made) << result << ": no command before it on its page, or of the README, "
-                           << "makes it";
+      ASSERT_TRUE(fs::exists(folder_.path() / result))
+          << result << ": no command before it on its page, or of the README, makes it";
     }
   }
 
@@ -191,7 +207,7 @@ class Documented : public testing::TestWithParam<Command> {
     folder_.Write(study, text);
   }
 
-  void Do(const std::vector<std::string>& words) {
+  void Do(const Words& words) {
     if (words[0] == "identify") {
       Shorten(words[1]);
     }
@@ -225,30 +241,46 @@ class Documented : public testing::TestWithParam<Command> {
   TempFolder folder_;
 };
 
-TEST_P(Documented, CommandDoesWhatItsPageSays) {
-  const Command& command = GetParam();
-  if (command.words[0] == "render" && !HasVideo(folder_)) {
-    GTEST_SKIP() << "built without video";
-  }
-  std::vector<std::string> words = command.words;
-  if (command.parts > 1) {
-    const std::vector<fs::path> files =
-        ScenarioFiles({(kSource / words[1]).string()}, FolderContent::kScenarios);
-    ASSERT_GE(files.size(), command.parts);
-    words.resize(1);
-    for (std::size_t i = command.part; i < files.size(); i += command.parts) {
-      words.push_back(files[i].string());
+class Documented : public DocumentedCommands, public testing::WithParamInterface<Page> {};
+
+TEST_P(Documented, CommandsDoWhatTheirPageSays) {
+  for (const Words& words : GetParam().commands) {
+    SCOPED_TRACE(Joined(words));
+    if (IsTestOfAFolder(words) || (words[0] == "render" && !HasVideo(folder_))) {
+      continue;
     }
+    ASSERT_NO_FATAL_FAILURE(Prepare(words));
+    Do(words);
   }
-  ASSERT_NO_FATAL_FAILURE(Prepare(words, command.before));
+}
+
+INSTANTIATE_TEST_SUITE_P(Docs, Documented, testing::ValuesIn(DocumentedPages()),
+                         [](const auto& test) { return test.param.name; });
+
+class DocumentedFolder : public DocumentedCommands,
+                         public testing::WithParamInterface<FolderPart> {};
+
+TEST_P(DocumentedFolder, PassesItsTest) {
+  const std::vector<fs::path> files =
+      ScenarioFiles({(kSource / GetParam().folder).string()}, FolderContent::kScenarios);
+  ASSERT_GE(files.size(), kParts);
+  Words words{"test"};
+  for (std::size_t i = GetParam().part; i < files.size(); i += kParts) {
+    words.push_back(files[i].string());
+  }
   Do(words);
 }
 
-INSTANTIATE_TEST_SUITE_P(Docs, Documented, testing::ValuesIn(DocumentedCommands()),
+INSTANTIATE_TEST_SUITE_P(Docs, DocumentedFolder, testing::ValuesIn(DocumentedFolders()),
                          [](const auto& test) { return test.param.name; });
 
-TEST(DocumentedCommands, AreFoundOnManyPages) {
-  EXPECT_GE(DocumentedCommands().size(), 100U);
+TEST(DocumentedPages, HaveManyCommands) {
+  std::size_t commands = 0;
+  for (const Page& page : DocumentedPages()) {
+    commands += page.commands.size();
+  }
+  EXPECT_GE(commands, 100U);
+  EXPECT_GE(DocumentedFolders().size(), kParts);
 }
 
 }  // namespace docs_commands_test
