@@ -62,7 +62,8 @@ void CheckAnyProblem(const PlannerEntry& entry, const Wildness& wildness) {
 }
 
 TEST_P(EveryPlanner, LeadsThereOrSaysWhyNot) {
-  Check(1.0, [&] { CheckAnyProblem(GetParam(), {}); });
+  // A search that finds no path visits all cells, which takes a hundred times as long as a curve.
+  Check(GetParam().searches ? 0.4 : 1.0, [&] { CheckAnyProblem(GetParam(), {}); });
 }
 
 TEST_P(EveryPlanner, LeadsThereOrSaysWhyNotOverTensOfKilometers) {
