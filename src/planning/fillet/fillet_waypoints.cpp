@@ -155,9 +155,14 @@ Route WithoutCloseWaypoints(const VehicleParams& vehicle, const Route& route, do
     lowest = 0.5 * std::min(options.min_speed, speed);
   }
   const WaypointChoice choice = choice_at(lowest, kUnnoticedShareOfWidth);
-  std::vector<Vec2> fewer = WithFewestTightCorners(vehicle, route, points, choice);
-  if (TightCorners(fewer, choice) == 0) {
-    points = std::move(fewer);
+  // Without the waypoints that the first pass leaves out, a turn beside them may be too sharp for
+  // its legs. The second pass then begins with all waypoints.
+  for (const std::vector<Vec2>& given : {points, route.waypoints}) {
+    points = WithFewestTightCorners(vehicle, route, given, choice);
+    if (TightCorners(points, choice) == 0) {
+      break;
+    }
+    points = route.waypoints;  // a refusal names a turn of the given route
   }
   if (points == route.waypoints) {
     return route;

@@ -92,6 +92,20 @@ TEST(NearlyStraight, LeavesOutAPointBesideTheLine) {
   EXPECT_EQ(refused.waypoint, 19);
 }
 
+TEST(NearlyStraight, KeepsAPointWhereTheTurnBesideItWouldBeTooSharp) {
+  // Route 1575 of the audit: three legs of 2 m and two turns of 0.078 rad. At 0.5 m/s, each turn
+  // needs 0.83 m of its legs. Without the second turn, the first one of 0.117 rad needs 1.01 m.
+  const std::vector<Vec2> route{{-48.00919313, -52.78445836},
+                                {-46.09328124, -53.35828900},
+                                {-44.22794924, -54.07977118},
+                                {-42.42455668, -54.94451119}};
+  const double speed = 1.5659;
+  EXPECT_LT(ScannedRoom(0.0781, 0.25), 1.0);
+  const FilletPlan plan = PlanFillets(ReferenceCar(), route, speed, {});
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  EXPECT_THAT(plan.left_out, IsEmpty());
+}
+
 TEST(NearlyStraight, KeepsPointsFarBesideTheLine) {
   // The second turn has no room, and no route without its waypoint passes it within a quarter of
   // the car's width.
