@@ -263,10 +263,17 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
   };
   LegCosts known;  // The plans with other headings or waypoints share most legs.
   const auto plan = [&](TurnedEnds may_turn) {
-    Plan found = WithoutDetours(request, length, [&](const PlanRequest& own) {
-      return PlanWithCurvature(options, own, CurveMotion::kForwards, DubinsWords, known, may_turn);
-    });
-    return Faster(options, request, CurveMotion::kForwards, std::move(found));
+    return WithoutDetours(request, length,
+                          {.plan =
+                               [&](const PlanRequest& own) {
+                                 return PlanWithCurvature(options, own, CurveMotion::kForwards,
+                                                          DubinsWords, known, may_turn);
+                               },
+                           .faster =
+                               [&](const PlanRequest& own, Plan found) {
+                                 return Faster(options, own, CurveMotion::kForwards,
+                                               std::move(found));
+                               }});
   };
   if (options.objective != CurveObjective::kTime || options.curvature == CurveCurvature::kSteps) {
     return plan({});
@@ -305,10 +312,14 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
                                  ? CurveMotion::kContinuous
                                  : CurveMotion::kHybrid;
   LegCosts known;  // The plans with other headings or waypoints share most legs.
-  Plan plan = WithoutDetours(request, ReedsSheppLength, [&](const PlanRequest& own) {
-    return PlanWithCurvature(options, own, motion, words, known);
-  });
-  return Faster(options, request, motion, std::move(plan));
+  return WithoutDetours(
+      request, ReedsSheppLength,
+      {.plan =
+           [&](const PlanRequest& own) {
+             return PlanWithCurvature(options, own, motion, words, known);
+           },
+       .faster = [&](const PlanRequest& own,
+                     Plan found) { return Faster(options, own, motion, std::move(found)); }});
 }
 
 }  // namespace

@@ -100,28 +100,48 @@ std::size_t Stops(const Plan& plan) {
 class DetourPlanner {
  public:
   DetourPlanner(const PlanRequest& request, const CurveLength& length,
-                const std::function<Plan(const PlanRequest&)>& plan)
+                const CurvePlanning& planning)
       : request_(request),
         length_(length),
-        plan_(plan),
+        planning_(planning),
         radius_(request.vehicle.min_turning_radius()) {}
 
   [[nodiscard]] Plan Make() {
-    Plan best = plan_(request_);
+    Plan best = planning_.plan(request_);
     if (request_.waypoints.size() < 2 || best.status == PlanStatus::kDuplicateWaypoints ||
         !HasDetour(best)) {
-      return best;
+      return Faster(request_, std::move(best));
     }
+    std::optional<LeftOut> left_out;
     if (request_.headings.empty() && request_.waypoints.size() > 2) {
       TryOtherHeadings(best, request_, best);
-      TryFewerWaypoints(best);
+      left_out = TryFewerWaypoints(best);
+    }
+    best = Faster(request_, std::move(best));
+    if (left_out) {
+      best.notes.push_back(Describe(*left_out, best));
     }
     NoteDetourOfHeadings(best);
-    NoteDetourOfRollingStart(request_, best, plan_);
+    NoteDetourOfRollingStart(request_, best,
+                             [&](const PlanRequest& request) { return PlanFaster(request); });
     return best;
   }
 
  private:
+  /// The waypoints that a plan leaves out.
+  struct LeftOut {
+    std::size_t count = 0;
+    std::string why;
+  };
+
+  [[nodiscard]] Plan Faster(const PlanRequest& request, Plan plan) const {
+    return planning_.faster ? planning_.faster(request, std::move(plan)) : plan;
+  }
+
+  [[nodiscard]] Plan PlanFaster(const PlanRequest& request) const {
+    return Faster(request, planning_.plan(request));
+  }
+
   [[nodiscard]] bool HasDetour(const Plan& plan) const {
     return IsDetour(plan, request_) || Stops(plan) > 0 || !IsDrivable(plan);
   }
@@ -174,7 +194,7 @@ class DetourPlanner {
         continue;
       }
       tried = turned.headings;
-      Plan other = plan_(turned);
+      Plan other = planning_.plan(turned);
       if (IsBetter(other, own)) {
         own = std::move(other);
       }
@@ -184,9 +204,12 @@ class DetourPlanner {
     }
   }
 
-  void TryFewerWaypoints(Plan& best) const {
+  /// Replaces the plan `best` by a better plan that leaves out waypoints. Returns the waypoints
+  /// left out; nullopt if no such plan is better.
+  [[nodiscard]] std::optional<LeftOut> TryFewerWaypoints(Plan& best) const {
     std::vector<Vec2> tried = request_.waypoints;
     std::optional<Plan> fewest;
+    std::optional<LeftOut> left_out;
     const double fastest = std::max(request_.speed.speed, request_.start_speed);
     for (const double share : {0.25, 0.5, 1.0, 2.0}) {
       const double near = kUnnoticedShareOfWidth * request_.vehicle.width;
@@ -204,7 +227,7 @@ class DetourPlanner {
       PlanRequest request = request_;
       request.waypoints = std::move(fewer);
       Plan plan = MayBeBetter(PlannedStops(request), best)
-                      ? plan_(request)
+                      ? planning_.plan(request)
                       : route::Refused(PlanStatus::kNoPath, "longer than another path");
       TryOtherHeadings(plan, request, best);
       const auto miss =
@@ -212,13 +235,14 @@ class DetourPlanner {
       if (miss && miss->distance <= near && IsBetter(plan, best) &&
           (!fewest ||
            DrivingTime(plan, request_.vehicle) < DrivingTime(*fewest, request_.vehicle))) {
-        plan.notes.push_back(DescribeLeftOut(request.waypoints, *miss, best, plan));
+        left_out = {request_.waypoints.size() - request.waypoints.size(), WhyLeftOut(best, plan)};
         fewest = std::move(plan);
       }
     }
     if (fewest) {
       best = *std::move(fewest);
     }
+    return left_out;
   }
 
   /// Returns the room that a corner needs at a speed [m/s]. The room is the tangent of an arc, or
@@ -235,14 +259,15 @@ class DetourPlanner {
             .gap = 0.0};
   }
 
-  [[nodiscard]] std::string DescribeLeftOut(const std::vector<Vec2>& kept, const WaypointMiss& miss,
-                                            const Plan& all, const Plan& plan) const {
-    const std::size_t left_out = request_.waypoints.size() - kept.size();
+  /// Describes the waypoints that the path of `plan` leaves out.
+  [[nodiscard]] std::string Describe(const LeftOut& left_out, const Plan& plan) const {
+    const WaypointMiss miss =
+        LargestWaypointMiss(plan.reference.path, request_.waypoints).value_or(WaypointMiss{});
     return fmt::format(
         "{} left out, because {}; the path passes {} at {:.3g} m; to drive through every waypoint, "
         "set mission.headings",
-        left_out == 1 ? "1 waypoint is" : fmt::format("{} waypoints are", left_out),
-        WhyLeftOut(all, plan), DescribeWaypoint(miss.waypoint, miss.at), miss.distance);
+        left_out.count == 1 ? "1 waypoint is" : fmt::format("{} waypoints are", left_out.count),
+        left_out.why, DescribeWaypoint(miss.waypoint, miss.at), miss.distance);
   }
 
   [[nodiscard]] std::string WhyLeftOut(const Plan& all, const Plan& plan) const {
@@ -271,7 +296,7 @@ class DetourPlanner {
     }
     PlanRequest request = request_;
     request.headings.clear();
-    const Plan along_legs = plan_(request);
+    const Plan along_legs = PlanFaster(request);
     if (IsShorterAndNotSlower(along_legs, best, request_.vehicle)) {
       best.notes.push_back(
           fmt::format("the path is {:.4g} m long, because mission.headings demands it; without "
@@ -282,15 +307,15 @@ class DetourPlanner {
 
   const PlanRequest& request_;
   const CurveLength& length_;
-  const std::function<Plan(const PlanRequest&)>& plan_;
+  const CurvePlanning& planning_;
   double radius_;  // smallest of the car [m]
 };
 
 }  // namespace
 
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
-                    const std::function<Plan(const PlanRequest&)>& plan) {
-  return DetourPlanner(request, length, plan).Make();
+                    const CurvePlanning& planning) {
+  return DetourPlanner(request, length, planning).Make();
 }
 
 }  // namespace trackbed

@@ -11,7 +11,14 @@ namespace trackbed {
 /// Returns the length of the shortest curve between two poses for a turning radius [m].
 using CurveLength = std::function<double(const Pose2&, const Pose2&, double)>;
 
-/// Returns the plan that the function `plan` makes for the request, or another plan without
+/// The functions that make the plans of a planner of curves.
+struct CurvePlanning {
+  std::function<Plan(const PlanRequest&)> plan;
+  /// Returns a faster plan for a request, or the given plan; empty: no plan becomes faster.
+  std::function<Plan(const PlanRequest&, Plan)> faster{};
+};
+
+/// Returns the plan that `planning` makes for the request, or another plan without
 /// detours. A detour is a path that exceeds the straight lines between the waypoints by the car's
 /// smallest turning radius or more. A path that stops between start and goal, or that the car
 /// cannot drive from its start speed, is a detour, too. If the request has no headings, the
@@ -26,8 +33,10 @@ using CurveLength = std::function<double(const Pose2&, const Pose2&, double)>;
 /// shorter by the smallest turning radius or more, or have fewer stops because waypoints are left
 /// out. If the plan still has a detour, a note gives the length of the shorter path that a car at
 /// rest could drive. Without obstacles, a note also gives the length of the shorter path without
-/// the given headings. Calls `plan` once if there is no detour, otherwise up to 21 times.
+/// the given headings. The returned plan and the plans that its notes compare are made faster, and
+/// the notes state their lengths. Calls `planning.plan` once if there is no detour, otherwise up to
+/// 21 times.
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
-                    const std::function<Plan(const PlanRequest&)>& plan);
+                    const CurvePlanning& planning);
 
 }  // namespace trackbed

@@ -11,15 +11,18 @@
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/driving_time.h"
 #include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/fewer_corners.h"
 #include "trackbed/planning/common/route.h"
+#include "trackbed/planning/common/waypoint_miss.h"
 
 // Makes the sections of a route faster.
 // 1. A section is a part of the route in one direction between two waypoints or cusps. For each
 //    section, FindFasterLeg searches a faster path with the same poses and speeds at both ends.
 // 2. Take() replaces all these sections at once, and computes the speed profile of the whole route.
 // 3. If a replaced section is not faster, Take() tries the faster sections and the others apart. If
-//    all sections are faster in a plan that the car cannot drive, Take() tries each half of the
-//    sections. Most routes need a few speed profiles, whatever the number of sections.
+//    all sections are faster in a plan that the car cannot drive, or that passes too far from
+//    waypoints that it leaves out, Take() tries each half of the sections. Most routes need a few
+//    speed profiles, whatever the number of sections.
 namespace trackbed {
 namespace {
 
@@ -164,9 +167,10 @@ class RouteRefiner {
     return sections;
   }
 
-  /// Replaces sections of the best plan by the faster ones, if each of them becomes faster and the
-  /// car can drive the plan. Otherwise tries the sections that become faster and the other sections
-  /// apart. If all sections become faster in a plan that the car cannot drive, tries each half.
+  /// Replaces sections of the best plan by the faster ones, if each of them becomes faster, the
+  /// path passes all waypoints, and the car can drive the plan. Otherwise tries the sections that
+  /// become faster and the other sections apart. If all sections become faster in a plan that is
+  /// not taken, tries each half.
   void Take(const std::vector<Section>& faster, std::span<const std::size_t> changed) {
     if (changed.empty()) {
       return;
@@ -178,7 +182,8 @@ class RouteRefiner {
     Plan plan = PlanOf(sections);
     const std::vector<std::size_t> gaining = Gaining(plan, sections, changed);
     const bool all_gain = changed.size() == 1 || gaining.size() == changed.size();
-    if (plan.ok() && all_gain && IsFaster(plan, changed) && IsFeasible(plan)) {
+    if (plan.ok() && all_gain && IsFaster(plan, changed) && PassesWaypoints(plan) &&
+        IsFeasible(plan)) {
       best_ = std::move(plan);
       sections_ = std::move(sections);
     } else if (!gaining.empty() && !all_gain) {
@@ -216,6 +221,17 @@ class RouteRefiner {
       least += kLeastGain * before.Duration(i);
     }
     return DrivingTime(plan, request_.vehicle) < DrivingTime(best_, request_.vehicle) - least;
+  }
+
+  /// Returns whether a plan passes the waypoints that its legs leave out within a quarter of the
+  /// car's width.
+  [[nodiscard]] bool PassesWaypoints(const Plan& plan) const {
+    const auto& curves = plan.diagnostics.planner.GetIf<CurveDiagnostics>()->curves;
+    if (curves.size() + 1 == request_.waypoints.size()) {
+      return true;  // each leg ends at its waypoint
+    }
+    const auto miss = LargestWaypointMiss(plan.reference.path, request_.waypoints);
+    return !miss || miss->distance <= kUnnoticedShareOfWidth * request_.vehicle.width;
   }
 
   /// Returns whether the car can drive a plan at its speeds.

@@ -291,7 +291,7 @@ Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
     return Dubins(from, to, radius).length;
   };
   Plan found = WithoutDetours(request, options.reverse ? CurveLength(ReedsSheppLength) : forwards,
-                              [&](const PlanRequest& own) { return PlanOnce(options, own); });
+                              {[&](const PlanRequest& own) { return PlanOnce(options, own); }});
   // The search plans one leg at a time, so a rolling car may drive a detour to turn.
   if (request.start_speed > 0.0 && IsDetour(found, request)) {
     Plan curves = PlanForwards(options, request);

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/planning/curves/route_time.h"
@@ -140,6 +142,41 @@ TEST(Detours, DriveAlongALineOfRoundedPoints) {
     }
   }
   EXPECT_GE(left_out, 1);
+}
+
+TEST(Detours, PassWaypointsLeftOutWhereTheNoteSays) {
+  // Two routes of the audit (1094, 4981). After the choice of the waypoints left out, the search
+  // for a faster path moved the path up to 1.4 m away from them.
+  const std::vector<std::pair<std::vector<Vec2>, double>> routes{
+      {{{-90.88275, -99.25888},
+        {-93.91772, -92.12116},
+        {-148.27989, -117.92684},
+        {-148.27978, -117.92530},
+        {-152.77437, -119.85791}},
+       0.0},
+      {{{0, 0}, {31.486, 0}, {29.929, 4.821}, {0, 0}}, 13.855}};
+  int left_out = 0;
+  for (const DetourPlannerCase& planner : DetourPlanners()) {
+    for (const auto& [points, start_speed] : routes) {
+      PlanRequest request = DetourRequest(points, start_speed);
+      request.speed.speed = start_speed > 0.0 ? start_speed : 10.7926;
+      request.infeasible = InfeasiblePolicy::kSlowDown;
+      const Plan plan = planner.entry.plan(request, planner.entry.defaults);
+      SCOPED_TRACE(testing::Message() << planner.name << " from " << start_speed << " m/s");
+      ASSERT_TRUE(plan.ok()) << plan.reason;
+      const auto miss = LargestWaypointMiss(plan.reference.path, points);
+      ASSERT_TRUE(miss);
+      EXPECT_LE(miss->distance, 0.25 * request.vehicle.width);
+      for (const std::string& note : plan.notes) {
+        if (note.find("left out") != std::string::npos) {
+          ++left_out;
+          EXPECT_THAT(note, HasSubstr(fmt::format("at {:.3g} m; to drive through every waypoint,",
+                                                  miss->distance)));
+        }
+      }
+    }
+  }
+  EXPECT_GE(left_out, 2);
 }
 
 TEST(Detours, DriveThroughWaypointsWithHeadings) {
