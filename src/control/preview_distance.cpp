@@ -136,9 +136,29 @@ double ResponseTime(const VehicleParams& vehicle, double speed, double period) {
   return period + vehicle.steering_delay() + tyres;
 }
 
+double TyreDelay(const VehicleParams& vehicle, double speed) {
+  if (!HasTyres(vehicle)) {
+    return 0.0;
+  }
+  const double mass = vehicle.mass;
+  const double to_rear = vehicle.cg_to_rear;
+  const double to_front = vehicle.cg_to_front();
+  const double front = vehicle.cornering_stiffness_front;
+  const double rear = vehicle.cornering_stiffness_rear;
+  const double wheelbase = vehicle.wheelbase;
+  const double per_front = (mass * to_rear * to_rear + vehicle.yaw_inertia) / wheelbase;
+  const double per_rear =
+      (vehicle.yaw_inertia - mass * to_rear * to_front) / wheelbase + mass * to_front;
+  const double understeer = mass / wheelbase * (to_rear / front - to_front / rear);
+  // Above its critical speed, an oversteering car has no steady turn.
+  const double length = wheelbase + std::max(understeer, 0.0) * speed * speed;
+  return std::abs(speed) * (per_front / front + per_rear / rear) / length;
+}
+
 double ResponseDistance(const ControlInput& input) {
-  const double speed = input.state.speed;
-  return std::abs(speed) * ResponseTime(input.vehicle, speed, input.period);
+  const VehicleParams& vehicle = input.vehicle;
+  const double speed = std::abs(input.state.speed);
+  return speed * (input.period + vehicle.steering_delay() + TyreDelay(vehicle, speed));
 }
 
 double ShortestPreview(const VehicleParams& vehicle, double speed, double period, double delay) {

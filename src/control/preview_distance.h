@@ -53,8 +53,19 @@ inline constexpr double kReturnOffset = 0.125;
 /// constant m v/(C_f + C_r) of the tyres is 0 for a car without tyre coefficients.
 double ResponseTime(const VehicleParams& vehicle, double speed, double period);
 
-/// Returns the distance [m] that the car drives within its response time T. A control law that
-/// commands the path's curvature from this distance ahead turns the car in time.
+/// Returns the time T_t [s] by which the front wheels of a car on tyres must lead the curvature of
+/// its path, at a constant `speed`; 0 for a car without tyre coefficients. If the curvature kappa
+/// of the path of the rear axle changes at a constant rate, the linear single-track car needs
+///   tan(delta) = (L + K v^2) (kappa + T_t dkappa/dt)
+///   T_t = v ((m l_r^2 + I)/C_f + (I - m l_r l_f)/C_r + m l_f L/C_r)/(L (L + K v^2))
+/// with the understeer gradient K, the yaw inertia I, and the distances l_f and l_r of the axles
+/// from the center of gravity. For equal axles and I = m L^2/4, T_t is twice the time constant m
+/// v/(C_f + C_r). A negative K counts as 0.
+double TyreDelay(const VehicleParams& vehicle, double speed);
+
+/// Returns the distance [m] that the car drives within one control period, the delay of its
+/// steering and TyreDelay. A control law that commands the path's curvature from this distance
+/// ahead turns the car in time.
 double ResponseDistance(const ControlInput& input);
 
 /// Returns the default preview distance R [m] on a straight path: max(3/4 L, 3 v T), with the

@@ -4,6 +4,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
+#include "src/control/preview_distance.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
@@ -21,7 +22,8 @@ double StepTime(const VehicleParams& vehicle) {
 }  // namespace
 
 double TimelySteering::Horizon(const ControlInput& input) {
-  return kSwings * kSteps * StepTime(input.vehicle) * std::abs(input.state.speed);
+  return kSwings * kSteps * StepTime(input.vehicle) * std::abs(input.state.speed) +
+         ResponseDistance(input);
 }
 
 void TimelySteering::Follow(const ControlInput& input, const RampedPath& path, bool slip,
@@ -38,7 +40,7 @@ void TimelySteering::Follow(const ControlInput& input, const RampedPath& path, b
   moments_.reserve(kSwings * kSteps);
   const double end = input.reference.path.length();
   const int direction = input.reference.path.BendAt(input.station).direction;
-  double station = input.station;
+  double station = input.station + ResponseDistance(input);
   PathPoint point = path.At(station);
   for (int i = 0; i < kSwings * kSteps && station < end && point.direction == direction; ++i) {
     const double way = path.SpeedAt(station) * step_;

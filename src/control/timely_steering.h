@@ -33,6 +33,10 @@ struct GainedErrors {
 /// begin to turn back at the last moment from which the full rate suffices (Athans and Falb 1966,
 /// ch. 7).
 ///
+/// Wheels and tyres respond to a command with a delay. The prediction therefore begins at the
+/// station that the car reaches after this delay (ResponseDistance). Wheels that turn back one
+/// delay too late stay behind a path that turns at the full rate, and gain errors until its end.
+///
 /// The gained errors E(delta_p) are 0. On a path of constant curvature, the gained errors E grow
 /// with (delta - delta_p)^2, so TimelySteering hardly changes small steering corrections. The
 /// solution delta lies between delta_p, the angle of the path, and law(0), the angle of the
@@ -52,7 +56,8 @@ class TimelySteering {
                const std::function<double(const GainedErrors&)>& law);
 
   /// Returns the longest distance [m] along the path that Steer predicts. The car drives this
-  /// distance in four times the time in which the wheels turn from 0 to the steering limit.
+  /// distance in its delay and four times the time in which the wheels turn from 0 to the steering
+  /// limit.
   static double Horizon(const ControlInput& input);
 
  private:

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "src/control/tracking.h"
 #include "tests/control/loop.h"
 #include "tests/tolerance.h"
 #include "trackbed/control/controllers.h"
@@ -43,6 +44,37 @@ double Distance(const VehicleParams& vehicle, const Path& path, double station, 
 double Ramp(const VehicleParams& car, double before, double after, double speed) {
   return speed * std::abs(std::atan(car.wheelbase * after) - std::atan(car.wheelbase * before)) /
          car.steering_rate;
+}
+
+TEST(TyreDelay, IsThatOfTheLinearSingleTrackCarWhoseWheelsTurnSteadily) {
+  // With tan(delta) = a t, the curvature of the rear axle's path becomes a (t - T_t)/(L + K v^2)
+  // after the transients. Here, the equations of the car are integrated by Heun's method.
+  const VehicleParams car = ReferenceCarWithTyres();
+  const double understeer = car.mass / car.wheelbase *
+                            (car.cg_to_rear / car.cornering_stiffness_front -
+                             car.cg_to_front() / car.cornering_stiffness_rear);
+  const double a = 0.01;     // [1/s]
+  const double step = 1e-4;  // [s]
+  const double until = 3.0;  // The slowest transient decays by exp(-4.5/s times 3 s) = 1e-6.
+  for (const double speed : {3.0, 7.0, 15.0}) {
+    const auto rates =
+        LateralRates(car, {car.cornering_stiffness_front, car.cornering_stiffness_rear}, speed);
+    const auto change = [&](const Eigen::Vector2d& motion, double t) {
+      return Eigen::Vector2d(rates * Eigen::Vector3d(motion(0), motion(1), a * t));
+    };
+    Eigen::Vector2d motion = Eigen::Vector2d::Zero();  // lateral speed, yaw rate
+    for (int i = 0; i < std::lround(until / step); ++i) {
+      const Eigen::Vector2d first = change(motion, i * step);
+      const Eigen::Vector2d second = change(motion + step * first, (i + 1) * step);
+      motion += 0.5 * step * (first + second);
+    }
+    // The rear axle moves in the direction yaw + (v_y - l_r r)/v.
+    const Eigen::Vector2d last = change(motion, until);
+    const double curvature = (motion(1) + (last(0) - car.cg_to_rear * last(1)) / speed) / speed;
+    const double delay = until - curvature * (car.wheelbase + understeer * speed * speed) / a;
+    EXPECT_NEAR(TyreDelay(car, speed), delay, Tolerance(1e-5)) << speed;
+  }
+  EXPECT_EQ(TyreDelay(ReferenceCar(), 3.0), 0.0);
 }
 
 TEST(PreviewDistance, OnAStraightIsThreeQuartersOfTheWheelbaseOrThreeResponses) {

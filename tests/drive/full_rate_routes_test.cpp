@@ -42,13 +42,25 @@ TEST(FullRateRoutes, AreTrackedThroughFillets) {
 
 TEST(FullRateRoutes, AreTrackedThroughRoundedCorners) {
   // The curvature is continuous, so kinematic wheels keep within a tenth of the car's width. On
-  // tyres, 0.92 m was measured, because the tyres respond late and the full rate leaves no room for
-  // corrections. The bound of 1 m only tells this from the 3.3 m of overshooting.
+  // tyres, 0.75 m was measured: tyres that slip need more than the planned steering rate. The bound
+  // of 0.8 m only tells this from the 3.3 m of overshooting.
   const std::string route =
       "mission: {speed: 7.24, waypoints: [[0, 0], [13.121, 0], [23.635, 52.633]]}\nplan: {method: "
       "rrt_star}\n";
   EXPECT_LT(LargestError(route, "kinematic"), 0.17);
-  EXPECT_LT(LargestError(route, "mujoco"), 1.0);
+  EXPECT_LT(LargestError(route, "mujoco"), 0.8);
+}
+
+TEST(FullRateRoutes, AreTrackedAtLowSpeedOnTyres) {
+  // At 3 m/s, the tyres hardly slip. Laws that lead the path by the delays of the control period,
+  // the wheels and the tyres stay within a centimeter. Laws that turn back one of these delays too
+  // late are 12 mm (`preview`) and 28 mm (`stanley`) beside the path.
+  const std::string route =
+      "mission: {speed: 3, waypoints: [[0, 0], [12, -6], [24, 6], [40, 0]]}\nplan: {method: "
+      "rrt_star}\n";
+  for (const char* law : {"preview", "stanley"}) {
+    EXPECT_LT(LargestError(route, "mujoco", law), 0.01) << law;
+  }
 }
 
 TEST(FullRateRoutes, AreTrackedByTheIntegralLaw) {

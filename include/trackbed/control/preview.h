@@ -43,9 +43,9 @@ enum class PreviewLaw {
 /// the distance driven while the wheels turn.
 ///
 /// Without the option `distance`, the controller leaves out the turn toward the preview point that
-/// a car on its path would make. The controller commands the curvature of the path instead, at the
-/// distance v T ahead. A car on a path that its wheels can follow therefore has no cross-track
-/// error but those of its tyres.
+/// a car on its path would make. The controller commands the curvature of the path instead, from
+/// the place that the car reaches after the delays of the control period, the steering and the
+/// tyres. A car on a path that its wheels can follow therefore stays on its path.
 ///
 /// Without the option `distance`, the controller begins to turn the wheels back early enough for
 /// their limited rate. The controller predicts the errors of the car after its wheels have turned
