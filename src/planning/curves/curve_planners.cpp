@@ -25,7 +25,8 @@
 // 3. A rolling car may begin its first curve at once, after straightening its wheels, or after
 //    slowing down on a straight; the cheapest of the three is taken.
 // 4. With curvature `auto`, the path has continuous curvature (continuous_route.h), unless the car
-//    cannot drive it or it takes much longer than the path of steps 1 to 3.
+//    cannot drive it. With the objective `time`, the path of steps 1 to 3 is taken if it is faster
+//    than the path of continuous curvature through the same stops, too.
 // Source: Dubins 1957; Reeds and Shepp 1990.
 namespace trackbed {
 namespace {
@@ -241,10 +242,8 @@ Plan PlanWithCurvature(const Options& options, const PlanRequest& request, Curve
     case CurveCurvature::kAuto:
       break;
   }
-  return ContinuousOrSteps(PlanContinuous(options, request, continuous, may_turn, known),
-                           PlanCurves(options, request, words), request, [&](Plan plan) {
-                             return Faster(options, request, continuous, std::move(plan));
-                           });
+  return DrivableOrSteps(PlanContinuous(options, request, continuous, may_turn, known), request,
+                         [&] { return PlanCurves(options, request, words); });
 }
 
 /// Returns the ends of a plan at which the wheels are turned.
@@ -293,7 +292,21 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
   if (TurnedEndsOf(best).goal) {
     compare({});
   }
-  return best;
+  if (options.curvature != CurveCurvature::kAuto) {
+    return best;
+  }
+  return FastestCurves(
+      std::move(best), request,
+      [&] {
+        return WithoutDetours(request, length, {[&](const PlanRequest& own) {
+                                return PlanCurves(options, own, DubinsWords);
+                              }});
+      },
+      [&](const PlanRequest& own) {
+        return Faster(options, own, CurveMotion::kForwards,
+                      PlanContinuous(options, own, CurveMotion::kForwards,
+                                     {.start = true, .goal = true}, known));
+      });
 }
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
@@ -312,7 +325,7 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
                                  ? CurveMotion::kContinuous
                                  : CurveMotion::kHybrid;
   LegCosts known;  // The plans with other headings or waypoints share most legs.
-  return WithoutDetours(
+  Plan plan = WithoutDetours(
       request, ReedsSheppLength,
       {.plan =
            [&](const PlanRequest& own) {
@@ -320,6 +333,19 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
            },
        .faster = [&](const PlanRequest& own,
                      Plan found) { return Faster(options, own, motion, std::move(found)); }});
+  if (options.objective != CurveObjective::kTime || options.curvature != CurveCurvature::kAuto) {
+    return plan;
+  }
+  return FastestCurves(
+      std::move(plan), request,
+      [&] {
+        return WithoutDetours(request, ReedsSheppLength, {[&](const PlanRequest& own) {
+                                return PlanCurves(options, own, words);
+                              }});
+      },
+      [&](const PlanRequest& own) {
+        return Faster(options, own, motion, PlanContinuous(options, own, motion, {}, known));
+      });
 }
 
 }  // namespace

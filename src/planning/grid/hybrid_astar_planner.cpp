@@ -270,7 +270,9 @@ Plan PlanOnce(const HybridAStarOptions& options, const PlanRequest& request) {
   HybridAStarOptions own = options;
   own.curvature = CurveCurvature::kCuspSteps;
   own.budget = std::min(own.budget, kClothoidPoses + Expansions(steps));
-  return ContinuousOrSteps(PlanClothoids(own, request), std::move(steps), request);
+  // Near obstacles, a path that is driven without steps of the curvature is worth some time.
+  constexpr double kMostTime = 1.2;
+  return ContinuousOrSteps(PlanClothoids(own, request), std::move(steps), request, kMostTime);
 }
 
 /// Plans the shortest forward curves through the stops. The curves may be bent at waypoints, where

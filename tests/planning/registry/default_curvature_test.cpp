@@ -130,7 +130,7 @@ bool SaysWhyItSteps(const Plan& plan) {
   });
 }
 
-TEST(DefaultCurvature, PlansWhatStepsPlanInNotMuchMoreTime) {
+TEST(DefaultCurvature, PlansWhatStepsPlanInNoMoreTime) {
   for (const CurvePlanner& planner : kCurvePlanners) {
     Random random(7);
     int continuous = 0;
@@ -152,9 +152,11 @@ TEST(DefaultCurvature, PlansWhatStepsPlanInNotMuchMoreTime) {
       // Rounding of curvatures of at most 0.2 1/m.
       EXPECT_LE(LargestStep(plan), Tolerance(1e-9)) << route;
       if (steps.ok()) {
-        // The ratio is a choice of the planner. The times are sums of a few hundred numbers.
+        // Near obstacles, `hybrid_astar` prefers a continuous curvature to a little time. The times
+        // are sums of a few hundred numbers.
+        const double most = std::string(planner.name) == "hybrid_astar" ? 1.2 : 1.0;
         EXPECT_LE(DrivingTime(plan, request),
-                  1.2 * DrivingTime(steps, request) * (1.0 + Tolerance(1e-9)))
+                  most * DrivingTime(steps, request) * (1.0 + Tolerance(1e-9)))
             << route;
       }
     }
