@@ -55,12 +55,21 @@ void CheckPlanners(Diagnostics& c) {
   }
 }
 
+/// Returns what a user can do to get a plan without reverse segments. Detours are forward only, so
+/// a planner of detours that may reverse has the key `reverse`.
+std::string PlanForwards(const PlannerOptions& options) {
+  return PlannerFor(options).detour_defaults
+             ? "set plan.reverse: false"
+             : "use a planner that drives forwards only, for example dubins";
+}
+
 void CheckAvoider(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   if (plan && plan->avoid && MayGoBackwards(plan->global) && c.CouldReadPlan({"method"})) {
-    c.AddError("plan.avoid", fmt::format("not available for plans by {}, which may reverse; remove "
-                                         "plan.avoid or use another planner",
-                                         PlannerFor(plan->global).name));
+    c.AddError(
+        "plan.avoid",
+        fmt::format("not available for plans by {}, which may reverse; remove plan.avoid or {}",
+                    PlannerFor(plan->global).name, PlanForwards(plan->global)));
   }
 }
 
@@ -95,8 +104,9 @@ void CheckReplan(Diagnostics& c) {
   if (MayGoBackwards(plan->global) && c.CouldReadPlan({"method"})) {
     c.AddError(
         "plan.replan",
-        fmt::format("not available for plans by {}, which may reverse; replanning is forward only",
-                    PlannerFor(plan->global).name));
+        fmt::format("not available for plans by {}, which may reverse; replanning is forward only; "
+                    "remove plan.replan or {}",
+                    PlannerFor(plan->global).name, PlanForwards(plan->global)));
   }
   if (!c.CouldRead({"plan.replan.along", "plan.replan.along.method", "plan.replan.detour",
                     "plan.replan.detour.method"})) {
