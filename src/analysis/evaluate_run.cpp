@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "src/analysis/aid_metrics.h"
+#include "src/analysis/clearance_remedy.h"
 #include "src/analysis/origin_statement.h"
 #include "src/analysis/overspeed.h"
 #include "trackbed/analysis/record_metrics.h"
@@ -140,6 +141,7 @@ void JudgeRun(RunResult& result, const CarModel& car) {
   for (const std::string& note : result.plan->notes) {
     result.verdict.notes.push_back("plan: " + note);
   }
+  ProposeSafeDistance(result, car.params());
   NoteOrigin(result.scenario, result.verdict);
   if (const auto& rate = scenario.vehicle.steering_rate) {
     result.verdict.notes.push_back(fmt::format("steering rate set to {:.4g} rad/s", *rate));
