@@ -57,9 +57,9 @@ void CheckPlanners(Diagnostics& c) {
 
 /// Returns what a user can do to get a plan without reverse segments. Detours are forward only, so
 /// a planner of detours that may reverse has the key `reverse`.
-std::string PlanForwards(const PlannerOptions& options) {
-  return PlannerFor(options).detour_defaults
-             ? "set plan.reverse: false"
+std::string PlanForwards(const Diagnostics& c) {
+  return PlannerFor(c.scenario.plan->global).detour_defaults
+             ? fmt::format("set {}: false", c.KeyOfPlan("reverse"))
              : "use a planner that drives forwards only, for example dubins";
 }
 
@@ -69,7 +69,7 @@ void CheckAvoider(Diagnostics& c) {
     c.AddError(
         "plan.avoid",
         fmt::format("not available for plans by {}, which may reverse; remove plan.avoid or {}",
-                    PlannerFor(plan->global).name, PlanForwards(plan->global)));
+                    PlannerFor(plan->global).name, PlanForwards(c)));
   }
 }
 
@@ -106,7 +106,7 @@ void CheckReplan(Diagnostics& c) {
         "plan.replan",
         fmt::format("not available for plans by {}, which may reverse; replanning is forward only; "
                     "remove plan.replan or {}",
-                    PlannerFor(plan->global).name, PlanForwards(plan->global)));
+                    PlannerFor(plan->global).name, PlanForwards(c)));
   }
   if (!c.CouldRead({"plan.replan.along", "plan.replan.along.method", "plan.replan.detour",
                     "plan.replan.detour.method"})) {
