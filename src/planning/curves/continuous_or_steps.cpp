@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "src/planning/curves/detours.h"
 #include "src/planning/curves/route_time.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/fewer_corners.h"
-#include "trackbed/planning/common/waypoint_miss.h"
 #include "trackbed/planning/curves/curve_planners.h"
 
 namespace trackbed {
@@ -66,11 +66,11 @@ bool PassesWaypoints(Plan& plan, std::size_t left_out, const PlanRequest& reques
   if (!miss || miss->distance > kUnnoticedShareOfWidth * request.vehicle.width) {
     return false;
   }
-  plan.notes.push_back(fmt::format(
-      "{} left out, because the path through all waypoints would take {:.3g} s instead of {:.3g} "
-      "s; the path passes {} at {:.3g} m; to drive through every waypoint, set mission.headings",
-      left_out == 1 ? "1 waypoint is" : fmt::format("{} waypoints are", left_out), time_of_all,
-      time, DescribeWaypoint(miss->waypoint, miss->at), miss->distance));
+  plan.notes.push_back(DescribeLeftOut(
+      left_out,
+      fmt::format("the path through all waypoints would take {:.3g} s instead of {:.3g} s",
+                  time_of_all, time),
+      *miss));
   return true;
 }
 

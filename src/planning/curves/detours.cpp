@@ -119,7 +119,9 @@ class DetourPlanner {
     }
     best = Faster(request_, std::move(best));
     if (left_out) {
-      best.notes.push_back(Describe(*left_out, best));
+      const auto miss = LargestWaypointMiss(best.reference.path, request_.waypoints);
+      best.notes.push_back(
+          DescribeLeftOut(left_out->count, left_out->why, miss.value_or(WaypointMiss{})));
     }
     NoteDetourOfHeadings(best);
     NoteDetourOfRollingStart(request_, best,
@@ -259,17 +261,6 @@ class DetourPlanner {
             .gap = 0.0};
   }
 
-  /// Describes the waypoints that the path of `plan` leaves out.
-  [[nodiscard]] std::string Describe(const LeftOut& left_out, const Plan& plan) const {
-    const WaypointMiss miss =
-        LargestWaypointMiss(plan.reference.path, request_.waypoints).value_or(WaypointMiss{});
-    return fmt::format(
-        "{} left out, because {}; the path passes {} at {:.3g} m; to drive through every waypoint, "
-        "set mission.headings",
-        left_out.count == 1 ? "1 waypoint is" : fmt::format("{} waypoints are", left_out.count),
-        left_out.why, DescribeWaypoint(miss.waypoint, miss.at), miss.distance);
-  }
-
   [[nodiscard]] std::string WhyLeftOut(const Plan& all, const Plan& plan) const {
     if (!IsDrivable(all)) {
       return all.ok() ? "the car cannot drive the path through all waypoints at its start speed"
@@ -316,6 +307,14 @@ class DetourPlanner {
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
                     const CurvePlanning& planning) {
   return DetourPlanner(request, length, planning).Make();
+}
+
+std::string DescribeLeftOut(std::size_t count, const std::string& why, const WaypointMiss& miss) {
+  return fmt::format(
+      "{} left out, because {}; the path passes {} at {:.3g} m; to drive through every waypoint, "
+      "set mission.headings",
+      count == 1 ? "1 waypoint is" : fmt::format("{} waypoints are", count), why,
+      DescribeWaypoint(miss.waypoint, miss.at), miss.distance);
 }
 
 }  // namespace trackbed

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <string>
 
 #include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/common/waypoint_miss.h"
 
 /// Avoids loops that the planners of curves drive only because of free headings, waypoints that are
 /// almost equal, or a rolling start.
@@ -38,5 +41,9 @@ struct CurvePlanning {
 /// 21 times.
 Plan WithoutDetours(const PlanRequest& request, const CurveLength& length,
                     const CurvePlanning& planning);
+
+/// Returns the note of a plan that leaves out `count` waypoints for the reason `why`. `miss` is the
+/// largest distance of the path from a waypoint.
+std::string DescribeLeftOut(std::size_t count, const std::string& why, const WaypointMiss& miss);
 
 }  // namespace trackbed
