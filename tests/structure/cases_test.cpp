@@ -8,11 +8,11 @@
 #include <string>
 #include <string_view>
 
+#include "tests/structure/files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kSources = TRACKBED_SOURCE_DIR;
 
 /// Returns the number of arguments of a macro whose opening parenthesis is before `at`.
 std::size_t CountArguments(std::string_view text, std::size_t at) {
@@ -40,7 +40,7 @@ std::size_t CountArguments(std::string_view text, std::size_t at) {
 TEST(Cases, HaveNames) {
   constexpr std::string_view kMacro = "INSTANTIATE_TEST_SUITE_P(";
   std::size_t seen = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(kSources / "tests")) {
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests")) {
     if (entry.path().extension() != ".cpp" || entry.path().filename() == "cases_test.cpp") {
       continue;
     }
@@ -51,7 +51,7 @@ TEST(Cases, HaveNames) {
          at = text.find(kMacro, at + 1)) {
       ++seen;
       EXPECT_GE(CountArguments(text, at + kMacro.size()), 4U)
-          << fs::relative(entry.path(), kSources).generic_string() << ":"
+          << fs::relative(entry.path(), kRoot).generic_string() << ":"
           << 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')
           << ": give the cases names, for example with kNamedByParameter";
     }

@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/structure/files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kRoot = TRACKBED_SOURCE_DIR;
 
 /// A header whose functions several sources define, and the reason. A table of variants has one
 /// source for each variant. Other headers must not be added: split the header instead.

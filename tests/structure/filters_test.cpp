@@ -10,17 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "tests/structure/files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kTests = fs::path(TRACKBED_SOURCE_DIR) / "tests";
-
-std::string ReadText(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
+const fs::path kTests = kRoot / "tests";
 
 /// Returns the names that --gtest_filter takes, of the tests whose sources are in a folder. The
 /// name of each case of a parameterized test ends with "/0".

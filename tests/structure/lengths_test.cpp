@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/structure/files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kTree = TRACKBED_SOURCE_DIR;
 
 /// Limits of CONTRIBUTING.md [lines].
 constexpr std::size_t kMaxHeader = 300;
@@ -53,7 +53,7 @@ std::size_t LinesOfAlgorithm(const std::vector<std::string>& lines) {
 std::vector<fs::path> SourceFiles() {
   std::vector<fs::path> files;
   for (const char* folder : {"include/trackbed", "src", "render", "python/src"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(kTree / folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
       const fs::path ending = entry.path().extension();
       if (ending == ".h" || ending == ".cpp" || ending == ".js" || ending == ".css") {
         files.push_back(entry.path());
@@ -69,7 +69,7 @@ TEST(Lengths, OfFilesAreLimited) {
   for (const fs::path& file : files) {
     const std::size_t most = file.extension() == ".h" ? kMaxHeader : kMaxSource;
     EXPECT_LE(LinesOf(file).size(), most)
-        << fs::relative(file, kTree) << " is too long; divide it by its ideas";
+        << fs::relative(file, kRoot) << " is too long; divide it by its ideas";
   }
 }
 
@@ -82,7 +82,7 @@ TEST(LongSources, BeginWithTheirAlgorithm) {
     }
     ++seen;
     EXPECT_GE(LinesOfAlgorithm(lines), kAlgorithm)
-        << fs::relative(file, kTree) << " has " << lines.size()
+        << fs::relative(file, kRoot) << " has " << lines.size()
         << " lines; describe its algorithm before the first declaration, with its source";
   }
   EXPECT_GT(seen, 50U);  // the scan found the long sources

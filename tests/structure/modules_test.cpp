@@ -10,17 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/structure/files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kRoot = TRACKBED_SOURCE_DIR;
-
-std::string ReadText(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 struct Module {
   std::string path;                  // "planning/search"

@@ -8,22 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "tests/structure/files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = TRACKBED_SOURCE_DIR;
-
-std::string ReadSource(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(kRoot / file).rdbuf();
-  return text.str();
-}
-
 /// Returns the public headers that a file includes, such as "trackbed/control/lqr.h".
 std::vector<std::string> PublicIncludes(const fs::path& file) {
   static const std::regex include(R"re(#include "(trackbed/[\w/]+\.h)")re");
-  const std::string text = ReadSource(file);
+  const std::string text = ReadText(kRoot / file);
   std::vector<std::string> headers;
   for (std::sregex_iterator match(text.begin(), text.end(), include), end; match != end; ++match) {
     headers.push_back((*match)[1]);
@@ -34,7 +28,7 @@ std::vector<std::string> PublicIncludes(const fs::path& file) {
 /// Whether a header declares a function without arguments that returns the entry of a method.
 bool DeclaresEntry(const std::string& header) {
   static const std::regex entry(R"(\n(Planner|Controller)Entry \w+\(\);)");
-  return std::regex_search(ReadSource("include/" + header), entry);
+  return std::regex_search(ReadText(kRoot / "include" / header), entry);
 }
 
 /// trackbed.h lets programs set the options of every registered planner and controller. A header

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/structure/files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kFolder = TRACKBED_SOURCE_DIR;
 
 /// Paths that pages name although the tree does not contain them: files of examples, and of MuJoCo.
 const std::vector<std::string> kElsewhere{"render/heading_line.h", "render/heading_line.cpp",
@@ -26,8 +26,8 @@ const std::vector<std::string> kElsewhere{"render/heading_line.h", "render/headi
 constexpr std::array<const char*, 3> kRoots{".", "include", "include/trackbed"};
 
 std::vector<fs::path> Pages() {
-  std::vector<fs::path> pages{kFolder / "README.md", kFolder / "CONTRIBUTING.md"};
-  for (const auto& entry : fs::recursive_directory_iterator(kFolder / "docs")) {
+  std::vector<fs::path> pages{kRoot / "README.md", kRoot / "CONTRIBUTING.md"};
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs")) {
     if (entry.path().extension() == ".md") {
       pages.push_back(entry.path());
     }
@@ -57,7 +57,7 @@ std::vector<std::string> PathsIn(const fs::path& page) {
 /// Returns whether the path leads to a file from the root of the tree, or as sources include it.
 bool Exists(const std::string& path) {
   return std::any_of(kRoots.begin(), kRoots.end(),
-                     [&](const char* root) { return fs::exists(kFolder / root / path); });
+                     [&](const char* root) { return fs::exists(kRoot / root / path); });
 }
 
 TEST(Pages, NameFilesThatExist) {
@@ -68,7 +68,7 @@ TEST(Pages, NameFilesThatExist) {
       const bool is_elsewhere =
           std::find(kElsewhere.begin(), kElsewhere.end(), path) != kElsewhere.end();
       EXPECT_TRUE(is_elsewhere || Exists(path))
-          << fs::relative(page, kFolder) << " names " << path << ", which does not exist";
+          << fs::relative(page, kRoot) << " names " << path << ", which does not exist";
     }
   }
   EXPECT_GT(seen, 100U);  // the scan found paths
@@ -76,7 +76,7 @@ TEST(Pages, NameFilesThatExist) {
 
 std::string ReadText(const fs::path& file) {
   std::ostringstream read;
-  read << std::ifstream(kFolder / file).rdbuf();
+  read << std::ifstream(kRoot / file).rdbuf();
   return read.str();
 }
 

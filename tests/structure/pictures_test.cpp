@@ -9,11 +9,12 @@
 #include <sstream>
 #include <string>
 
+#include "tests/structure/files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = TRACKBED_SOURCE_DIR;
 constexpr std::uintmax_t kMaxBytes = 300'000;
 constexpr std::uintmax_t kMaxBytesOfAll = 10'000'000;
 

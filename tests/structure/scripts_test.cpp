@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "tests/structure/files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = TRACKBED_SOURCE_DIR;
-
 /// The programs of scripts/; other files are read by them.
 std::vector<fs::path> Scripts() {
   std::vector<fs::path> scripts;
-  for (const auto& entry : fs::directory_iterator(kFolder / "scripts")) {
+  for (const auto& entry : fs::directory_iterator(kRoot / "scripts")) {
     const bool runs = (entry.status().permissions() & fs::perms::owner_exec) != fs::perms::none;
     if (entry.is_regular_file() && runs) {
       scripts.push_back(entry.path());
@@ -69,7 +69,7 @@ TEST(Scripts, PrintTheirPurposeForHelp) {
 TEST(Scripts, RefuseUnknownOptions) {
   for (const char* name : {"demo", "format", "gallery", "figures", "laps", "matrix", "package",
                            "setup", "stability", "wheel"}) {
-    const Outcome refused = RunScript(kFolder / "scripts" / name, "--wrong-option");
+    const Outcome refused = RunScript(kRoot / "scripts" / name, "--wrong-option");
     EXPECT_THAT(refused.code, testing::AnyOf(1, 2)) << name << "\n" << refused.output;
     EXPECT_THAT(refused.output, testing::HasSubstr("--wrong-option")) << name;
   }
