@@ -13,9 +13,7 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/text_table.h"
-#include "trackbed/scenario/identification.h"
-#include "trackbed/scenario/map_file.h"
-#include "trackbed/scenario/record.h"
+#include "trackbed/scenario/scenario_files.h"
 
 namespace trackbed {
 namespace golden_test {
@@ -34,14 +32,18 @@ fs::path GoldenFile(const std::string& scenario, const std::string& physics) {
   return fs::exists(own) ? own : kGolden / (scenario + ".csv");
 }
 
-/// Paths of the files in `folder` and its subfolders, without extensions: "maneuvers/gust".
-std::vector<std::string> NamesBelow(const fs::path& folder, const std::string& extension) {
+/// Returns the path of a file inside `folder`, without extension: "maneuvers/gust".
+std::string NameIn(const fs::path& folder, const fs::path& file) {
+  return file.lexically_relative(folder).replace_extension().string();
+}
+
+/// Returns the names of the scenarios that have golden metrics. Each test of this program calls
+/// GoldenNames() at its start. GoldenNames() therefore reads no file.
+std::vector<std::string> GoldenNames() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const fs::path place = entry.path().lexically_relative(folder);
-    if (place.extension() == extension && *place.begin() != "studies" && !IsLogMap(entry.path()) &&
-        !IsRosMap(entry.path()) && !IsIdentification(entry.path())) {
-      names.push_back(fs::path(place).replace_extension().string());
+  for (const auto& entry : fs::recursive_directory_iterator(kGolden)) {
+    if (entry.path().extension() == ".csv") {
+      names.push_back(NameIn(kGolden, entry.path()));
     }
   }
   std::sort(names.begin(), names.end());
@@ -84,11 +86,14 @@ std::string TestName(const testing::TestParamInfo<std::string>& tested) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, Golden, testing::ValuesIn(NamesBelow(kGolden, ".csv")),
-                         TestName);
+INSTANTIATE_TEST_SUITE_P(Scenarios, Golden, testing::ValuesIn(GoldenNames()), TestName);
 
 TEST(GoldenMetrics, AreThereForEveryScenario) {
-  EXPECT_EQ(NamesBelow(kGolden, ".csv"), NamesBelow(kScenarios, ".yaml"))
+  std::vector<std::string> scenarios;
+  for (const fs::path& file : ScenarioFiles({kScenarios.string()}, FolderContent::kScenarios)) {
+    scenarios.push_back(NameIn(kScenarios, file));
+  }
+  EXPECT_THAT(GoldenNames(), testing::UnorderedElementsAreArray(scenarios))
       << "scripts/golden makes them";
 }
 
