@@ -138,7 +138,7 @@ void Register() {
 }
 #endif
 
-[[maybe_unused]] const bool registered = (Register(), true);
+[[maybe_unused]] const bool continuous_curves_registered = (Register(), true);
 
 }  // namespace
 }  // namespace trackbed::bench

@@ -184,7 +184,7 @@ bool RegisterControl() {
   return true;
 }
 
-[[maybe_unused]] const bool registered = RegisterControl();
+[[maybe_unused]] const bool control_registered = RegisterControl();
 
 }  // namespace
 }  // namespace trackbed::bench

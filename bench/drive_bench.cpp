@@ -243,7 +243,7 @@ bool RegisterDrives() {
   }
   return true;
 }
-[[maybe_unused]] const bool registered = RegisterDrives();
+[[maybe_unused]] const bool drive_registered = RegisterDrives();
 
 }  // namespace
 }  // namespace trackbed::bench

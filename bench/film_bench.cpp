@@ -125,7 +125,7 @@ bool RegisterFilm() {
       ->Unit(benchmark::kMillisecond);
   return true;
 }
-[[maybe_unused]] const bool registered = RegisterFilm();
+[[maybe_unused]] const bool film_registered = RegisterFilm();
 
 }  // namespace
 }  // namespace trackbed::bench

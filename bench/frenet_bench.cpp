@@ -58,7 +58,7 @@ bool RegisterFrenet() {
   return true;
 }
 
-[[maybe_unused]] const bool registered = RegisterFrenet();
+[[maybe_unused]] const bool frenet_registered = RegisterFrenet();
 
 }  // namespace
 }  // namespace trackbed::bench

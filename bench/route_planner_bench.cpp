@@ -227,7 +227,7 @@ void TimeDubinsRoute(benchmark::State& state, int legs) {
       legs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-bool RegisterSearches() {
+bool RegisterRoutePlanners() {
   constexpr int kSide = 500;
   const auto all = static_cast<std::size_t>(kSide) * kSide;
   for (const auto& [name, grid] :
@@ -253,7 +253,7 @@ bool RegisterSearches() {
   return true;
 }
 
-[[maybe_unused]] const bool registered = RegisterSearches();
+[[maybe_unused]] const bool route_planner_registered = RegisterRoutePlanners();
 
 }  // namespace
 }  // namespace trackbed::bench

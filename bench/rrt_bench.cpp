@@ -22,25 +22,27 @@ namespace trackbed::bench {
 namespace {
 
 constexpr double kExpandDistance = 2.0;  // [m]
-constexpr double kGoalBias = 0.05;       // default of both
+constexpr double kRrtGoalBias = 0.05;    // default of both
 constexpr int kBudget = 20000;           // enough for every map
 
 /// Time per iteration [s] and path length [m] of a search.
-struct Run {
+struct RrtRun {
   double seconds = 0.0;
   double iterations = 0.0;
   double length = std::numeric_limits<double>::infinity();
 };
 
-Run Ours(const RrtStarProblem& map, int budget, std::uint64_t seed) {
+RrtRun OurRrt(const RrtStarProblem& map, int budget, std::uint64_t seed) {
   const RrtProblem problem{.start = map.start,
                            .goal = map.goal,
                            .low = map.low,
                            .high = map.high,
                            .obstacles = map.obstacles,
                            .inflation = map.inflation};
-  const RrtOptions options{
-      .iterations = budget, .expand_distance = kExpandDistance, .goal_bias = kGoalBias, .stop = {}};
+  const RrtOptions options{.iterations = budget,
+                           .expand_distance = kExpandDistance,
+                           .goal_bias = kRrtGoalBias,
+                           .stop = {}};
   const Stopwatch stopwatch;
   const RrtResult result = PlanRrt(problem, options, seed);
   const double seconds = stopwatch.Seconds();
@@ -52,11 +54,11 @@ Run Ours(const RrtStarProblem& map, int budget, std::uint64_t seed) {
 /// Times OMPL's RRT from the first sample to the last, without its setup. Its random generators
 /// share the program's one seed and continue from run to run. OMPL checks the termination condition
 /// once per iteration.
-Run Ompls(const RrtStarProblem& map, int budget) {
+RrtRun OmplsRrt(const RrtStarProblem& map, int budget) {
   const ob::ProblemDefinitionPtr definition = MakeProblem(map);
   ompl::geometric::RRT planner(definition->getSpaceInformation());
   planner.setRange(kExpandDistance);
-  planner.setGoalBias(kGoalBias);
+  planner.setGoalBias(kRrtGoalBias);
   planner.setProblemDefinition(definition);
   planner.setup();
   int asked = 0;
@@ -81,13 +83,13 @@ void CompareRrt(benchmark::State& state, const RrtStarProblem& map, int budget) 
   CompareInTurn(
       state, 1.0,
       [&] {
-        const Run run = Ours(map, budget, ++seed);
+        const RrtRun run = OurRrt(map, budget, ++seed);
         our_lengths.push_back(run.length);
         our_iterations.push_back(run.iterations);
         return run.seconds;
       },
       [&] {
-        const Run run = Ompls(map, budget);
+        const RrtRun run = OmplsRrt(map, budget);
         their_lengths.push_back(run.length);
         their_iterations.push_back(run.iterations);
         return run.seconds;
@@ -128,7 +130,7 @@ bool RegisterRrt() {
   return true;
 }
 
-[[maybe_unused]] const bool registered = RegisterRrt();
+[[maybe_unused]] const bool rrt_registered = RegisterRrt();
 
 }  // namespace
 }  // namespace trackbed::bench

@@ -19,19 +19,19 @@
 namespace trackbed::bench {
 namespace {
 
-constexpr double kStep = 10.0;      // [m]
-constexpr double kGoalBias = 0.05;  // default of both
+constexpr double kStep = 10.0;             // [m]
+constexpr double kRrtStarGoalBias = 0.05;  // default of both
 
-struct Run {
+struct RrtStarRun {
   double seconds = 0.0;
   double cost = std::numeric_limits<double>::infinity();
 };
 
-Run Ours(const RrtStarProblem& problem, int iterations, std::uint64_t seed) {
+RrtStarRun OurRrtStar(const RrtStarProblem& problem, int iterations, std::uint64_t seed) {
   RrtStarOptions options;
   options.iterations = iterations;
   options.step = kStep;
-  options.goal_bias = kGoalBias;
+  options.goal_bias = kRrtStarGoalBias;
   const Stopwatch stopwatch;
   const RrtStarResult result = PlanRrtStar(problem, options, seed);
   return {stopwatch.Seconds(), result.cost};
@@ -39,20 +39,20 @@ Run Ours(const RrtStarProblem& problem, int iterations, std::uint64_t seed) {
 
 /// Times OMPL's RRT* from the first sample to the last, without its setup. Its random generators
 /// share the program's one seed and continue from run to run.
-Run Ompls(const RrtStarProblem& problem, int iterations) {
+RrtStarRun OmplsRrtStar(const RrtStarProblem& problem, int iterations) {
   const ob::ProblemDefinitionPtr definition = MakeProblem(problem);
   const ob::SpaceInformationPtr information = definition->getSpaceInformation();
   definition->setOptimizationObjective(
       std::make_shared<ob::PathLengthOptimizationObjective>(information));
   ompl::geometric::RRTstar planner(information);
   planner.setRange(kStep);
-  planner.setGoalBias(kGoalBias);
+  planner.setGoalBias(kRrtStarGoalBias);
   planner.setProblemDefinition(definition);
   planner.setup();
   ob::IterationTerminationCondition budget(static_cast<unsigned>(iterations));
   const Stopwatch stopwatch;
   planner.solve(budget);
-  Run run{stopwatch.Seconds()};
+  RrtStarRun run{stopwatch.Seconds()};
   if (definition->hasExactSolution()) {
     run.cost = definition->getSolutionPath()->length();
   }
@@ -68,12 +68,12 @@ void CompareRrtStar(benchmark::State& state, const RrtStarProblem& problem, int 
   CompareInTurn(
       state, 1.0,
       [&] {
-        const Run run = Ours(problem, iterations, ++seed);
+        const RrtStarRun run = OurRrtStar(problem, iterations, ++seed);
         ours.push_back(run.cost);
         return run.seconds;
       },
       [&] {
-        const Run run = Ompls(problem, iterations);
+        const RrtStarRun run = OmplsRrtStar(problem, iterations);
         ompls.push_back(run.cost);
         return run.seconds;
       });
@@ -101,7 +101,7 @@ bool RegisterRrtStar() {
   return true;
 }
 
-[[maybe_unused]] const bool registered = RegisterRrtStar();
+[[maybe_unused]] const bool rrt_star_registered = RegisterRrtStar();
 
 }  // namespace
 }  // namespace trackbed::bench

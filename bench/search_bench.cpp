@@ -174,7 +174,7 @@ bool RegisterSearches() {
   return true;
 }
 
-[[maybe_unused]] const bool registered = RegisterSearches();
+[[maybe_unused]] const bool search_registered = RegisterSearches();
 
 }  // namespace
 }  // namespace trackbed::bench

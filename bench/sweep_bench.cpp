@@ -71,7 +71,7 @@ void RowsOfAStudy(benchmark::State& state) {
   state.counters["besides_ms"] = 1e3 * besides / static_cast<double>(state.iterations());
 }
 
-[[maybe_unused]] const bool registered = [] {
+[[maybe_unused]] const bool sweep_registered = [] {
   RegisterGuarded("Study/two_workers", TwoWorkers)
       ->UseManualTime()
       ->Iterations(1)

@@ -98,7 +98,7 @@ bool RegisterTables() {
   return true;
 }
 
-[[maybe_unused]] const bool registered = RegisterTables();
+[[maybe_unused]] const bool tables_registered = RegisterTables();
 
 }  // namespace
 }  // namespace trackbed::bench

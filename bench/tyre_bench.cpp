@@ -44,7 +44,7 @@ bool RegisterTyreStep() {
   }
   return true;
 }
-[[maybe_unused]] const bool registered = RegisterTyreStep();
+[[maybe_unused]] const bool tyre_registered = RegisterTyreStep();
 
 }  // namespace
 }  // namespace trackbed::bench
