@@ -11,7 +11,7 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kWidth = 0.26;  // [m]
+constexpr double kRibbonWidth = 0.26;  // [m]
 
 /// Formats a length for the legend, as "5 cm" or "2 m".
 std::string Length(double meters) {
@@ -39,7 +39,7 @@ class ErrorRibbon : public Overlay {
   void AddShapes(SceneContext& context) override {
     if (trail_) {
       RibbonStyle style = TrailStyle(recording_, 0, context.camera.paint_scale);
-      style.width = kWidth * context.camera.paint_scale;
+      style.width = kRibbonWidth * context.camera.paint_scale;
       trail_->AddShapes(context, style);
     }
   }

@@ -21,7 +21,7 @@ constexpr double kFlash = 0.6;  // Duration of the flash in a collision or roll-
 constexpr double kSide = 0.4;   // Side of an event's mark [m].
 constexpr double kRim = 0.07;   // Width of the dark rim around a mark [m].
 // Height of the marks above the ground, higher than all trails [m].
-constexpr double kHeight = 0.030;
+constexpr double kMarkHeight = 0.030;
 constexpr Color kDetected{0.98F, 0.98F, 0.98F};
 constexpr Color kRimColor{0.05F, 0.06F, 0.08F};
 
@@ -137,8 +137,8 @@ class EventMarks : public Overlay {
       AddPiece(context, recording_.world, Beside(event.place, -half * c, -half * s),
                Beside(event.place, half * c, half * s), {color, side, height});
     };
-    square((kSide + kRim) * scale, kHeight, kRimColor);
-    square(kSide * scale, kHeight + 0.002, ColorOf(event.kind));
+    square((kSide + kRim) * scale, kMarkHeight, kRimColor);
+    square(kSide * scale, kMarkHeight + 0.002, ColorOf(event.kind));
   }
 
   void AddCross(SceneContext& context, const RunEvent& event, double scale) const {
@@ -147,9 +147,9 @@ class EventMarks : public Overlay {
       const double x = 0.5 * kSide * scale * std::cos(heading + turn * kPi);
       const double y = 0.5 * kSide * scale * std::sin(heading + turn * kPi);
       AddPiece(context, recording_.world, Beside(event.place, -x, -y), Beside(event.place, x, y),
-               {kRimColor, 0.4 * kSide * scale, kHeight});
+               {kRimColor, 0.4 * kSide * scale, kMarkHeight});
       AddPiece(context, recording_.world, Beside(event.place, -x, -y), Beside(event.place, x, y),
-               {ColorOf(event.kind), 0.25 * kSide * scale, kHeight + 0.002});
+               {ColorOf(event.kind), 0.25 * kSide * scale, kMarkHeight + 0.002});
     }
   }
 

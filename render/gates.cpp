@@ -6,9 +6,9 @@ namespace trackbed::render {
 namespace {
 
 constexpr Color kGate{0.98F, 0.98F, 0.98F};
-constexpr double kWidth = 0.14;  // Width of the gate lines [m].
+constexpr double kGateWidth = 0.14;  // Width of the gate lines [m].
 // Height of the gate lines above the ground, below plans and trails [m].
-constexpr double kHeight = 0.005;
+constexpr double kGateHeight = 0.005;
 
 class GateLines : public Overlay {
  public:
@@ -27,7 +27,7 @@ class GateLines : public Overlay {
   void AddShapes(SceneContext& context) override {
     for (const std::vector<Point>& line : lines_) {
       AddLine(context, recording_.world, line,
-              {kGate, kWidth * context.camera.paint_scale, kHeight});
+              {kGate, kGateWidth * context.camera.paint_scale, kGateHeight});
     }
   }
 

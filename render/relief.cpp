@@ -13,9 +13,9 @@ namespace trackbed::render {
 namespace {
 
 constexpr Color kContour{0.52F, 0.40F, 0.26F};
-constexpr double kWidth = 0.09;  // Width of the contour lines [m].
+constexpr double kContourWidth = 0.09;  // Width of the contour lines [m].
 // Height of the contour lines above the ground, below all other paint [m].
-constexpr double kHeight = 0.0015;
+constexpr double kContourHeight = 0.0015;
 // Margin by which the area with contour lines extends beyond the plan and all driven paths [m].
 constexpr double kMargin = 30.0;
 constexpr double kMaxReliefCells = 4e4;
@@ -43,7 +43,7 @@ class Relief : public Overlay {
   void AddShapes(SceneContext& context) override {
     for (const std::vector<Point>& line : lines_) {
       AddLine(context, recording_.world, line,
-              {kContour, kWidth * context.camera.paint_scale, kHeight});
+              {kContour, kContourWidth * context.camera.paint_scale, kContourHeight});
     }
   }
 

@@ -15,8 +15,8 @@ constexpr double kGustHeight = 0.006;
 constexpr double kSpacing = 5.0;  // Spacing of the wind arrows on the ground [m].
 // Number of arrows from the middle arrow to each side; 81 arrows in total.
 constexpr int kHalfCount = 4;
-constexpr double kHeight = 0.004;
-constexpr double kWidth = 0.12;
+constexpr double kArrowHeight = 0.004;
+constexpr double kArrowWidth = 0.12;
 constexpr double kMinWindSpeed = 0.5;  // wind speed below which no arrow is drawn [m/s]
 constexpr double kPerSpeed = 1.0 / 3.0;
 // Minimum length of an arrow [m], at which only the arrow's head is visible.
@@ -31,7 +31,7 @@ void AddArrow(mjvScene& scene, const Recording& recording, const Vec2& middle, c
   const Vec2 across(-along.y(), along.x());
   const double half = 0.5 * scale * std::clamp(kPerSpeed * speed, kMinArrowLength, kMaxArrowLength);
   const double head = 0.42 * scale;
-  const RibbonStyle style{kWindColor, kWidth * scale, kHeight};
+  const RibbonStyle style{kWindColor, kArrowWidth * scale, kArrowHeight};
   const Eigen::Vector3d normal = GroundNormal(recording.world, middle);
   const auto ground = [&](const Vec2& point) { return recording.OnGround({point.x(), point.y()}); };
   const Vec2 tip = middle + half * along;

@@ -64,9 +64,6 @@ constexpr double kSwingsAhead = 2.5;
 
 constexpr double kSameTime = 1e-9;  // [s]
 
-/// Speed below which the motion is predicted with the kinematic car [m/s].
-constexpr double kMinDynamicSpeed = 1.0;
-
 /// Returns the command for which the calibration curve has the value `angle` [rad], by bisection.
 double CommandFor(const MonotoneCurve& curve, const std::vector<Vec2>& points, double angle) {
   double low = points.front().x();

@@ -29,10 +29,6 @@
 namespace trackbed {
 namespace {
 
-/// Speed below which the controller uses the kinematic model of the car [m/s]. At 1 m/s, the
-/// kinematic and the dynamic model differ by less than 1 %.
-constexpr double kMinDynamicSpeed = 1.0;
-
 /// Predicted lateral displacement of the car, without steering and due to steering.
 struct Responses {
   double free = 0.0;  ///< Lateral displacement y_0 that the car would have without steering [m].

@@ -20,6 +20,10 @@ Tracking ProjectOntoPath(const ControlInput& input);
 /// Returns whether the rear axle moves sideways, which is impossible for a kinematic car.
 bool RearAxleSlips(const ControlInput& input);
 
+/// Speed below which controllers use the kinematic model of the car [m/s]. At 1 m/s, the kinematic
+/// and the dynamic model differ by less than 1 %.
+inline constexpr double kMinDynamicSpeed = 1.0;
+
 /// Length and time scales of a car relative to the Prius, for which the default gains and weights
 /// were chosen. If lengths and times are measured in these scales, cars of any wheelbase and
 /// steering rate behave alike.

@@ -24,10 +24,10 @@ std::string StatusOf(const SweepRecords& records, const SweepRow& row) {
   return row.cells.at(static_cast<std::size_t>(at));
 }
 
-/// Runs the rows from `from` to `to` (exclusive) that have no recorded result yet. RunBatch returns
+/// Runs the rows from `from` to `to` (exclusive) that have no recorded result yet. RunRows returns
 /// false if the runs were interrupted.
-bool RunBatch(const CheckedStudy& checked, std::size_t from, std::size_t to, SweepRecords& records,
-              const VerifyOptions& options) {
+bool RunRows(const CheckedStudy& checked, std::size_t from, std::size_t to, SweepRecords& records,
+             const VerifyOptions& options) {
   std::vector<std::size_t> missing;
   for (std::size_t row = from; row < to; ++row) {
     if (!records.Has(row)) {
@@ -95,7 +95,7 @@ VerifyResult Verify(const CheckedStudy& checked, const VerifyClaim& claim, Sweep
   for (std::size_t from = 0; from < rows && test.verdict() == ProbabilityVerdict::kUndecided;
        from += kVerifyBatch) {
     const std::size_t to = std::min(rows, from + kVerifyBatch);
-    if (!RunBatch(checked, from, to, records, options)) {
+    if (!RunRows(checked, from, to, records, options)) {
       result.interrupted = true;
       break;
     }

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// Maximum number of rows of all recorded drives together on the report page.
-constexpr std::size_t kRows = 6000;
+constexpr std::size_t kRowsOfRecords = 6000;
 
 ordered_json Residuals(const fs::path& file, std::size_t max_points) {
   const Table table = ReadCsv(run_folder::RequireFile(file));
@@ -134,7 +134,7 @@ ordered_json IdentificationData(const fs::path& folder) {
       {"records", ordered_json::array()}};
   const std::vector<JsonValue> records = json.At("records").Elements();
   for (const JsonValue& record : records) {
-    data["records"].push_back(RecordJson(record, folder, kRows / records.size()));
+    data["records"].push_back(RecordJson(record, folder, kRowsOfRecords / records.size()));
   }
   for (const auto& [name, version] : json.At("versions").Members()) {
     data["versions"][name] = version.Text();

@@ -11,12 +11,12 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Points and weights of Gaussian quadrature over [0, 1].
-struct Quadrature {
+struct GaussPoints {
   static constexpr std::size_t kPoints = 6;
   std::array<double, kPoints> at{};
   std::array<double, kPoints> weight{};
 
-  Quadrature() {
+  GaussPoints() {
     using Gauss = boost::math::quadrature::gauss<double, kPoints>;
     for (std::size_t i = 0; i < kPoints / 2; ++i) {
       at[2 * i] = 0.5 - 0.5 * Gauss::abscissa()[i];
@@ -35,15 +35,15 @@ struct Displacement {
 };
 
 Displacement DisplacementOf(double length, double first, double last, double yaw) {
-  static const Quadrature quadrature;
+  static const GaussPoints points;
   Complex sum;
   Complex turned;
   Complex by_first;
   Complex by_last;
-  for (std::size_t k = 0; k < Quadrature::kPoints; ++k) {
-    const double u = quadrature.at[k];
+  for (std::size_t k = 0; k < GaussPoints::kPoints; ++k) {
+    const double u = points.at[k];
     const double turn = first * u + 0.5 * (last - first) * u * u;  // per length
-    const Complex way = quadrature.weight[k] * std::polar(1.0, yaw + length * turn);
+    const Complex way = points.weight[k] * std::polar(1.0, yaw + length * turn);
     sum += way;
     turned += turn * way;
     by_first += (u - 0.5 * u * u) * way;
