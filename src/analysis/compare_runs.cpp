@@ -273,7 +273,7 @@ void NoteOtherPlan(const FinishedRun& first, const FinishedRun& second, Verdict&
                              length(path_1), length(path_2), apart.max, apart.max_s));
 }
 
-ordered_json ToJson(const DifferenceBounds& bounds) {
+ordered_json BoundsJson(const DifferenceBounds& bounds) {
   ordered_json json = ordered_json::object();
   for (const ComparedQuantity& quantity : ComparedQuantities()) {
     if (const std::optional<double>& limit = bounds.*quantity.bound) {
@@ -425,7 +425,7 @@ void AddComparison(const RunComparison& comparison, const fs::path& folder, Resu
       table.AddRow(cells);
     }
     json["pairs"].push_back(ToJson(own.comparison));
-    json["pairs"].back()["tolerances"] = ToJson(own.bounds);
+    json["pairs"].back()["tolerances"] = BoundsJson(own.bounds);
   }
   json["verdict"] = ToJson(comparison.verdict);
   if (comparison.verdict.passed && !comparison.judged()) {

@@ -10,9 +10,10 @@
 namespace trackbed {
 namespace {
 
-constexpr double kWidth = 0.12;      // Width of a line [m].
-constexpr double kDash = 3.0;        // Length of a dash [m].
-constexpr double kDashPeriod = 9.0;  // Distance between the starts of two successive dashes [m].
+constexpr double kWidth = 0.12;  // Width of a line [m].
+constexpr double kDash = 3.0;    // Length of a dash [m].
+constexpr double kLaneDashPeriod =
+    9.0;  // Distance between the starts of two successive dashes [m].
 
 /// Ends of a bound [cm].
 using BoundEnds = std::array<long long, 4>;
@@ -36,8 +37,8 @@ void AddDashes(const std::vector<Vec2>& line, std::vector<PaintedLine>& lines) {
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const double length = (line[i + 1] - line[i]).norm();
     for (double s = 0.0; s < length;) {
-      const double phase = std::fmod(from + s, kDashPeriod);
-      const double next = std::min(s + (phase < kDash ? kDash : kDashPeriod) - phase, length);
+      const double phase = std::fmod(from + s, kLaneDashPeriod);
+      const double next = std::min(s + (phase < kDash ? kDash : kLaneDashPeriod) - phase, length);
       const auto at = [&](double part) -> Vec2 {
         return line[i] + part / length * (line[i + 1] - line[i]);
       };

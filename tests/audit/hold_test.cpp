@@ -70,7 +70,7 @@ constexpr std::array<std::array<double, 2>, 3> kGrades{{{0.0, 0.0}, {-0.08, 0.03
 
 /// The random route of a planner, without other random settings. The route is long enough that the
 /// box on the way does not overlap the car at the start.
-Scenario RouteOf(std::size_t planner) {
+Scenario RouteFor(std::size_t planner) {
   Scenario scenario = RandomScenario(planner, 0);
   for (int attempt = 1; attempt < 50; ++attempt) {
     scenario.world = World{};
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(WhatARoadHolds, IsNotExceededByAnyPlan) {
   const auto [planner, layer] = GetParam();
-  const Scenario route = RouteOf(planner);
+  const Scenario route = RouteFor(planner);
   if (layer > 0 && MayGoBackwards(route.plan->global)) {
     GTEST_SKIP() << "reverse segments are not replanned";
   }

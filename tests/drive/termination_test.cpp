@@ -8,7 +8,7 @@
 #include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
-namespace {
+namespace termination_test {
 
 /// A vehicle of 4 m length, which has arrived if it is within 0.4 m of the goal at (10, 0).
 LoopConfig Config() {
@@ -252,5 +252,5 @@ TEST_F(TerminationTest, TellsTheWorstFirst) {
   EXPECT_EQ(Ask(), DriveStatus::kDiverged);
 }
 
-}  // namespace
+}  // namespace termination_test
 }  // namespace trackbed

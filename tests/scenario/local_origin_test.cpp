@@ -22,7 +22,7 @@
 // Tests the local origin of scenarios with large coordinates. All coordinates of the random
 // scenarios are multiples of 1/8 m, so moving them by whole meters is exact.
 namespace trackbed {
-namespace {
+namespace local_origin_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -258,5 +258,5 @@ TEST(LocalOrigin, IsAddedToThePositionsOfItsTables) {
             Vec2(0.0, 0.0));
 }
 
-}  // namespace
+}  // namespace local_origin_test
 }  // namespace trackbed

@@ -17,7 +17,7 @@
 #include "trackbed/planning/sampling/rrt_planner.h"
 
 namespace trackbed {
-namespace {
+namespace scenario_test {
 
 constexpr const char* kSmall = R"(schema: 1
 name: small
@@ -492,5 +492,5 @@ TEST_P(ScenarioFiles, CanBeReadAndIsNamedAfterItsFile) {
   EXPECT_EQ(ReadScenario(GetParam()).name, GetParam().stem().string());
 }
 
-}  // namespace
+}  // namespace scenario_test
 }  // namespace trackbed
