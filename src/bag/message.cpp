@@ -109,6 +109,11 @@ class TypeBuilder {
         std::istringstream(line.substr(4)) >> name;
         name = ShortName(name);
         own_[name];  // the definition of a message without fields is empty
+      } else if (name == ShortName(type) && line.starts_with("---")) {
+        RefuseType(
+            type,
+            "its definition, which a line of --- divides, is that of a service or an action; "
+            "only messages are read");
       } else if (!name.empty()) {
         own_[name] += line + "\n";
       }

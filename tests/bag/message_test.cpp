@@ -124,6 +124,9 @@ TEST(BagMessage, SaysWhatIsWrongWithADefinition) {
   EXPECT_THAT(ErrorOf("a/msg/B", "wstring b", ""), HasSubstr("wstring"));
   EXPECT_THAT(ErrorOf("a/msg/B", "", ""), HasSubstr("no definition of the type a/B"));
   EXPECT_THAT(ErrorOf("a/msg/B", "x/Y b", ""), HasSubstr("no definition of the type x/Y"));
+  // Recorders of service events store the definition of the service: the event has other fields.
+  EXPECT_THAT(ErrorOf("a/srv/Add_Event", "int64 a\nint64 b\n---\nint64 sum", ""),
+              HasSubstr("is that of a service or an action"));
   EXPECT_THAT(ErrorOf("nav_msgs/msg/Odometry", "", "abcdefgh"), HasSubstr("encoding CDR"));
 }
 
