@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "src/path_files/formats.h"
+#include "src/path_files/lanelet_orientation.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/path_files/globe.h"
 
@@ -64,29 +65,6 @@ bool MayCross(const OsmTags& line, bool from_left, bool is_reversed) {
          subtype == (from_left != is_reversed ? "dashed_solid" : "solid_dashed");
 }
 
-/// Orients the bounds of a lanelet in its direction. In a convex quadrilateral, two opposite sides
-/// are together shorter than the diagonals, so the ends that are closer belong together. The ring
-/// that follows the right bound forward and the left bound backward is counter-clockwise.
-void Orient(LaneletBound& left, LaneletBound& right) {
-  const auto apart = [](const Vec2& a, const Vec2& b) { return (a - b).norm(); };
-  const Vec2& first = left.points.front();
-  const Vec2& last = left.points.back();
-  if (apart(first, right.points.back()) + apart(last, right.points.front()) <
-      apart(first, right.points.front()) + apart(last, right.points.back())) {
-    right = right.Reversed();
-  }
-  std::vector<Vec2> ring = right.points;
-  ring.insert(ring.end(), left.points.rbegin(), left.points.rend());
-  double area = 0.0;
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    area += Cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
-  }
-  if (area < 0.0) {
-    left = left.Reversed();
-    right = right.Reversed();
-  }
-}
-
 }  // namespace
 
 LaneletBound LaneletBound::Reversed() const {
@@ -131,8 +109,17 @@ Lanelet2Map::Lanelet2Map(const fs::path& file, const XMLElement& root, const Pat
     }
   }
   PlaceNodes(relations, map);
+  LaneletEnds ends;
   for (const XMLElement* relation : relations) {
-    Add(*relation);
+    std::string why;
+    if (const std::optional<LaneletBounds> bounds = BoundsOf(*relation, why)) {
+      for (const LaneletBounds& each : OrientationsOf(*bounds)) {
+        ends.Add(each);
+      }
+    }
+  }
+  for (const XMLElement* relation : relations) {
+    Add(*relation, ends);
   }
   Link();
 }
@@ -259,7 +246,21 @@ LaneletBound Lanelet2Map::BoundOf(const std::string& id, const OsmWay& way) cons
   return bound;
 }
 
-void Lanelet2Map::Add(const XMLElement& relation) {
+/// Returns the bounds of a lanelet as the file gives their nodes; nothing, with a reason in `why`,
+/// if a bound is missing.
+std::optional<LaneletBounds> Lanelet2Map::BoundsOf(const XMLElement& relation,
+                                                   std::string& why) const {
+  std::string left_id;
+  std::string right_id;
+  const OsmWay* left = WayOf(relation, "left", left_id, why);
+  const OsmWay* right = why.empty() ? WayOf(relation, "right", right_id, why) : nullptr;
+  if (left == nullptr || right == nullptr) {
+    return std::nullopt;
+  }
+  return LaneletBounds{BoundOf(left_id, *left), BoundOf(right_id, *right)};
+}
+
+void Lanelet2Map::Add(const XMLElement& relation, const LaneletEnds& ends) {
   const std::string id = Attribute(relation, "id");
   const OsmTags tags = TagsOf(relation);
   if (!IsForCars(tags)) {
@@ -267,18 +268,14 @@ void Lanelet2Map::Add(const XMLElement& relation) {
     return;
   }
   std::string why;
-  std::string left_id;
-  std::string right_id;
-  const OsmWay* left_way = WayOf(relation, "left", left_id, why);
-  const OsmWay* right_way = why.empty() ? WayOf(relation, "right", right_id, why) : nullptr;
-  if (left_way == nullptr || right_way == nullptr) {
+  const std::optional<LaneletBounds> bounds = BoundsOf(relation, why);
+  if (!bounds) {
     left_out_[id] = fmt::format("(line {}) {}", relation.GetLineNum(), why);
     return;
   }
-  DirectedLanelet own{.left = BoundOf(left_id, *left_way),
-                      .right = BoundOf(right_id, *right_way),
-                      .limit = kMaxPathSpeed};
-  Orient(own.left, own.right);
+  LaneletBounds oriented = ends.Choose(OrientationsOf(*bounds));
+  DirectedLanelet own{
+      .left = std::move(oriented.left), .right = std::move(oriented.right), .limit = kMaxPathSpeed};
   if (const std::string limit = ValueOf(tags, "speed_limit"); !limit.empty()) {
     const std::optional<double> speed = SpeedOfTag(limit);
     own.has_limit = speed.has_value();

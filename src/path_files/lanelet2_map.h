@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,11 @@ struct LaneletBound {
   [[nodiscard]] LaneletBound Reversed() const;
 };
 
+struct LaneletBounds {
+  LaneletBound left;
+  LaneletBound right;
+};
+
 /// A lanelet with its bounds, in one direction.
 struct DirectedLanelet {
   LaneletBound left;
@@ -49,6 +55,8 @@ struct DirectedLanelet {
 /// Returns the speed in a tag such as "50", "50 km/h", "30 mph" or "13.9 m/s" [m/s]; km/h without a
 /// unit. Returns nullopt unless the text is a speed above 0 and at most 100 m/s.
 std::optional<double> SpeedOfTag(const std::string& text);
+
+class LaneletEnds;
 
 /// A map, and the lanelets on which cars drive. The map keeps a reference to the file's name.
 class Lanelet2Map {
@@ -80,7 +88,9 @@ class Lanelet2Map {
                                   double largest) const;
   void PlaceNodes(const std::vector<const tinyxml2::XMLElement*>& relations, const PathMap& map);
   [[nodiscard]] LaneletBound BoundOf(const std::string& id, const OsmWay& way) const;
-  void Add(const tinyxml2::XMLElement& relation);
+  [[nodiscard]] std::optional<LaneletBounds> BoundsOf(const tinyxml2::XMLElement& relation,
+                                                      std::string& why) const;
+  void Add(const tinyxml2::XMLElement& relation, const LaneletEnds& ends);
   void Insert(const std::string& key, const DirectedLanelet& own, int line);
   void Link();
 
