@@ -185,15 +185,14 @@ Vec2 OriginOf(const XMLElement& root, const std::filesystem::path& file) {
   return kRounding * (place / kRounding).array().round().matrix();
 }
 
-/// Leaves out an obstacle that moves and begins in the initial state: scenarios that are converted
-/// from other formats have the recorded car of the problem among their obstacles.
+/// Leaves out an obstacle that begins in the initial state, whether the obstacle stands or moves:
+/// scenarios that are made from recordings may have the recorded car of the problem among their
+/// obstacles.
 void LeaveOutOwnCar(CommonRoadScenario& scenario) {
   constexpr double kSame = 1e-3;  // Pose tolerance [m, rad]; files have four decimals.
   const std::size_t left_out = std::erase_if(scenario.obstacles, [&](const auto& obstacle) {
-    if (obstacle.poses.empty()) {
-      return false;
-    }
-    const Pose2& pose = obstacle.poses.front().second;
+    const Pose2& pose =
+        obstacle.poses.empty() ? obstacle.box.center : obstacle.poses.front().second;
     return std::hypot(pose.x - scenario.start.x, pose.y - scenario.start.y) <= kSame &&
            std::abs(WrapAngle(pose.yaw - scenario.start.yaw)) <= kSame;
   });

@@ -236,6 +236,21 @@ TEST(CommonRoadScenario, LeavesOutTheRecordedCar) {
   EXPECT_THAT(scenario.notes, Contains(HasSubstr("it is the recorded car")));
 }
 
+// A recorded car that waits has states, but does not move.
+TEST(CommonRoadScenario, LeavesOutTheRecordedCarThatStands) {
+  const auto waiting = [](double x) {
+    return "<dynamicObstacle id=\"7\"><shape><rectangle><length>4</length><width>2</width>"
+           "</rectangle></shape>" +
+           State("initialState", {x, 0.0, 0.0}, 0, 0.0) + "<trajectory>" +
+           State("state", {x, 0.0, 0.0}, 1, 0.0) + "</trajectory></dynamicObstacle>";
+  };
+  const CommonRoadScenario scenario = Read(Roads() + waiting(5.0) + waiting(25.0) +
+                                           PlanningProblem({5.0, 0.0, 0.0}, 0.0, "", 0, 50));
+  ASSERT_EQ(scenario.obstacles.size(), 1U);
+  EXPECT_EQ(scenario.obstacles[0].box.center.x, 25.0);
+  EXPECT_THAT(scenario.notes, Contains(HasSubstr("it is the recorded car")));
+}
+
 TEST(CommonRoadScenario, EnclosesShapesByBoxes) {
   // The obstacles are a square that is rotated by 45 degrees, and a disc.
   const auto standing = [](const std::string& shape) {
