@@ -93,7 +93,8 @@ class MeshReader {
     const fs::path path = Locate(name);
     std::error_code error;
     if (path.empty() || !fs::is_regular_file(path, error)) {
-      return "does not exist beside the file or in its package";
+      return "does not exist beside the file or in its package, the folder with package.xml; name "
+             "the folder of the package by --allow-assets";
     }
     if (std::string why = ReadAccessError(path, own_, folders_); !why.empty()) {
       return why;
