@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "src/core/csv_number.h"
 #include "src/core/vbo.h"
@@ -15,7 +16,8 @@
 // 2. Finds the first row of numbers, and the lines directly above it that have the same number of
 //    cells.
 // 3. The topmost line with as many cells as the first row of numbers contains the column names. The
-//    lines between the column names and the numbers contain units.
+//    lines between the column names and the numbers contain units. A first row that numbers the
+//    columns, as the loggers of AiM write it behind the units, is no data.
 namespace trackbed {
 namespace {
 
@@ -106,6 +108,23 @@ bool IsData(const Line& line) {
   return numbers >= 2 && 2 * numbers >= Filled(line);
 }
 
+/// Whether the cells of a line are 1, 2, 3, and so on.
+bool NumbersColumns(const Line& line) {
+  for (std::size_t i = 0; i < line.cells.size(); ++i) {
+    if (CellNumber(line.cells[i]) != static_cast<double>(i + 1)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Returns a unit without brackets: "m" for "[m]".
+std::string WithoutBrackets(const std::string& unit) {
+  return unit.size() > 2 && unit.front() == '[' && unit.back() == ']'
+             ? unit.substr(1, unit.size() - 2)
+             : unit;
+}
+
 bool IsUnit(const std::string& cell) {
   constexpr std::array kUnits{"s",   "ms",    "m",   "cm",  "mm",  "km",    "ft",     "m/s",
                               "mps", "km/h",  "kmh", "kph", "mph", "knots", "rad",    "deg",
@@ -140,12 +159,13 @@ std::optional<CsvHead> HeadWith(std::string_view begin, char delimiter) {
     head.preamble_lines = lines[names].number - 1;
   }
   if (data > names + 1) {
-    const std::vector<std::string>& units = lines[names + 1].cells;
+    std::vector<std::string> units = lines[names + 1].cells;
+    std::transform(units.begin(), units.end(), units.begin(), WithoutBrackets);
     if (std::none_of(units.begin(), units.end(), IsUnit)) {
       return has_preamble ? std::optional(head) : std::nullopt;
     }
-    head.units = units;
-    head.first_row = lines[data].number;
+    head.units = std::move(units);
+    head.first_row = lines[has_preamble && NumbersColumns(lines[data]) ? data + 1 : data].number;
   }
   return has_preamble || !head.units.empty() ? std::optional(head) : std::nullopt;
 }

@@ -111,7 +111,7 @@ void NumberReader::Row() {
       value = time.value_or(0.0);
       if (!time) {
         AddCellError(i, fmt::format("'{}' is neither a number nor a timestamp such as "
-                                    "2024-05-01T12:30:00Z",
+                                    "2024-05-01T12:30:00Z or 12:30:00.5",
                                     cell));
       }
     } else if (!is_number) {

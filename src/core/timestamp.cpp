@@ -53,6 +53,17 @@ class Timestamp {
     return count == 0 ? std::nullopt : std::optional(fraction);
   }
 
+  /// Reads the English abbreviation of a month, as in 01-May-2024, as a number from 1 to 12.
+  std::optional<int> Month() {
+    constexpr std::string_view kMonths = "JanFebMarAprMayJunJulAugSepOctNovDec";
+    const std::size_t at = rest_.size() < 3 ? kMonths.npos : kMonths.find(rest_.substr(0, 3));
+    if (at == kMonths.npos || at % 3 != 0) {
+      return std::nullopt;
+    }
+    rest_.remove_prefix(3);
+    return static_cast<int>(at / 3) + 1;
+  }
+
   [[nodiscard]] bool is_empty() const { return rest_.empty(); }
 
  private:
@@ -78,43 +89,61 @@ std::optional<double> Zone(Timestamp& text) {
   return (sign == '-' ? -1.0 : 1.0) * (3600.0 * *hours + 60.0 * minutes);
 }
 
-}  // namespace
-
-std::optional<double> TimestampSeconds(std::string_view text) {
-  Timestamp rest(text);
-  const std::optional<int> year = rest.Digits(4);
-  const bool has_dashes = rest.Skip("-/") != '\0';
-  const std::optional<int> month = rest.Digits(2);
-  const bool has_second_dash = rest.Skip("-/") != '\0';
-  const std::optional<int> day = rest.Digits(2);
-  if (!year || !month || !day || !has_dashes || !has_second_dash || rest.Skip("Tt ") == '\0') {
-    return std::nullopt;
-  }
-  const std::optional<int> hour = rest.Digits(2);
-  const bool has_colon = rest.Skip(":") != '\0';
-  const std::optional<int> minute = rest.Digits(2);
+/// Reads a time of day as seconds since midnight. `digits` is the number of digits of the hour.
+std::optional<double> TimeOfDay(Timestamp& text, std::size_t digits, bool needs_seconds) {
+  const std::optional<int> hour = text.Digits(digits);
+  const bool has_colon = text.Skip(":") != '\0';
+  const std::optional<int> minute = text.Digits(2);
   if (!hour || !has_colon || !minute || *hour > 24 || *minute > 59) {
     return std::nullopt;
   }
   double second = 0.0;
-  if (rest.Skip(":") != '\0') {
-    const std::optional<int> whole = rest.Digits(2);
+  if (text.Skip(":") != '\0') {
+    const std::optional<int> whole = text.Digits(2);
     const std::optional<double> fraction =
-        rest.Skip(".,") != '\0' ? rest.Fraction() : std::optional(0.0);
+        text.Skip(".,") != '\0' ? text.Fraction() : std::optional(0.0);
     if (!whole || !fraction || *whole > 60) {
       return std::nullopt;
     }
     second = *whole + *fraction;
-  }
-  const std::optional<double> zone = Zone(rest);
-  const std::chrono::year_month_day date{std::chrono::year(*year),
-                                         std::chrono::month(static_cast<unsigned>(*month)),
-                                         std::chrono::day(static_cast<unsigned>(*day))};
-  if (!zone || !rest.is_empty() || !date.ok()) {
+  } else if (needs_seconds) {
     return std::nullopt;
   }
-  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return 86400.0 * static_cast<double>(days) + 3600.0 * *hour + 60.0 * *minute + second - *zone;
+  return 3600.0 * *hour + 60.0 * *minute + second;
+}
+
+/// Reads a date such as 2024-05-01, 2024/05/01 or 01-May-2024.
+std::optional<std::chrono::year_month_day> Date(Timestamp& text, bool begins_with_day) {
+  std::optional<int> year = begins_with_day ? std::nullopt : text.Digits(4);
+  std::optional<int> day = begins_with_day ? text.Digits(2) : std::nullopt;
+  const bool has_dash = text.Skip("-/") != '\0';
+  const std::optional<int> month = begins_with_day ? text.Month() : text.Digits(2);
+  const bool has_second_dash = text.Skip("-/") != '\0';
+  (begins_with_day ? year : day) = text.Digits(begins_with_day ? 4 : 2);
+  if (!year || !month || !day || !has_dash || !has_second_dash || text.Skip("Tt ") == '\0') {
+    return std::nullopt;
+  }
+  return std::chrono::year_month_day{std::chrono::year(*year),
+                                     std::chrono::month(static_cast<unsigned>(*month)),
+                                     std::chrono::day(static_cast<unsigned>(*day))};
+}
+
+}  // namespace
+
+std::optional<double> TimestampSeconds(std::string_view text) {
+  Timestamp rest(text);
+  if (const std::size_t colon = text.find(':'); colon == 1 || colon == 2) {
+    const std::optional<double> time = TimeOfDay(rest, colon, true);
+    return rest.is_empty() ? time : std::nullopt;
+  }
+  const std::optional<std::chrono::year_month_day> date = Date(rest, text.find('-') == 2);
+  const std::optional<double> time = date ? TimeOfDay(rest, 2, false) : std::nullopt;
+  const std::optional<double> zone = time ? Zone(rest) : std::nullopt;
+  if (!zone || !rest.is_empty() || !date->ok()) {
+    return std::nullopt;
+  }
+  const auto days = std::chrono::sys_days(*date).time_since_epoch().count();
+  return 86400.0 * static_cast<double>(days) + *time - *zone;
 }
 
 }  // namespace trackbed

@@ -8,6 +8,7 @@
 #include <cctype>
 
 #include "src/recording/log_source.h"
+#include "src/recording/time_unit.h"
 #include "trackbed/bag/bag.h"
 #include "trackbed/bag/message.h"
 #include "trackbed/core/csv_columns.h"
@@ -24,6 +25,7 @@
 //    odometry; without odometry, from a pose; without both, from a satellite fix.
 // 3. GPX, KML and GeoJSON files have positions and times.
 // 4. FitTo chooses the gap and the width of the polynomials from the median step of the times.
+//    TimeUnitOf finds the unit of times whose column states none.
 namespace trackbed {
 namespace {
 
@@ -170,25 +172,29 @@ void Take(const std::optional<FoundColumn>& found, std::optional<Column>& column
   }
 }
 
-/// Proposes columns for time and position, for a table whose columns have usual names.
-void TakePlace(const std::vector<std::string>& names, LogMap& map) {
+/// Proposes columns for time and position, for a table whose columns have usual names. Returns
+/// whether the name of the time's column states its unit.
+bool TakePlace(const std::vector<std::string>& names, LogMap& map) {
+  bool has_time_unit = false;
   // rostopic echo -p writes nanoseconds in the column %time.
   const Names times{"s", "ms", "us", "ns"};
   if (const auto stamp = AnyOf(names, times, {"%time"})) {
     map.time = {.column = stamp->name, .unit = "ns", .nanoseconds = {}};
+    has_time_unit = true;
   } else if (const auto time = AnyOf(names, times,
                                      {"t_s", "t", "time_s", "time", "timestamp_s", "timestamp",
-                                      "stamp", "datetime", "utc", "elapsed_time"})) {
+                                      "stamp", "datetime", "utc", "elapsed_time", "device time"})) {
     map.time.column = time->name;
     map.time.unit = time->unit.empty() ? map.time.unit : time->unit;
+    has_time_unit = !time->unit.empty() || boost::iends_with(time->name, "_s");
   }
   const Names lengths{"m", "cm", "mm"};
   const auto x = AnyOf(names, lengths,
-                       {"x_m", "x", "pos_x", "position_x", "easting", "car coord x",
-                        "field.pose.pose.position.x", "field.pose.position.x"});
+                       {"x_m", "x", "pos_x", "position_x", "easting", "car coord x", "xcg_tm",
+                        "car.tx", "field.pose.pose.position.x", "field.pose.position.x"});
   const auto y = AnyOf(names, lengths,
-                       {"y_m", "y", "pos_y", "position_y", "northing", "car coord y",
-                        "field.pose.pose.position.y", "field.pose.position.y"});
+                       {"y_m", "y", "pos_y", "position_y", "northing", "car coord y", "ycg_tm",
+                        "car.ty", "field.pose.pose.position.y", "field.pose.position.y"});
   const GlobeColumns globe = FindGlobeColumns(names);
   if (x && y && x->unit == y->unit) {
     map.position.x = x->name;
@@ -212,6 +218,7 @@ void TakePlace(const std::vector<std::string>& names, LogMap& map) {
       map.yaw->unit = pose.yaw->unit;
     }
   }
+  return has_time_unit;
 }
 
 LogListing ListCsv(const fs::path& log) {
@@ -221,11 +228,12 @@ LogListing ListCsv(const fs::path& log) {
   const std::vector<std::string>& names = topic.columns;
   LogMap map;
   map.name = MapName(log);
-  TakePlace(names, map);
+  const bool has_time_unit = TakePlace(names, map);
   if (!map.position.latitude && !map.yaw) {
-    Take(AnyOf(names, UnitsOf(LogQuantity::kAngle),
-               {"yaw_rad", "yaw", "heading_rad", "psi_rad", "psi", "theta_rad", "theta"}),
-         map.yaw);
+    Take(
+        AnyOf(names, UnitsOf(LogQuantity::kAngle),
+              {"yaw_rad", "yaw", "heading_rad", "psi_rad", "psi", "theta_rad", "theta", "car.yaw"}),
+        map.yaw);
   }
   // rostopic echo -p names columns by the fields of the message.
   if (const std::string& x = map.position.x; x.starts_with("field.")) {
@@ -239,10 +247,15 @@ LogListing ListCsv(const fs::path& log) {
     }
   }
   map.heading_from_motion = !map.yaw && !map.orientation;
-  Take(AnyOf(names, UnitsOf(LogQuantity::kSpeed),
+  const Names speeds = UnitsOf(LogQuantity::kSpeed);
+  Take(AnyOf(names, speeds,
              {"speed_mps", "vx_mps", "v_mps", "speed", "velocity", "v", "gps speed", "ground speed",
-              "field.twist.twist.linear.x"}),
+              "vehicle_speed", "car.v", "field.twist.twist.linear.x"}),
        map.speed);
+  // Beside vy, vx may be a velocity along the x axis of the world.
+  if (!map.speed && !AnyOf(names, speeds, {"vy"})) {
+    Take(AnyOf(names, speeds, {"vx"}), map.speed);
+  }
   const std::vector<std::string> poses = FindPoseColumns(names).choices;
   listing.topics.push_back(std::move(topic));
   const bool has_position = map.position.latitude || !map.position.x.empty();
@@ -266,7 +279,11 @@ LogListing ListCsv(const fs::path& log) {
                      times.push_back(numbers.front());
                    }
                  });
-  FitTo(MedianStep(std::move(times)) * UnitInSi(map.time.unit), map);
+  const double step = MedianStep(std::move(times));
+  if (!has_time_unit && step > 1.0) {
+    map.time.unit = TimeUnitOf(log, map, step);
+  }
+  FitTo(step * UnitInSi(map.time.unit), map);
   listing.map = std::move(map);
   return listing;
 }

@@ -143,6 +143,13 @@ TEST(ReadCsvTable, SkipsThePreambleOfLoggers) {
   EXPECT_EQ(TableText(aim + "\"Time\",\"Speed\",\"X\",\"Y\"\r\n\"s\",\"km/h\",\"\",\"m\"\r\n\r\n"
                             "\"0\",\"36\",\"1\",\"2\"\r\n\"1\",\"36\",\"11\",\"2\"\r\n"),
             "4:Time [s]|Speed [km/h]|X|Y [m]\n7:0|36|1|2\n8:1|36|11|2\n");
+  // The line that numbers the columns is no row; in a table without preamble, such a row stays.
+  EXPECT_EQ(
+      TableText(aim + "Time,Speed,X,Y\r\ns,km/h,,m\r\n1,2,3,4\r\n\r\n0,36,1,2\r\n1,36,11,2\r\n"),
+      "4:Time [s]|Speed [km/h]|X|Y [m]\n8:0|36|1|2\n9:1|36|11|2\n");
+  EXPECT_EQ(TableText("t,x\ns,m\n1,2\n2,3\n"), "1:t [s]|x [m]\n3:1|2\n4:2|3\n");
+  // Units in brackets.
+  EXPECT_EQ(TableText("t;x\n[s];[m]\n5;2\n6;3\n"), "1:t [s]|x [m]\n3:5|2\n4:6|3\n");
   // A line of units and one of sources, and a first line without any delimiter.
   EXPECT_EQ(TableText("Made by a logger\nFormat,3\n\nt,lap,x,y\nunix time,,m,m\n,,100: gps,calc\n"
                       "7,1,0,0\n8,1,5,0\n"),

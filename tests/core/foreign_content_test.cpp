@@ -35,6 +35,8 @@ TEST(ForeignContent, NamesOtherKindsOfFilesAndARemedy) {
       {"SQLite format 3\0"s, ".db3"},
       {"\x89MCAP0\r\n", ".mcap"},
       {"#ROSBAG V2.0\n", "rosbags-convert"},
+      {"$GPRMC,102233.000,A,4815.7,N,01140.0,E", "gpsbabel -i nmea"},
+      {"$GNGGA,102233.000,4815.7,N,01140.0,E", "gpsbabel -i nmea"},
       {"%PDF-1.4", "PDF"},
       {"\x89PNG\r\n", "PNG"},
       {"\xFF\xD8\xFF\xE0", "JPEG"},

@@ -96,7 +96,13 @@ TEST(ListLog, ReadsUnitsAndPosesFromNames) {
                              Table{"Time [s],PosX [m],PosY [m],Ground Speed [km/h]", 1.0, 1.0, 3.6},
                              Table{"time_s,x_cm,y_cm,speed_ms", 1.0, 100.0, 1.0},
                              Table{"time,waypoint_x,waypoint_y,speed km/h", 1.0, 1.0, 3.6},
-                             Table{"Time(sec),xPos,yPos,Velocity (KPH)", 1.0, 1.0, 3.6}}) {
+                             Table{"Time(sec),xPos,yPos,Velocity (KPH)", 1.0, 1.0, 3.6},
+                             Table{"Time,Car.tx,Car.ty,Car.v", 1.0, 1.0, 1.0},
+                             Table{"Time [s],Xcg_TM [m],Ycg_TM [m],Vx [km/h]", 1.0, 1.0, 3.6},
+                             // Units of time that no name states.
+                             Table{"timestamp,x,y,speed_mps", 1e3, 1.0, 1.0},
+                             Table{"timestamp,x,y,speed_mps", 1e6, 1.0, 1.0},
+                             Table{"time,x_mm,y_mm,speed_mps", 1e9, 1000.0, 1.0}}) {
     SCOPED_TRACE(table.names);
     const TempFolder folder;
     std::string text = std::string(table.names) + "\n";
@@ -121,7 +127,30 @@ TEST(ListLog, ReadsUnitsAndPosesFromNames) {
   const LogListing two =
       ListLog(folder.Write("log.csv", "t,map_x,map_y,odom_x,odom_y\n0,1,2,3,4\n"));
   EXPECT_FALSE(two.map);
+  // A velocity beside vy may be one along the axes of the world.
+  const LogListing world = ListLog(folder.Write("log.csv", "t,x,y,vx,vy\n0,1,2,3,4\n1,4,6,3,4\n"));
+  ASSERT_TRUE(world.map);
+  EXPECT_FALSE(world.map->speed);
   EXPECT_THAT(two.problem, HasSubstr("several columns for x: map_x, odom_x"));
+}
+
+// A drive at 10 m/s to the north, with the times of the day and the dates of other programs.
+TEST(ListLog, ReadsTimesOfTheDay) {
+  for (const char* time : {"{:02}:59:{:02}.{}", "01-May-2024 {:02}:59:{:02}.{}"}) {
+    SCOPED_TRACE(time);
+    const TempFolder folder;
+    std::string text = "TIME,LATITUDE,LONGITUDE,SPEED_KPH\n";
+    for (int i = 0; i <= 50; ++i) {
+      text += fmt::format(fmt::runtime(time), 9, 50 + i / 10, i % 10) +
+              fmt::format(",{:.9f},11.5,36\n", 48.0 + 1e-5 * i);
+    }
+    const fs::path log = folder.Write("log.csv", text);
+    const LogListing listing = ListLog(log);
+    ASSERT_TRUE(listing.map) << listing.problem;
+    const RecordedDrive drive = ImportLog(log, *listing.map);
+    EXPECT_NEAR(drive.duration(), 5.0, Tolerance(1e-6));
+    EXPECT_NEAR(drive.samples.front().velocity_V.x(), 10.0, Tolerance(1e-6));
+  }
 }
 
 TEST(ListLog, SaysHowManyTimesAFileOfPositionsHas) {
