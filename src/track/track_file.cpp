@@ -128,6 +128,20 @@ double LargestShift(const TrackRows& rows) {
   return kMaxShift * narrowest;
 }
 
+/// Adds a note if the center line with this smoothing swings aside on steps between the points.
+void NoteSwings(TrackRows& rows, double smoothing) {
+  const double largest = LargestShift(rows);
+  const LineDeviations found = FindDeviations(rows.points, smoothing, largest);
+  if (!found.swinging.empty()) {
+    rows.notes.push_back(fmt::format(
+        "the center line, smoothed over {:.4g} m, swings aside of the straight lines between the "
+        "points by more than {:.3g} m on {} {}, the first of which begins in line {}; without "
+        "mission.track.smoothing, points are added there",
+        smoothing, largest, found.swinging.size(), found.swinging.size() == 1 ? "step" : "steps",
+        rows.lines[found.swinging.front()]));
+  }
+}
+
 /// Returns the track if no edge would have to be narrowed to less than half of its width, and if
 /// the smoothing does not move a point by more than LargestShift. Adds the middles of the steps on
 /// which the center line swings aside (FindDeviations), until none is left. Each round halves these
@@ -359,6 +373,9 @@ TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& r
   std::optional<SmoothedTrack> fitting = reading.smoothing ? std::nullopt : FitSmoothing(rows);
   if (!fitting) {
     CheckFolds(rows, reading.smoothing);
+    if (reading.smoothing) {
+      NoteSwings(rows, *reading.smoothing);
+    }
     fitting = SmoothedTrack{Track(rows.points, reading.smoothing), true};
   }
   std::optional<double> chosen;

@@ -302,6 +302,15 @@ TEST(ReadTrack, KeepsToALongStraightIfNoPointWouldMove) {
   const TrackFile read = ReadTrackFile(folder.Write("t.csv", TrackCsv(points)));
   EXPECT_LT(FarthestFromStadium(read.track, 90.0, 900.0), 0.8);
   EXPECT_THAT(read.notes, testing::Contains(HasSubstr("points are added on the straight lines")));
+  // A wavelength of the user adds no points: a note names the steps. The points with those
+  // that the reader adds need no note.
+  const TrackFile given =
+      ReadTrackFile(folder.Write("t.csv", TrackCsv(points)), {.smoothing = smooth.smoothing()});
+  EXPECT_GT(FarthestFromStadium(given.track, 90.0, 900.0), 0.8);
+  EXPECT_THAT(given.notes, testing::Contains(HasSubstr("swings aside of the straight lines")));
+  const TrackFile again = ReadTrackFile(folder.Write("a.csv", TrackCsv(read.track.points())),
+                                        {.smoothing = read.track.smoothing()});
+  EXPECT_THAT(again.notes, testing::Not(testing::Contains(HasSubstr("swings aside"))));
 }
 
 // Some files have points in bends only. Four times the mean distance of these points is longer than
