@@ -109,17 +109,15 @@ Lanelet2Map::Lanelet2Map(const fs::path& file, const XMLElement& root, const Pat
     }
   }
   PlaceNodes(relations, map);
-  LaneletEnds ends;
+  LaneletOrientation orientation;
   for (const XMLElement* relation : relations) {
     std::string why;
     if (const std::optional<LaneletBounds> bounds = BoundsOf(*relation, why)) {
-      for (const LaneletBounds& each : OrientationsOf(*bounds)) {
-        ends.Add(each);
-      }
+      orientation.Add(*bounds);
     }
   }
   for (const XMLElement* relation : relations) {
-    Add(*relation, ends);
+    Add(*relation, orientation);
   }
   Link();
 }
@@ -260,7 +258,7 @@ std::optional<LaneletBounds> Lanelet2Map::BoundsOf(const XMLElement& relation,
   return LaneletBounds{BoundOf(left_id, *left), BoundOf(right_id, *right)};
 }
 
-void Lanelet2Map::Add(const XMLElement& relation, const LaneletEnds& ends) {
+void Lanelet2Map::Add(const XMLElement& relation, const LaneletOrientation& orientation) {
   const std::string id = Attribute(relation, "id");
   const OsmTags tags = TagsOf(relation);
   if (!IsForCars(tags)) {
@@ -273,7 +271,7 @@ void Lanelet2Map::Add(const XMLElement& relation, const LaneletEnds& ends) {
     left_out_[id] = fmt::format("(line {}) {}", relation.GetLineNum(), why);
     return;
   }
-  LaneletBounds oriented = ends.Choose(OrientationsOf(*bounds));
+  LaneletBounds oriented = orientation.Orient(*bounds);
   DirectedLanelet own{
       .left = std::move(oriented.left), .right = std::move(oriented.right), .limit = kMaxPathSpeed};
   if (const std::string limit = ValueOf(tags, "speed_limit"); !limit.empty()) {

@@ -56,7 +56,7 @@ struct DirectedLanelet {
 /// unit. Returns nullopt unless the text is a speed above 0 and at most 100 m/s.
 std::optional<double> SpeedOfTag(const std::string& text);
 
-class LaneletEnds;
+class LaneletOrientation;
 
 /// A map, and the lanelets on which cars drive. The map keeps a reference to the file's name.
 class Lanelet2Map {
@@ -90,7 +90,7 @@ class Lanelet2Map {
   [[nodiscard]] LaneletBound BoundOf(const std::string& id, const OsmWay& way) const;
   [[nodiscard]] std::optional<LaneletBounds> BoundsOf(const tinyxml2::XMLElement& relation,
                                                       std::string& why) const;
-  void Add(const tinyxml2::XMLElement& relation, const LaneletEnds& ends);
+  void Add(const tinyxml2::XMLElement& relation, const LaneletOrientation& orientation);
   void Insert(const std::string& key, const DirectedLanelet& own, int line);
   void Link();
 

@@ -71,22 +71,33 @@ LaneletBounds BySides(LaneletBounds bounds) {
 
 }  // namespace
 
-std::array<LaneletBounds, 2> OrientationsOf(const LaneletBounds& bounds) {
-  return {ByEnds(bounds), BySides(bounds)};
+void LaneletOrientation::Add(const LaneletBounds& bounds) {
+  const LaneletBounds own = ByEnds(bounds);
+  const LaneletBounds other = BySides(bounds);
+  if (own.left.is_reversed == other.left.is_reversed &&
+      own.right.is_reversed == other.right.is_reversed) {
+    begins_.emplace(own.left.first, own.right.first);
+    ends_.emplace(own.left.last, own.right.last);
+  }
 }
 
-void LaneletEnds::Add(const LaneletBounds& bounds) {
-  begins_.emplace(bounds.left.first, bounds.right.first);
-  ends_.emplace(bounds.left.last, bounds.right.last);
-}
-
-std::size_t LaneletEnds::Joints(const LaneletBounds& bounds) const {
+std::size_t LaneletOrientation::Joints(const LaneletBounds& bounds) const {
   return ends_.count({bounds.left.first, bounds.right.first}) +
          begins_.count({bounds.left.last, bounds.right.last});
 }
 
-LaneletBounds LaneletEnds::Choose(std::array<LaneletBounds, 2> orientations) const {
-  return std::move(orientations[Joints(orientations[1]) > Joints(orientations[0]) ? 1 : 0]);
+LaneletBounds LaneletOrientation::Orient(const LaneletBounds& bounds) const {
+  LaneletBounds own = ByEnds(bounds);
+  if (Joints(own) > 0) {
+    return own;
+  }
+  for (LaneletBounds other : {BySides(bounds), LaneletBounds{own.left.Reversed(), own.right},
+                              LaneletBounds{own.left, own.right.Reversed()}}) {
+    if (Joints(other) == 2) {
+      return other;
+    }
+  }
+  return own;
 }
 
 }  // namespace trackbed
