@@ -233,12 +233,6 @@ PartMasses SplitMasses(const FoundModel& found, const FoundVehicle& vehicle, boo
   for (std::size_t w = 0; w < vehicle.wheels.size(); ++w) {
     SplitWheel(found, vehicle, w, is_car && (w < 2 || has_springs), parts, findings);
   }
-  if (is_car) {
-    // The rack becomes a scaled copy of the chassis, so that the inertias of rack and chassis stay
-    // physical.
-    parts.rack = Scaled(parts.chassis, kRackShare);
-    parts.chassis = Scaled(parts.chassis, 1.0 - kRackShare);
-  }
   if (parts.chassis.mass > 0.0 && !IsPhysical(parts.chassis.inertia)) {
     const Footprint box = FindFootprint(found, vehicle);
     const Vector size(box.front - box.rear, 2.0 * box.half_width, box.height);
@@ -247,6 +241,12 @@ PartMasses SplitMasses(const FoundModel& found, const FoundVehicle& vehicle, boo
         (parts.chassis.mass / 12.0 * (Vector::Constant(square.sum()) - square)).asDiagonal();
     findings.Guess("chassis inertia", "that of a box of the vehicle's size",
                    "assumed: no body can have the inertia that the model's bodies leave");
+  }
+  if (is_car) {
+    // The rack becomes a scaled copy of the chassis, so that the inertias of rack and chassis stay
+    // physical.
+    parts.rack = Scaled(parts.chassis, kRackShare);
+    parts.chassis = Scaled(parts.chassis, 1.0 - kRackShare);
   }
   return parts;
 }

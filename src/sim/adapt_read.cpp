@@ -1,6 +1,7 @@
 #include "src/sim/adapt_read.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mujoco/mujoco.h>
 #include <tinyxml2.h>
 
@@ -181,6 +182,30 @@ void ReplaceMeshes(XMLElement& link, MeshReader& reader, std::set<std::string>& 
   }
 }
 
+/// Gives a link without mass 1e-6 kg, and returns whether the link had no mass. In URDF, a link
+/// without <inertial> has no mass. MuJoCo would compute a mass from the link's shapes, with the
+/// density of water.
+bool GiveLeastMass(XMLElement& link) {
+  XMLElement* inertial = link.FirstChildElement("inertial");
+  const XMLElement* mass = inertial == nullptr ? nullptr : inertial->FirstChildElement("mass");
+  if (mass != nullptr && mass->DoubleAttribute("value", 1.0) != 0.0) {
+    return false;
+  }
+  if (inertial != nullptr) {
+    link.DeleteChild(inertial);
+  }
+  inertial = link.InsertNewChildElement("inertial");
+  inertial->InsertNewChildElement("mass")->SetAttribute("value", "1e-6");
+  XMLElement* inertia = inertial->InsertNewChildElement("inertia");
+  for (const char* name : {"ixx", "iyy", "izz"}) {
+    inertia->SetAttribute(name, "1e-10");
+  }
+  for (const char* name : {"ixy", "ixz", "iyz"}) {
+    inertia->SetAttribute(name, "0");
+  }
+  return true;
+}
+
 /// Rejects elements that would overflow a buffer of MuJoCo.
 void CheckUrdfElements(const XMLElement& element, const fs::path& file) {
   if (const std::string why = ElementError(element); !why.empty()) {
@@ -220,6 +245,7 @@ Scene ComposeUrdf(const fs::path& file, XMLDocument& document, const AdaptOption
   Scene scene;
   MeshReader reader(file, options, scene);
   std::set<std::string> dropped;
+  std::vector<std::string> massless;
   int links = 0;
   for (XMLElement *part = robot.FirstChildElement(), *next = nullptr; part != nullptr;
        part = next) {
@@ -227,6 +253,10 @@ Scene ComposeUrdf(const fs::path& file, XMLDocument& document, const AdaptOption
     const std::string_view kind = part->Name();
     if (kind == "link") {
       ReplaceMeshes(*part, reader, dropped);
+      if (GiveLeastMass(*part)) {
+        const char* name = part->Attribute("name");
+        massless.push_back(fmt::format("'{}'", name == nullptr ? "" : name));
+      }
       if (++links > kMaxUrdfLinks) {
         FailRead(file, part->GetLineNum(),
                  fmt::format("more than {} links; allowed are {}", kMaxUrdfLinks, kMaxUrdfLinks));
@@ -241,6 +271,15 @@ Scene ComposeUrdf(const fs::path& file, XMLDocument& document, const AdaptOption
   scene.xml = Print(document);
   for (const std::string& mesh : dropped) {
     notes.push_back(fmt::format("mesh dropped: {}", mesh));
+  }
+  if (!massless.empty()) {
+    constexpr std::size_t kNamed = 6;
+    const std::size_t more = massless.size() - std::min(massless.size(), kNamed);
+    massless.resize(massless.size() - more);
+    notes.push_back(fmt::format(
+        "links without <inertial> or with a mass of 0 get 1e-6 kg each: {}{}; add the masses of "
+        "the real parts to the file",
+        fmt::join(massless, ", "), more == 0 ? "" : fmt::format(" and {} more", more)));
   }
   return scene;
 }

@@ -376,9 +376,34 @@ TEST(Adapt, ReadsUrdf) {
   const CarModel adapted(Scene{.xml = model.xml, .assets = {}, .lines = {}}, "car");
   EXPECT_NEAR(adapted.params().wheelbase, car.wheelbase, Tolerance(1e-9));
   EXPECT_NEAR(adapted.params().track_rear, car.track_rear, Tolerance(1e-9));
-  // MuJoCo gives each of the two hubs a bounded mass of 1e-6 kg.
-  EXPECT_NEAR(adapted.params().mass, 3.8, Tolerance(1e-5));
-  EXPECT_THAT(NotesOf(model), HasSubstr("boundmass"));
+  // Each of the two hubs gets 1e-6 kg.
+  EXPECT_NEAR(adapted.params().mass, 3.8 + 2e-6, Tolerance(1e-9));
+  EXPECT_THAT(NotesOf(model), HasSubstr("get 1e-6 kg each: 'hub0', 'hub1'; add the masses"));
+}
+
+// In URDF, a link without <inertial> has no mass, even if the link has shapes.
+TEST(Adapt, GivesNoMassToShapesOfUrdf) {
+  const Foreign car;
+  std::string urdf = ForeignUrdf(car, "<cylinder radius='0.05' length='0.03'/>");
+  urdf.insert(urdf.find("</gazebo>") + 9,
+              "<link name='sensor'><collision><geometry><box size='0.1 0.1 0.1'/></geometry>"
+              "</collision></link><joint name='fix' type='fixed'><parent link='base'/>"
+              "<child link='sensor'/><origin xyz='0.1 0 0.3'/></joint>");
+  const AdaptedModel model = AdaptText(urdf, {}, "car.urdf");
+  const CarModel adapted(Scene{.xml = model.xml, .assets = {}, .lines = {}}, "car");
+  EXPECT_NEAR(adapted.params().mass, 3.8 + 3e-6, Tolerance(1e-9));
+  EXPECT_THAT(NotesOf(model), HasSubstr("'sensor'"));
+}
+
+// The wheels of such a car have more inertia than the whole car leaves for its chassis.
+TEST(Adapt, ReadsUrdfWithoutAMassOfTheChassis) {
+  std::string urdf = ForeignUrdf(Foreign{}, "<cylinder radius='0.05' length='0.03'/>");
+  const std::size_t begin = urdf.find("<inertial>");
+  urdf.erase(begin, urdf.find("</inertial>") + 11 - begin);
+  const AdaptedModel model = AdaptText(urdf, {}, "car.urdf");
+  const CarModel adapted(Scene{.xml = model.xml, .assets = {}, .lines = {}}, "car");
+  EXPECT_NEAR(adapted.params().mass, 4.0 * Foreign{}.wheel_mass + 3e-6, Tolerance(1e-9));
+  EXPECT_THAT(NotesOf(model), HasSubstr("'base'"));
 }
 
 // Files for display have visual geometry only, and hubs without mass.
@@ -395,8 +420,8 @@ TEST(Adapt, FindsWheelsOfVisualGeometry) {
   const CarModel adapted(Scene{.xml = model.xml, .assets = {}, .lines = {}}, "car");
   EXPECT_NEAR(adapted.params().wheelbase, car.wheelbase, Tolerance(1e-9));
   EXPECT_NEAR(adapted.params().wheel_radius, car.radius, Tolerance(1e-9));
-  // MuJoCo gives each of the two hubs a bounded mass of 1e-6 kg.
-  EXPECT_NEAR(adapted.params().mass, 3.8, Tolerance(1e-5));
+  // Each of the two hubs gets 1e-6 kg.
+  EXPECT_NEAR(adapted.params().mass, 3.8 + 2e-6, Tolerance(1e-9));
 }
 
 TEST(Adapt, NamesMeshesOfUrdfThatItCannotRead) {
