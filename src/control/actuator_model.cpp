@@ -238,6 +238,7 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
     if (!model_) {
       model_.emplace(input.vehicle, input.period, input.state.steering_actuator);
     }
+    UpdateError(input);
     const VehicleState state = Predict(input);
     vehicle_.steering_response = {};
     vehicle_.steering_response.time_constant =
@@ -269,6 +270,7 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
     }
     auto copy = std::make_unique<ActuatorCompensation>(std::move(inner), knowledge_);
     copy->model_ = model_;
+    copy->error_ = error_;
     copy->slips_ = slips_;
     return copy;
   }
@@ -318,18 +320,27 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
         .s;
   }
 
+  /// Passes the error of the modeled actuator angle through a low-pass filter with the dead time as
+  /// its time constant. Without the filter, an error of the modeled delay by a single control
+  /// period makes the command saw.
+  void UpdateError(const ControlInput& input) {
+    const double error = input.state.steering_actuator - model_->angle();
+    const double dead_time = input.vehicle.steering_response.dead_time;
+    const double share = dead_time > 0.0 ? -std::expm1(-input.period / dead_time) : 1.0;
+    error_ += share * (error - error_);
+  }
+
   /// Returns the car's state at the end of the dead time.
   [[nodiscard]] VehicleState Predict(const ControlInput& input) const {
-    const double error = input.state.steering_actuator - model_->angle();
     PredictedCar car(vehicle_, input.state);
     SteeringFilter filter = model_->filter();
     const double step = input.period / kSubsteps;
     for (double left = input.vehicle.steering_response.dead_time; left > kSameTime; left -= step) {
-      car.Step(filter.Pass(model_->target()) + error, std::min(left, step));
+      car.Step(filter.Pass(model_->target()) + error_, std::min(left, step));
     }
     VehicleState ahead = car.FullState();
     ahead.time = input.state.time;
-    ahead.steering_actuator = model_->wanted() + error;
+    ahead.steering_actuator = model_->wanted() + error_;
     ahead.wheels = input.state.wheels;
     ahead.roll = input.state.roll;
     ahead.pitch = input.state.pitch;
@@ -339,6 +350,7 @@ class ActuatorCompensation final : public SteeringController, public SeesSurroun
   std::unique_ptr<SteeringController> inner_;
   ActuatorKnowledge knowledge_;
   std::optional<ActuatorModel> model_;
+  double error_ = 0.0;     // Filtered measured minus modeled angle of the actuator [rad].
   VehicleParams vehicle_;  // The car that the wrapped controller receives; reuses its heap memory.
   bool slips_ = false;     // Whether the rear axle has ever moved sideways.
   double road_ = 1.0;  // Factor by which the road scales the tyres' friction in the coming period.

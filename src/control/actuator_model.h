@@ -25,6 +25,7 @@ namespace trackbed {
 ///   3. The predicted car drives for T_d at constant speed. The predicted wheel angle is the output
 ///      of the SteeringFilter plus the measured minus the modeled actuator angle at the time t. The
 ///      measured angle corrects errors of the actuator model, for example of the steering ratio.
+///      A low-pass filter with the time constant T_d smooths this difference.
 /// The predicted state has the wheel angle at t + T_d, and the last wanted angle as the angle of
 /// the actuator. The predicted station is the station of the path point nearest to the predicted
 /// pose. The prediction does not change the times `state.time` and `period`.

@@ -99,6 +99,22 @@ TEST(SteeringDelay, ShiftsTheWheelsByItWhateverTheControlPeriod) {
   }
 }
 
+TEST(SteeringDelay, ByAnUnknownPeriodDoesNotMakeTheCommandSaw) {
+  // The controllers model the dead time of dart, but not the added delay of one control period.
+  // After a kick, the command stays within 6 times the backlash of 0.0228 rad, because the lead
+  // across the backlash amplifies a step by up to 6. The curve adds an offset of 0.0034 rad.
+  for (const char* control : {"preview", "preview_integral", "pure_pursuit"}) {
+    const RunLog log = Drive(fmt::format(
+        "vehicle: {{model: dart}}\nmission: {{speed: 2.1, waypoints: [[0, 0], [25, 0]]}}\n"
+        "plan: {{method: fillet}}\ncontrol: {{method: {}}}\ndrive: {{plants: [kinematic]}}\n"
+        "disturb: {{steering: {{delay: 0.02}}, kicks: [{{at: 3, displacement: 0.05}}]}}\n",
+        control));
+    for (double t = 8.0; t < 10.0; t += 0.02) {
+      EXPECT_LE(std::abs(At(log, t).command.steering), 6 * 0.0228 + 0.0034) << control << " " << t;
+    }
+  }
+}
+
 TEST(SteeringFactor, ScalesTheCircle) {
   for (const double factor : {0.8, 1.25}) {
     const RunLog log = Open("{method: constant_steering, steering: 0.1}",
