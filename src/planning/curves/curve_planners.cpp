@@ -221,11 +221,12 @@ Plan PlanContinuous(const Options& options, const PlanRequest& request, CurveMot
 
 /// Makes a route of continuous curvature faster, after its legs have been chosen.
 template <typename Options>
-Plan Faster(const Options& options, const PlanRequest& request, CurveMotion motion, Plan plan) {
+Plan Faster(const Options& options, const PlanRequest& request, CurveMotion motion, Plan plan,
+            FasterLegs& legs) {
   if (options.curvature == CurveCurvature::kSteps) {
     return plan;
   }
-  return FasterRoute(RouteFor(options, request, motion), request, std::move(plan));
+  return FasterRoute(RouteFor(options, request, motion), request, std::move(plan), legs);
 }
 
 /// Plans a path of curves among `words`, or of continuous curvature, as the options demand. At
@@ -261,6 +262,7 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
     return Dubins(from, to, radius).length;
   };
   LegCosts known;  // The plans with other headings or waypoints share most legs.
+  FasterLegs legs;
   const auto plan = [&](TurnedEnds may_turn) {
     return WithoutDetours(request, length,
                           {.plan =
@@ -271,7 +273,7 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
                            .faster =
                                [&](const PlanRequest& own, Plan found) {
                                  return Faster(options, own, CurveMotion::kForwards,
-                                               std::move(found));
+                                               std::move(found), legs);
                                }});
   };
   if (options.objective != CurveObjective::kTime || options.curvature == CurveCurvature::kSteps) {
@@ -305,7 +307,8 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
       [&](const PlanRequest& own) {
         return Faster(options, own, CurveMotion::kForwards,
                       PlanContinuous(options, own, CurveMotion::kForwards,
-                                     {.start = true, .goal = true}, known));
+                                     {.start = true, .goal = true}, known),
+                      legs);
       });
 }
 
@@ -325,6 +328,7 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
                                  ? CurveMotion::kContinuous
                                  : CurveMotion::kHybrid;
   LegCosts known;  // The plans with other headings or waypoints share most legs.
+  FasterLegs legs;
   Plan plan = WithoutDetours(
       request, ReedsSheppLength,
       {.plan =
@@ -332,7 +336,7 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
              return PlanWithCurvature(options, own, motion, words, known);
            },
        .faster = [&](const PlanRequest& own,
-                     Plan found) { return Faster(options, own, motion, std::move(found)); }});
+                     Plan found) { return Faster(options, own, motion, std::move(found), legs); }});
   if (options.objective != CurveObjective::kTime || options.curvature != CurveCurvature::kAuto) {
     return plan;
   }
@@ -344,7 +348,7 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
                               }});
       },
       [&](const PlanRequest& own) {
-        return Faster(options, own, motion, PlanContinuous(options, own, motion, {}, known));
+        return Faster(options, own, motion, PlanContinuous(options, own, motion, {}, known), legs);
       });
 }
 

@@ -121,9 +121,11 @@ class SectionEnds {
 
 class RouteRefiner {
  public:
-  RouteRefiner(const ContinuousRoute& route, const PlanRequest& request, Plan plan)
+  RouteRefiner(const ContinuousRoute& route, const PlanRequest& request, Plan plan,
+               FasterLegs& legs)
       : route_(route),
         request_(request),
+        legs_(legs),
         clear_(request.vehicle, request.obstacles, route.safe_distance),
         best_(std::move(plan)),
         limits_(LimitsOfMotion(route, request)) {}
@@ -244,7 +246,7 @@ class RouteRefiner {
   /// Returns a faster course of a section that is free of obstacles.
   [[nodiscard]] std::optional<std::vector<Segment>> Faster(std::size_t section,
                                                            const SectionEnds& ends,
-                                                           const ProfileTimes& times) const {
+                                                           const ProfileTimes& times) {
     const Section& own = sections_[section];
     const SpeedProfile& profile = best_.reference.speed;
     const double from = ends.Start(section);
@@ -305,7 +307,7 @@ class RouteRefiner {
     if (!is_slow || !has_gentle_ends) {
       return std::nullopt;
     }
-    std::optional<std::vector<Segment>> found = FindFasterLeg(leg);
+    std::optional<std::vector<Segment>> found = legs_.Find(leg);
     if (found && !route::IsFree(clear_, best_.reference.path.At(from).pose, *found)) {
       found.reset();
     }
@@ -351,6 +353,7 @@ class RouteRefiner {
 
   const ContinuousRoute& route_;
   const PlanRequest& request_;
+  FasterLegs& legs_;
   CollisionChecker clear_;
   Plan best_;
   LegLimits limits_;
@@ -370,12 +373,13 @@ bool IsContinuous(const Path& path) {
 
 }  // namespace
 
-Plan FasterRoute(const ContinuousRoute& route, const PlanRequest& request, Plan plan) {
+Plan FasterRoute(const ContinuousRoute& route, const PlanRequest& request, Plan plan,
+                 FasterLegs& legs) {
   const bool can_be_faster = plan.ok() && route.objective == CurveObjective::kTime &&
                              !request.limits && plan.stops.empty() &&
                              IsContinuous(plan.reference.path) &&
                              !plan.reference.path.segments().empty();
-  return can_be_faster ? RouteRefiner(route, request, std::move(plan)).Make() : plan;
+  return can_be_faster ? RouteRefiner(route, request, std::move(plan), legs).Make() : plan;
 }
 
 }  // namespace trackbed

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/planning/curves/continuous_route.h"
+#include "src/planning/curves/fastest_leg.h"
 
 namespace trackbed {
 
@@ -12,6 +13,8 @@ namespace trackbed {
 /// plan leaves out within a quarter of the car's width (WithoutDetours). A plan stays unchanged if
 /// its curvature steps between cusps, if its objective is not CurveObjective::kTime, or if its
 /// speeds are at the car's limit. The diagnostics of the plan are CurveDiagnostics.
-Plan FasterRoute(const ContinuousRoute& route, const PlanRequest& request, Plan plan);
+/// `legs` keeps the solutions for further routes.
+Plan FasterRoute(const ContinuousRoute& route, const PlanRequest& request, Plan plan,
+                 FasterLegs& legs);
 
 }  // namespace trackbed

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "src/planning/curves/linear_parts.h"
 #include "trackbed/core/angle.h"
@@ -97,6 +98,31 @@ class LegProgram {
     return program;
   }
 
+  /// Returns all values that define the program `program`, except constants.
+  [[nodiscard]] std::vector<double> Key(const SmoothProgram& program) const {
+    const LegLimits& limits = leg_.limits;
+    const Eigen::Vector3d goal = goal_.unaryExpr(&RoundedInput);
+    std::vector<double> key{static_cast<double>(n_),
+                            leg_.curvature,
+                            speed_,
+                            limits.speed.acceleration,
+                            limits.speed.deceleration,
+                            limits.steering_rate,
+                            limits.lateral,
+                            limits.wheelbase,
+                            first_,
+                            last_,
+                            SpeedAtEnd(0),
+                            SpeedAtEnd(n_),
+                            goal.x(),
+                            goal.y(),
+                            goal.z()};
+    for (const Eigen::VectorXd* values : {&program.start, &program.lower, &program.upper}) {
+      key.insert(key.end(), values->begin(), values->end());
+    }
+    return key;
+  }
+
   /// Returns the path of the variables x, changed by Newton steps of least norm until it ends at
   /// the goal, except for rounding errors. Returns nullopt if the Newton steps do not converge.
   [[nodiscard]] std::optional<std::vector<Segment>> PathOf(const Eigen::VectorXd& x) const {
@@ -171,9 +197,11 @@ class LegProgram {
     return IsSteered(knot) ? x[SteeringIndex(knot)] : knot <= held_at_start_ ? first_ : last_;
   }
   [[nodiscard]] double Speed(const Eigen::VectorXd& x, Eigen::Index knot) const {
-    return IsInner(knot)
-               ? x[SpeedIndex(knot)]
-               : RoundedInput((knot == 0 ? leg_.speeds.front() : leg_.speeds.back()) / speed_);
+    return IsInner(knot) ? x[SpeedIndex(knot)] : SpeedAtEnd(knot);
+  }
+  /// Returns the rounded speed at knot 0 or n.
+  [[nodiscard]] double SpeedAtEnd(Eigen::Index knot) const {
+    return RoundedInput((knot == 0 ? leg_.speeds.front() : leg_.speeds.back()) / speed_);
   }
 
   [[nodiscard]] Eigen::VectorXd Start() const {
@@ -374,7 +402,7 @@ void MirrorSegments(std::vector<Segment>& segments) {
 
 }  // namespace
 
-std::optional<std::vector<Segment>> FindFasterLeg(const FastestLeg& leg) {
+std::optional<std::vector<Segment>> FasterLegs::Find(const FastestLeg& leg) {
   constexpr int kEvaluations = 200;
   FastestLeg own = WithPartsAtRest(leg);
   if (leg.lengths.size() < 2) {
@@ -385,10 +413,17 @@ std::optional<std::vector<Segment>> FindFasterLeg(const FastestLeg& leg) {
     MirrorSegments(own.start);
   }
   const LegProgram program(own);
-  const SmoothSolution solution = Minimize(program.Program(), kEvaluations, kTolerance);
+  const SmoothProgram smooth = program.Program();
+  const auto [known, is_new] = solutions_.try_emplace(program.Key(smooth));
+  if (is_new) {
+    SmoothSolution solution = Minimize(smooth, kEvaluations, kTolerance);
+    if (solution.ok) {
+      known->second = std::move(solution.x);
+    }
+  }
   std::optional<std::vector<Segment>> found;
-  if (solution.ok) {
-    found = program.PathOf(solution.x);
+  if (known->second.size() > 0) {
+    found = program.PathOf(known->second);
   }
   if (found && is_mirrored) {
     MirrorSegments(*found);

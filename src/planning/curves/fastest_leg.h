@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -23,10 +25,24 @@ struct FastestLeg {
   LegLimits limits;
 };
 
-/// Returns a leg at a local minimum of the driving time near `leg.start`; nullopt if the search
-/// finds none. At both ends, the returned leg has the same pose and curvature as `leg.start`, to
-/// 1e-10 m and rad. Near an end at which the car is at rest, the curvature stays constant below
-/// `leg.held_speed`. The search takes 1 to 140 ms for 7 to 16 parts.
-std::optional<std::vector<Segment>> FindFasterLeg(const FastestLeg& leg);
+/// Finds legs that are driven in less time, and keeps the solutions of their programs. A planner
+/// that plans a route several times solves the program of each leg only once. The memory grows by
+/// 1 kB for each program.
+class FasterLegs {
+ public:
+  /// Returns a leg at a local minimum of the driving time near `leg.start`; nullopt if the search
+  /// finds none. At both ends, the returned leg has the same pose and curvature as `leg.start`, to
+  /// 1e-10 m and rad. Near an end at which the car is at rest, the curvature stays constant below
+  /// `leg.held_speed`. The result does not depend on earlier calls. The search takes 1 to 140 ms
+  /// for 7 to 16 parts, and 0.1 ms if the solution of the leg's program is known.
+  std::optional<std::vector<Segment>> Find(const FastestLeg& leg);
+
+  /// Returns the number of solved programs.
+  [[nodiscard]] std::size_t size() const { return solutions_.size(); }
+
+ private:
+  /// Solutions by the values that define a program; empty if the program has no solution.
+  std::map<std::vector<double>, Eigen::VectorXd> solutions_;
+};
 
 }  // namespace trackbed

@@ -53,7 +53,7 @@ TEST(FastestLeg, MeetsTheGoalWithinTheLimitsInLessTime) {
   for (int i = 0; i < kLegs; ++i) {
     const Pose2 goal = RandomPose(random, 25.0);
     const std::vector<Segment> word = WordTo(goal);
-    const auto found = FindFasterLeg(LegFrom(word, 0.0, 0.0, 2));
+    const auto found = FasterLegs().Find(LegFrom(word, 0.0, 0.0, 2));
     ASSERT_TRUE(found);
     const Path path({}, *found);
     EXPECT_LE(Apart(path.At(path.length()).pose, goal), Tolerance(1e-10));
@@ -91,7 +91,7 @@ TEST(FastestLeg, IsNotFasterThanTheWheelsTurn) {
     const std::vector<Segment> turn{
         {.length = ramp, .sharpness = sharpness},
         {.length = ramp, .curvature = sharpness * ramp, .sharpness = -sharpness}};
-    const auto found = FindFasterLeg(LegFrom(turn, v, v, 3));
+    const auto found = FasterLegs().Find(LegFrom(turn, v, v, 3));
     ASSERT_TRUE(found);
     const double time = TimeOf(*found, v, v);
     EXPECT_GE(time, LeastTimeToTurn(angle) * (1.0 - Tolerance(1e-9)));
@@ -107,8 +107,8 @@ TEST(FastestLeg, MirrorsALegInReverse) {
   for (Segment& segment : back) {
     segment.direction = -1;
   }
-  const auto ahead = FindFasterLeg(LegFrom(word, 0.0, 0.0, 2));
-  const auto behind = FindFasterLeg(LegFrom(back, 0.0, 0.0, 2));
+  const auto ahead = FasterLegs().Find(LegFrom(word, 0.0, 0.0, 2));
+  const auto behind = FasterLegs().Find(LegFrom(back, 0.0, 0.0, 2));
   ASSERT_TRUE(ahead && behind);
   ASSERT_EQ(ahead->size(), behind->size());
   for (std::size_t i = 0; i < ahead->size(); ++i) {
@@ -121,7 +121,7 @@ TEST(FastestLeg, MirrorsALegInReverse) {
 TEST(FastestLeg, LeavesAStraight) {
   const std::vector<Segment> straight{{.length = 20.0}};
   for (const double speed : {0.0, kPriusLimits.speed.speed}) {
-    const auto found = FindFasterLeg(LegFrom(straight, speed, speed, 3));
+    const auto found = FasterLegs().Find(LegFrom(straight, speed, speed, 3));
     ASSERT_TRUE(found);
     // The goal is met to 1e-10 m, at speeds of up to 3 m/s.
     EXPECT_NEAR(TimeOf(*found, speed, speed), TimeOf(straight, speed, speed), Tolerance(1e-10));
@@ -129,7 +129,7 @@ TEST(FastestLeg, LeavesAStraight) {
       EXPECT_NEAR(segment.curvature, 0.0, Tolerance(1e-12));
     }
     // A single piece cannot meet a goal of three coordinates.
-    EXPECT_FALSE(FindFasterLeg(LegFrom(straight, speed, speed, 1)));
+    EXPECT_FALSE(FasterLegs().Find(LegFrom(straight, speed, speed, 1)));
   }
 }
 
