@@ -2,77 +2,91 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
 
 namespace trackbed {
 namespace {
 
-/// Projects points onto a whole path. The segments are divided into blocks. No point of a block is
-/// farther from the block's middle than half of the block's length, so most blocks are skipped. The
-/// cost of a projection is about the square root of the number of segments.
-class BlockProjection {
+/// Projects points onto a whole path. The nodes of a binary tree halve the segments of the path. No
+/// point of a node is farther from the node's middle than half of the node's length, so most nodes
+/// are skipped. For a point near the path, the cost is about the logarithm of the number of
+/// segments.
+class TreeProjection {
  public:
-  explicit BlockProjection(const Path& path) : path_(path) {
-    const std::vector<Segment>& segments = path.segments();
-    const auto per_block =
-        static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(segments.size()))));
+  explicit TreeProjection(const Path& path) : path_(path) {
     double station = 0.0;
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-      if (i % per_block == 0) {
-        blocks_.push_back({.within = {station, station}});
-      }
-      station += segments[i].length;
-      blocks_.back().within.to = station;
+    for (const Segment& segment : path.segments()) {
+      station += segment.length;
+      stations_.push_back(station);
     }
-    if (blocks_.empty()) {
-      blocks_.push_back({.within = {0.0, 0.0}});
-    }
-    for (Block& block : blocks_) {
-      const auto [from, to] = block.within;
-      block.middle = path.At(0.5 * (from + to)).pose.position();
-    }
+    Add(0, path.segments().size());
   }
 
   /// Returns the station of the path's point that is nearest to `at`; the smallest of these
   /// stations if several points are equally near.
   [[nodiscard]] WaypointMiss Nearest(const Vec2& at) const {
-    const auto closest =
-        std::min_element(blocks_.begin(), blocks_.end(), [&](const Block& a, const Block& b) {
-          return LeastDistance(a, at) < LeastDistance(b, at);
-        });
-    WaypointMiss nearest = In(*closest, at);
-    for (const Block& block : blocks_) {
-      if (&block == &*closest || LeastDistance(block, at) > nearest.distance) {
-        continue;
-      }
-      const WaypointMiss own = In(block, at);
-      if (own.distance < nearest.distance ||
-          (own.distance == nearest.distance && own.station < nearest.station)) {
-        nearest = own;
-      }
-    }
+    WaypointMiss nearest{.at = at, .distance = std::numeric_limits<double>::infinity()};
+    Search(0, at, nearest);
     return nearest;
   }
 
  private:
-  struct Block {
+  struct Node {
     Stations within;
     Vec2 middle = Vec2::Zero();
+    std::size_t second = 0;  // Index of the second child; the first child follows its parent.
   };
 
-  /// Returns a lower bound of the distance between a block and a point [m].
-  static double LeastDistance(const Block& block, const Vec2& at) {
-    return (block.middle - at).norm() - 0.5 * (block.within.to - block.within.from);
+  /// Adds a node with the segments from `first` up to `last`, and all nodes below this node.
+  void Add(std::size_t first, std::size_t last) {
+    constexpr std::size_t kSegmentsOfLeaf = 4;
+    const Stations within{stations_[first], stations_[last]};
+    const std::size_t node = nodes_.size();
+    nodes_.push_back({within, path_.At(0.5 * (within.from + within.to)).pose.position()});
+    if (last - first > kSegmentsOfLeaf) {
+      const std::size_t half = first + (last - first) / 2;
+      Add(first, half);
+      nodes_[node].second = nodes_.size();
+      Add(half, last);
+    }
   }
 
-  [[nodiscard]] WaypointMiss In(const Block& block, const Vec2& at) const {
-    const double s = path_.Project({at.x(), at.y(), 0.0}, block.within).s;
-    return {0, at, (path_.At(s).pose.position() - at).norm(), s};
+  /// Replaces `nearest` by a nearer point of a node.
+  void Search(std::size_t node, const Vec2& at, WaypointMiss& nearest) const {
+    const Node& own = nodes_[node];
+    if (LeastDistance(own, at) > nearest.distance) {
+      return;
+    }
+    if (own.second > 0) {
+      std::array<std::size_t, 2> children{node + 1, own.second};
+      if (LeastDistance(nodes_[children[1]], at) < LeastDistance(nodes_[children[0]], at)) {
+        std::swap(children[0], children[1]);
+      }
+      for (const std::size_t child : children) {
+        Search(child, at, nearest);
+      }
+      return;
+    }
+    const double s = path_.Project({at.x(), at.y(), 0.0}, own.within).s;
+    const double distance = (path_.At(s).pose.position() - at).norm();
+    if (distance < nearest.distance || (distance == nearest.distance && s < nearest.station)) {
+      nearest.distance = distance;
+      nearest.station = s;
+    }
+  }
+
+  /// Returns a lower bound of the distance between a node and a point [m].
+  static double LeastDistance(const Node& node, const Vec2& at) {
+    return (node.middle - at).norm() - 0.5 * (node.within.to - node.within.from);
   }
 
   const Path& path_;
-  std::vector<Block> blocks_;
+  std::vector<double> stations_{0.0};  // Stations of the ends of the segments [m].
+  std::vector<Node> nodes_;
 };
 
 }  // namespace
@@ -80,7 +94,7 @@ class BlockProjection {
 std::optional<WaypointMiss> LargestWaypointMiss(const Path& path,
                                                 const std::vector<Vec2>& waypoints) {
   std::optional<WaypointMiss> largest;
-  const BlockProjection projection(path);
+  const TreeProjection projection(path);
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
     WaypointMiss miss = projection.Nearest(waypoints[i]);
     if (!largest || miss.distance > largest->distance + kSameMiss) {

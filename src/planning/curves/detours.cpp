@@ -107,17 +107,17 @@ class DetourPlanner {
         radius_(request.vehicle.min_turning_radius()) {}
 
   [[nodiscard]] Plan Make() {
-    Plan best = planning_.plan(request_);
-    if (request_.waypoints.size() < 2 || best.status == PlanStatus::kDuplicateWaypoints ||
-        !HasDetour(best)) {
-      return Faster(request_, std::move(best));
+    TriedPlan tried = Try(request_);
+    if (request_.waypoints.size() < 2 || tried.plan.status == PlanStatus::kDuplicateWaypoints ||
+        !HasDetour(tried)) {
+      return Faster(request_, std::move(tried.plan));
     }
     std::optional<LeftOut> left_out;
     if (request_.headings.empty() && request_.waypoints.size() > 2) {
-      TryOtherHeadings(best, request_, best);
-      left_out = TryFewerWaypoints(best);
+      TryOtherHeadings(tried, request_, tried);
+      left_out = TryFewerWaypoints(tried);
     }
-    best = Faster(request_, std::move(best));
+    Plan best = Faster(request_, std::move(tried.plan));
     if (left_out) {
       const auto miss = LargestWaypointMiss(best.reference.path, request_.waypoints);
       best.notes.push_back(
@@ -130,6 +130,12 @@ class DetourPlanner {
   }
 
  private:
+  /// A plan, and whether the car can drive it.
+  struct TriedPlan {
+    Plan plan;
+    bool is_drivable = false;
+  };
+
   /// The waypoints that a plan leaves out.
   struct LeftOut {
     std::size_t count = 0;
@@ -144,8 +150,14 @@ class DetourPlanner {
     return Faster(request, planning_.plan(request));
   }
 
-  [[nodiscard]] bool HasDetour(const Plan& plan) const {
-    return IsDetour(plan, request_) || Stops(plan) > 0 || !IsDrivable(plan);
+  [[nodiscard]] TriedPlan Try(const PlanRequest& request) const {
+    TriedPlan tried{.plan = planning_.plan(request)};
+    tried.is_drivable = IsDrivable(tried.plan);
+    return tried;
+  }
+
+  [[nodiscard]] bool HasDetour(const TriedPlan& tried) const {
+    return IsDetour(tried.plan, request_) || Stops(tried.plan) > 0 || !tried.is_drivable;
   }
 
   /// Returns whether the car can drive a plan from its start speed. After the start, the plan may
@@ -156,13 +168,15 @@ class DetourPlanner {
     return plan.ok() && MakeFeasible(plan, request).ok();
   }
 
-  /// Returns whether `plan` is a better plan than `best`. If only one of the two plans is drivable,
-  /// the drivable plan is better. If both are drivable, `plan` is better if it takes no longer to
+  /// Returns whether `own` is a better plan than `other`. If only one of the two plans is drivable,
+  /// the drivable plan is better. If both are drivable, `own` is better if it takes no longer to
   /// drive, and is shorter by the smallest turning radius or has fewer stops.
-  [[nodiscard]] bool IsBetter(const Plan& plan, const Plan& best) const {
-    if (const bool drivable = IsDrivable(plan); drivable != IsDrivable(best)) {
-      return drivable;
+  [[nodiscard]] bool IsBetter(const TriedPlan& own, const TriedPlan& other) const {
+    if (own.is_drivable != other.is_drivable) {
+      return own.is_drivable;
     }
+    const Plan& plan = own.plan;
+    const Plan& best = other.plan;
     return IsShorterAndNotSlower(plan, best, request_.vehicle) ||
            (plan.ok() && best.ok() && Stops(plan) < Stops(best) &&
             DrivingTime(plan, request_.vehicle) <= DrivingTime(best, request_.vehicle));
@@ -171,16 +185,16 @@ class DetourPlanner {
   /// Returns whether a plan through the given stops may be better than `best`. No path is shorter
   /// than the shortest curves of the smallest radius, so a plan is made only if the shortest curves
   /// are short enough.
-  [[nodiscard]] bool MayBeBetter(const std::vector<Pose2>& stops, const Plan& best) const {
-    return !IsDrivable(best) || Stops(best) > 0 ||
-           RouteLength(stops, radius_, length_) + radius_ <= PlanLength(best);
+  [[nodiscard]] bool MayBeBetter(const std::vector<Pose2>& stops, const TriedPlan& best) const {
+    return !best.is_drivable || Stops(best.plan) > 0 ||
+           RouteLength(stops, radius_, length_) + radius_ <= PlanLength(best.plan);
   }
 
   /// Replaces the plan `own` by a shorter plan with other headings, if the shorter plan may also be
   /// better than the plan `best`. The tried headings are those of the shortest route whose arcs
   /// have a given radius. Steering ramps need more room than arcs, so larger radii are tried as
   /// long as the plan has a detour.
-  void TryOtherHeadings(Plan& own, const PlanRequest& request, const Plan& best) const {
+  void TryOtherHeadings(TriedPlan& own, const PlanRequest& request, const TriedPlan& best) const {
     const std::vector<Pose2> stops = PlannedStops(request);
     std::vector<double> tried;
     for (const double share : {1.0, 1.5, 2.25}) {
@@ -196,7 +210,7 @@ class DetourPlanner {
         continue;
       }
       tried = turned.headings;
-      Plan other = planning_.plan(turned);
+      TriedPlan other = Try(turned);
       if (IsBetter(other, own)) {
         own = std::move(other);
       }
@@ -208,9 +222,9 @@ class DetourPlanner {
 
   /// Replaces the plan `best` by a better plan that leaves out waypoints. Returns the waypoints
   /// left out; nullopt if no such plan is better.
-  [[nodiscard]] std::optional<LeftOut> TryFewerWaypoints(Plan& best) const {
+  [[nodiscard]] std::optional<LeftOut> TryFewerWaypoints(TriedPlan& best) const {
     std::vector<Vec2> tried = request_.waypoints;
-    std::optional<Plan> fewest;
+    std::optional<TriedPlan> fewest;
     std::optional<LeftOut> left_out;
     const double fastest = std::max(request_.speed.speed, request_.start_speed);
     for (const double share : {0.25, 0.5, 1.0, 2.0}) {
@@ -228,17 +242,19 @@ class DetourPlanner {
       tried = fewer;
       PlanRequest request = request_;
       request.waypoints = std::move(fewer);
-      Plan plan = MayBeBetter(PlannedStops(request), best)
-                      ? planning_.plan(request)
-                      : route::Refused(PlanStatus::kNoPath, "longer than another path");
-      TryOtherHeadings(plan, request, best);
+      TriedPlan own =
+          MayBeBetter(PlannedStops(request), best)
+              ? Try(request)
+              : TriedPlan{route::Refused(PlanStatus::kNoPath, "longer than another path")};
+      TryOtherHeadings(own, request, best);
+      const Plan& plan = own.plan;
       const auto miss =
           plan.ok() ? LargestWaypointMiss(plan.reference.path, request_.waypoints) : std::nullopt;
-      if (miss && miss->distance <= near && IsBetter(plan, best) &&
+      if (miss && miss->distance <= near && IsBetter(own, best) &&
           (!fewest ||
-           DrivingTime(plan, request_.vehicle) < DrivingTime(*fewest, request_.vehicle))) {
+           DrivingTime(plan, request_.vehicle) < DrivingTime(fewest->plan, request_.vehicle))) {
         left_out = {request_.waypoints.size() - request.waypoints.size(), WhyLeftOut(best, plan)};
-        fewest = std::move(plan);
+        fewest = std::move(own);
       }
     }
     if (fewest) {
@@ -261,8 +277,9 @@ class DetourPlanner {
             .gap = 0.0};
   }
 
-  [[nodiscard]] std::string WhyLeftOut(const Plan& all, const Plan& plan) const {
-    if (!IsDrivable(all)) {
+  [[nodiscard]] std::string WhyLeftOut(const TriedPlan& tried, const Plan& plan) const {
+    const Plan& all = tried.plan;
+    if (!tried.is_drivable) {
       return all.ok() ? "the car cannot drive the path through all waypoints at its start speed"
                       : "no path leads through all waypoints";
     }
