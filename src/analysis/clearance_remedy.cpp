@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "trackbed/analysis/path_properties.h"
 #include "trackbed/planning/registry/planners.h"
@@ -25,13 +26,26 @@ std::optional<double> PlannedClearance(const RunResult& result, const VehiclePar
 }
 
 /// Returns the key and the value [m] of the distance that the plan keeps from obstacles; nullopt if
-/// the planner has no such key, or if a local planner keeps another distance.
+/// the planner has no such key. The local planner `listing` keeps no distance.
 std::optional<std::pair<std::string, double>> KeptDistance(const PlanSpec& plan) {
   if (plan.replan) {
     return std::pair("plan.replan.safe_distance", plan.replan->settings.safe_distance);
   }
+  if (plan.avoid) {
+    const auto* curves = std::get_if<BezierAvoidanceOptions>(&*plan.avoid);
+    return curves != nullptr
+               ? std::optional(std::pair("plan.avoid.safe_distance", curves->safe_distance))
+               : std::nullopt;
+  }
   const std::optional<double> own = PlannerSafeDistance(plan.global);
-  return own && !plan.avoid ? std::optional(std::pair("plan.safe_distance", *own)) : std::nullopt;
+  return own ? std::optional(std::pair("plan.safe_distance", *own)) : std::nullopt;
+}
+
+/// Returns the distance [m] that the driven plan keeps from obstacles. A local planner changes the
+/// plan of the start, and keeps `kept` from obstacles.
+double PlannedDistance(const RunResult& result, const VehicleParams& vehicle, double kept) {
+  const PlanSpec& plan = *result.scenario.plan;
+  return plan.avoid || plan.replan ? kept : PlannedClearance(result, vehicle).value_or(kept);
 }
 
 /// Returns the distance [m] that detours keep from obstacles; nullopt if there are no detours.
@@ -50,9 +64,7 @@ void ProposeSafeDistance(RunResult& result, const VehicleParams& vehicle) {
     if (!kept || check.met || check.metric != "clearance_min" || !bound || !driven) {
       continue;
     }
-    const double planned = result.scenario.plan->replan
-                               ? kept->second
-                               : PlannedClearance(result, vehicle).value_or(kept->second);
+    const double planned = PlannedDistance(result, vehicle, kept->second);
     // The remedy is rounded up to centimeters.
     const double needed = std::ceil(100.0 * (*bound + std::max(planned - *driven, 0.0))) / 100.0;
     std::string keys = fmt::format("{}: {:.4g} (now {:.4g})", kept->first, needed, kept->second);

@@ -53,6 +53,11 @@ TEST(ClearanceRemedy, NamesTheDistancesOfReplanningAndItsDetours) {
   ExpectRemedy("blocked_road", "1.2", 2);
 }
 
+// The obstacle is avoided by a curve around it, which keeps 1.5 m by default.
+TEST(ClearanceRemedy, NamesTheDistanceOfAvoidance) {
+  ExpectRemedy("obstacle_appears", "1.7", 1);
+}
+
 TEST(ClearanceRemedy, IsNotProposedWithoutASafeDistance) {
   // `fillet` has no safe distance.
   const RunResult near = Drive("obstacle_course", {"expect.min_clearance=1.5"});
