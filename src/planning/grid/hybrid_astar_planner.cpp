@@ -294,14 +294,17 @@ Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
   };
   Plan found = WithoutDetours(request, options.reverse ? CurveLength(ReedsSheppLength) : forwards,
                               {[&](const PlanRequest& own) { return PlanOnce(options, own); }});
+  // FasterRoute makes the curvature linear on 16 parts of each ramp of the steering. On a part, the
+  // steering rate exceeds that of the ramp by up to 2 %.
+  constexpr double kRateOfParts = 1.02;
   // The search plans one leg at a time, so a rolling car may drive a detour to turn.
   if (request.start_speed > 0.0 && IsDetour(found, request)) {
-    Plan curves = PlanForwards(options, request);
     PlanRequest slow_wheels = request;
-    slow_wheels.vehicle.steering_rate *= options.max_steering_rate_fraction;
-    slow_wheels.infeasible = InfeasiblePolicy::kRefuse;
-    if (MakeFeasible(curves, slow_wheels).ok() &&
-        IsShorterAndNotSlower(curves, found, request.vehicle)) {
+    slow_wheels.vehicle.steering_rate *=
+        std::min(1.0, kRateOfParts * options.max_steering_rate_fraction);
+    slow_wheels.infeasible = InfeasiblePolicy::kSlowDown;
+    const FeasiblePlan curves = MakeFeasible(PlanForwards(options, request), slow_wheels);
+    if (IsShorterAndNotSlower(curves, found, request.vehicle)) {
       return curves;
     }
   }

@@ -44,7 +44,7 @@ TEST(LargestWaypointMiss, IsThatOfADenseSampleOfClothoids) {
   Random random(1);
   for (int i = 0; i < 20; ++i) {
     std::vector<Segment> segments;
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 4 + 3 * i; ++k) {
       segments.push_back({.length = random.Uniform(2.0, 10.0),
                           .curvature = random.Uniform(-0.1, 0.1),
                           .direction = 1,

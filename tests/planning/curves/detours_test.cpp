@@ -15,6 +15,7 @@
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/plan_comparison.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/common/waypoint_miss.h"
 #include "trackbed/planning/curves/curve_planners.h"
@@ -72,6 +73,24 @@ TEST(Detours, AreNotNeededForALaneChangeOfARollingCar) {
               PolylineLength(request.waypoints) + request.vehicle.min_turning_radius())
         << planner.name;
   }
+}
+
+TEST(Detours, OfHybridAStarAreNoLongerThanThoseOfDubins) {
+  // A hairpin whose second point is 5 m from the first, from 13.9 m/s. The legs of the search take
+  // 275 m. At the start, the Dubins curves exceed the share of the steering rate by 0.2 %.
+  PlanRequest request = DetourRequest({{0, 0}, {31.486, 0}, {29.9285, 4.8208}, {0, 0}}, 13.85);
+  request.speed = {.speed = 13.85, .acceleration = 1.0, .deceleration = 1.5};
+  request.vehicle.steering_rate = 0.15;
+  const HybridAStarOptions options{.safe_distance = 0.3, .min_speed = 0.3};
+  const Plan plan = HybridAStarPlanner().plan(request, options);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const DubinsOptions curves{.safe_distance = 0.3,
+                             .min_speed = 0.3,
+                             .max_steering_rate_fraction = options.max_steering_rate_fraction};
+  const Plan shortest = DubinsPlanner().plan(request, curves);
+  ASSERT_TRUE(shortest.ok()) << shortest.reason;
+  EXPECT_LE(plan.reference.path.length(),
+            shortest.reference.path.length() + request.vehicle.min_turning_radius());
 }
 
 TEST(Detours, LeaveOutAPointThatWasClickedTwice) {
@@ -249,6 +268,38 @@ TEST(Detours, NameARollingStartAsTheCause) {
   EXPECT_LT(at_rest.reference.path.length() + request.vehicle.min_turning_radius(),
             rolling.reference.path.length());
   EXPECT_THAT(at_rest.notes, Not(Contains(HasSubstr("because the car starts"))));
+}
+
+TEST(Detours, OfARollingStartAreNamedOnLongRoutes) {
+  PlanRequest request = DetourRequest({{0, 0}, {12, 6}}, 10.0);
+  request.start.yaw = 0.0;
+  for (int i = 1; i <= 12; ++i) {
+    request.waypoints.emplace_back(12.0 + 30.0 * i, 6.0);
+  }
+  const PlannerEntry dubins = DubinsPlanner();
+  const Plan rolling = dubins.plan(request, dubins.defaults);
+  ASSERT_TRUE(rolling.ok()) << rolling.reason;
+  EXPECT_THAT(rolling.notes, Contains(HasSubstr("because the car starts at 10 m/s; with "
+                                                "mission.start.speed: 0, it is")));
+}
+
+TEST(Detours, FarFromARollingStartNeedNoLongPlanFromRest) {
+  // From 10 m/s, the car can stop after 33 m. The route turns back after 300 m.
+  PlanRequest request = DetourRequest({{0, 0}, {30, 0}}, 10.0);
+  for (int i = 2; i <= 10; ++i) {
+    request.waypoints.emplace_back(30.0 * i, 0.0);
+  }
+  request.waypoints.emplace_back(270.0, 0.0);
+  const PlannerEntry dubins = DubinsPlanner();
+  Plan plan = dubins.plan(request, dubins.defaults);
+  ASSERT_TRUE(IsDetour(plan, request)) << plan.reason;
+  std::size_t longest = 0;
+  NoteDetourOfRollingStart(request, plan, [&](const PlanRequest& own) {
+    longest = std::max(longest, own.waypoints.size());
+    return dubins.plan(own, dubins.defaults);
+  });
+  // Two legs reach beyond 33 m; two more legs are planned.
+  EXPECT_EQ(longest, 5U);
 }
 
 }  // namespace

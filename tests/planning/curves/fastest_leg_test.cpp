@@ -118,6 +118,45 @@ TEST(FastestLeg, MirrorsALegInReverse) {
   }
 }
 
+bool SameSegments(const std::vector<Segment>& a, const std::vector<Segment>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Segment& x, const Segment& y) {
+    return x.length == y.length && x.curvature == y.curvature && x.sharpness == y.sharpness &&
+           x.direction == y.direction;
+  });
+}
+
+TEST(FastestLeg, SolvesEqualProgramsOnce) {
+  const FastestLeg leg = LegFrom(WordTo({12.0, 9.0, 2.0}), 0.0, 0.0, 2);
+  std::vector<FastestLeg> others;
+  for (const double goal : {8.0, 9.5}) {
+    others.push_back(LegFrom(WordTo({12.0, goal, 2.0}), 0.0, 0.0, 2));
+  }
+  others.push_back(LegFrom(leg.start, 0.0, kPriusLimits.speed.speed, 2));
+  others.push_back(leg);
+  others.back().limits.steering_rate *= 1.01;
+  others.push_back(leg);
+  others.back().limits.lateral *= 0.99;
+  others.push_back(leg);
+  others.back().min_speed = 0.5;
+  FasterLegs legs;
+  const auto first = legs.Find(leg);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(legs.size(), 1U);
+  // Programs of other legs must not replace the solution, or be replaced by it.
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    SCOPED_TRACE(i);
+    const auto found = legs.Find(others[i]);
+    const auto alone = FasterLegs().Find(others[i]);
+    ASSERT_TRUE(found && alone);
+    EXPECT_TRUE(SameSegments(*found, *alone));
+    EXPECT_EQ(legs.size(), i + 2);
+  }
+  const auto again = legs.Find(leg);
+  ASSERT_TRUE(again);
+  EXPECT_TRUE(SameSegments(*first, *again));
+  EXPECT_EQ(legs.size(), others.size() + 1);
+}
+
 TEST(FastestLeg, LeavesAStraight) {
   const std::vector<Segment> straight{{.length = 20.0}};
   for (const double speed : {0.0, kPriusLimits.speed.speed}) {

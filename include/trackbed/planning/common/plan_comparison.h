@@ -26,8 +26,9 @@ namespace trackbed {
 
 /// Adds a note to `detour`, the plan of a rolling car, if a car at rest could take a path that is
 /// shorter and not slower. The note states the lengths of the rolling car's path and of the path
-/// from rest. The function `plan` plans the path of a request. A long route is planned from rest only
-/// if its legs up to the second waypoint behind the stopping distance have a shorter path from rest.
+/// from rest. The function `plan` plans the path of a request. A long route is planned from rest
+/// only if its legs up to the second waypoint behind the stopping distance have a shorter path from
+/// rest.
 void NoteDetourOfRollingStart(const PlanRequest& request, Plan& detour,
                               const std::function<Plan(const PlanRequest&)>& plan);
 
