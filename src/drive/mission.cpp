@@ -10,6 +10,7 @@
 #include "src/drive/plan_remedies.h"
 #include "src/drive/replanning_monitor.h"
 #include "src/drive/scenario_parts.h"
+#include "trackbed/control/controllers.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/drive/start_overlap.h"
 #include "trackbed/planning/avoidance/avoidance.h"
@@ -29,8 +30,9 @@
 //    start.
 // 3. MakePlan calls the planner and checks whether the car can drive the plan. If planning fails,
 //    PlanRemedies finds changes of the mission that lead to a plan.
-// 4. Adds notes to the plan on slow turns, missed waypoints, obstacles on the path, and turning
-//    round at the start.
+// 4. Adds notes to the plan on slow turns, missed waypoints, obstacles on the path, turning round
+// at
+//    the start, and control without feedback.
 // 5. With plan.avoid, PlanAround changes the plan so that it passes around the known obstacles.
 namespace trackbed {
 namespace {
@@ -133,6 +135,28 @@ void NoteTimeLimit(FeasiblePlan& plan, double time_limit) {
         "drive.time_limit: {:.0f}",
         duration, time_limit, std::ceil(1.1 * duration)));
   }
+}
+
+bool IsStraight(const Path& path) {
+  const std::vector<Segment>& segments = path.segments();
+  return std::all_of(segments.begin(), segments.end(), [](const Segment& segment) {
+    return segment.curvature == 0.0 && segment.sharpness == 0.0 && segment.sharpness_rate == 0.0;
+  });
+}
+
+/// Adds a note to the plan if a controller without feedback drives bends on tyres that slip.
+void NoteOpenLoop(FeasiblePlan& plan, const Scenario& scenario) {
+  const ControllerEntry& controller = ControllerFor(scenario.control.steering);
+  std::vector<std::string> slipping = scenario.drive.plants;
+  std::erase(slipping, "kinematic");
+  if (!controller.needs_plan || controller.station != StationSource::kOdometer ||
+      slipping.empty() || IsStraight(plan->reference.path)) {
+    return;
+  }
+  plan.AddNote(fmt::format(
+      "the controller {} corrects no error: where tyres slip, as in {}, the car leaves its path "
+      "in bends and may miss its goal; control: {{method: preview}} corrects errors",
+      controller.name, fmt::join(slipping, ", ")));
 }
 
 /// Returns the path of a car that turns round to the shorter side until it has the heading of the
@@ -301,6 +325,7 @@ FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle,
   NoteSlowTurns(plan, request.speed.speed);
   NoteTurnRound(plan, vehicle, start, scenario.control.speed, known);
   NoteStops(plan, scenario);
+  NoteOpenLoop(plan, scenario);
   if (!scenario.plan->avoid) {
     if (!scenario.plan->replan) {
       NoteObstacle(plan, vehicle, known);
