@@ -12,6 +12,7 @@
 #include "src/analysis/clearance_remedy.h"
 #include "src/analysis/origin_statement.h"
 #include "src/analysis/overspeed.h"
+#include "src/analysis/peaks.h"
 #include "trackbed/analysis/record_metrics.h"
 #include "trackbed/analysis/requirement_metrics.h"
 #include "trackbed/control/controllers.h"
@@ -57,6 +58,12 @@ void NoteSlidingContacts(RunResult& result, const CarModel& car) {
   }
 }
 
+/// Returns the time at which the plan after a change ends [s].
+double EndOfChange(const RunLog& log, std::size_t change) {
+  return change + 1 < log.changes.size() ? log.changes[change + 1].time
+                                         : log.rows.back().state.time;
+}
+
 /// Adds a note to the verdict for each plant whose car followed a slower obstacle: for how long,
 /// and the reason for not passing that held longest.
 void NoteFollowing(RunResult& result) {
@@ -69,10 +76,9 @@ void NoteFollowing(RunResult& result) {
       if (found == nullptr || !found->along || found->along->kind != ManeuverType::kFollow) {
         continue;
       }
-      const double end =
-          i + 1 < log.changes.size() ? log.changes[i + 1].time : log.rows.back().state.time;
-      times[found->along->why] += end - log.changes[i].time;
-      total += end - log.changes[i].time;
+      const double time = EndOfChange(log, i) - log.changes[i].time;
+      times[found->along->why] += time;
+      total += time;
     }
     if (total > 0.0) {
       const auto longest =
@@ -81,6 +87,37 @@ void NoteFollowing(RunResult& result) {
       result.verdict.notes.push_back(
           fmt::format("{}: followed a slower obstacle for {:.3g} s instead of passing it: {}",
                       log.plant, total, longest->first));
+    }
+  }
+}
+
+/// Adds a note to the verdict for each plant whose car stood still until a later plan led on: for
+/// how long and where it stood, and why its first such plan ended there.
+void NoteWaiting(RunResult& result) {
+  constexpr double kAtRest = 1e-3;  // [m/s]
+  for (const RunLog& log : result.logs) {
+    double total = 0.0;
+    double station = 0.0;
+    std::string why;
+    std::size_t row = 1;
+    for (std::size_t i = 0; i + 1 < log.changes.size(); ++i) {
+      const std::string& blocked = log.changes[i].plan.blocked;
+      for (; row < log.rows.size() && log.rows[row].state.time <= EndOfChange(log, i); ++row) {
+        const VehicleState& state = log.rows[row].state;
+        if (blocked.empty() || state.time <= log.changes[i].time ||
+            std::abs(state.speed) >= kAtRest) {
+          continue;
+        }
+        if (why.empty()) {
+          why = blocked;
+          station = RowStation(log.rows[row]);
+        }
+        total += state.time - log.rows[row - 1].state.time;
+      }
+    }
+    if (!why.empty()) {
+      result.verdict.notes.push_back(fmt::format("{}: stood for {:.3g} s at s = {:.4g} m: it {}",
+                                                 log.plant, total, station, why));
     }
   }
 }
@@ -152,6 +189,7 @@ void JudgeRun(RunResult& result, const CarModel& car) {
   NoteSlidingContacts(result, car);
   NoteIgnoredAids(result.scenario, result.logs, result.verdict.notes);
   NoteFollowing(result);
+  NoteWaiting(result);
   if (scenario.record) {
     for (const std::string& note : scenario.record->data->notes) {
       result.verdict.notes.push_back("record: " + note);

@@ -2,6 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "tests/support/temp_folder.h"
 #include "trackbed/analysis/run.h"
 #include "trackbed/core/error.h"
@@ -131,6 +136,36 @@ TEST(FollowingNote, SaysHowLongAndWhy) {
 
 TEST(FollowingNote, IsAbsentWhereTheCarPassesAtOnce) {
   EXPECT_TRUE(RunBehind(2.0, "{left: 6, right: 6}").verdict.notes.empty());
+}
+
+// The car brakes behind an obstacle at 0.1 m/s. It can pull out only from a larger distance.
+TEST(WaitingNote, SaysHowLongAndWhere) {
+  const RunResult result = RunScenario(ParseScenario(
+      "schema: 1\nname: waiting\nvehicle: {model: prius}\n"
+      "mission: {speed: 6.4, waypoints: [[0, 0], [179, 0]], start: {speed: 4.4}}\n"
+      "world: {obstacles: [{box: {x: 14.9, y: 0.35, length: 4.5, width: 1.8, height: 1.5}, "
+      "velocity: {x: 0.1}, known_from: {range: 60}}]}\n"
+      "plan: {global: {method: dubins}, replan: {along: {method: lattice}}}\n"
+      "drive: {plants: [kinematic]}\n",
+      "waiting.yaml", ""));
+  ASSERT_EQ(result.verdict.notes.size(), 1U);
+  const std::string& note = result.verdict.notes.front();
+  ASSERT_EQ(note.find("kinematic: stood for "), 0U) << note;
+  EXPECT_NE(note.find(": it stops"), std::string::npos) << note;
+  double rest = 0.0;
+  std::optional<double> station;
+  const std::vector<LogRow>& rows = result.logs.front().rows;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (std::abs(rows[i].state.speed) < 1e-3 && rows[i].tracking->s < 170.0) {
+      rest += rows[i].state.time - rows[i - 1].state.time;
+      station = station.value_or(rows[i].tracking->s);
+    }
+  }
+  EXPECT_GT(rest, 10.0);
+  // The note has three digits; the control period is 0.02 s.
+  EXPECT_NEAR(std::stod(note.substr(note.find(" for ") + 5)), rest, 0.005 * rest + 0.04);
+  ASSERT_TRUE(station);
+  EXPECT_NEAR(std::stod(note.substr(note.find("s = ") + 4)), *station, 0.01);
 }
 
 }  // namespace
