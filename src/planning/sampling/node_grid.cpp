@@ -107,4 +107,24 @@ void NodeGrid::FindWithin(const Vec2& p, double radius, std::vector<Near>& near)
   }
 }
 
+void NodeGrid::FindNearest(const Vec2& p, std::size_t count, std::vector<Near>& near) const {
+  // For evenly spread nodes, the first search circle contains a quarter more than `count` nodes. If
+  // the search circle contains too few nodes, the circle is enlarged.
+  const Vec2 box = high_ - low_;
+  const double share = static_cast<double>(count) / static_cast<double>(count_);
+  const double even = std::sqrt(1.25 * share * box.prod() / M_PI);
+  for (double radius = std::max(even, 1e-3 * box.norm());; radius *= 1.5) {
+    FindWithin(p, radius, near);
+    if (near.size() >= std::min(count, count_)) {
+      break;
+    }
+  }
+  if (near.size() > count) {
+    const auto end = near.begin() + static_cast<std::ptrdiff_t>(count);
+    std::nth_element(near.begin(), end, near.end(),
+                     [](const Near& a, const Near& b) { return a.square < b.square; });
+    near.erase(end, near.end());
+  }
+}
+
 }  // namespace trackbed

@@ -38,6 +38,10 @@ class NodeGrid {
   /// particular order.
   void FindWithin(const Vec2& p, double radius, std::vector<Near>& near) const;
 
+  /// Finds the `count` nodes nearest to the point `p`, or all nodes if the index contains fewer.
+  /// Stores the nodes in `near`, in no particular order.
+  void FindNearest(const Vec2& p, std::size_t count, std::vector<Near>& near) const;
+
  private:
   [[nodiscard]] std::ptrdiff_t Column(double x) const;
   [[nodiscard]] std::ptrdiff_t Row(double y) const;

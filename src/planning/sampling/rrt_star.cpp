@@ -91,29 +91,6 @@ class RrtStarTree {
             std::lerp(problem_.low.y(), problem_.high.y(), y)};
   }
 
-  /// Stores the `count` nodes nearest to the point `p` in near_, in no particular order. If the
-  /// tree has fewer than `count` nodes, stores all nodes.
-  void FindNearest(const Vec2& p, std::size_t count) {
-    // For evenly spread nodes, the first search circle contains a quarter more than `count` nodes.
-    // If the search circle contains too few nodes, the circle is enlarged.
-    const Vec2 box = problem_.high - problem_.low;
-    const double share = static_cast<double>(count) / static_cast<double>(nodes_.size());
-    const double even = std::sqrt(1.25 * share * box.prod() / M_PI);
-    for (double radius = std::max(even, 1e-3 * box.norm());; radius *= 1.5) {
-      index_.FindWithin(p, radius, near_);
-      if (near_.size() >= std::min(count, nodes_.size())) {
-        break;
-      }
-    }
-    if (near_.size() > count) {
-      const auto end = near_.begin() + static_cast<std::ptrdiff_t>(count);
-      std::nth_element(
-          near_.begin(), end, near_.end(),
-          [](const NodeGrid::Near& a, const NodeGrid::Near& b) { return a.square < b.square; });
-      near_.erase(end, near_.end());
-    }
-  }
-
   void Iterate() {
     const Vec2 sample = Sample();
     const std::size_t from = index_.Nearest(sample);
@@ -153,7 +130,7 @@ class RrtStarTree {
   std::size_t Join(const Vec2& position, std::size_t reached_from) {
     const double count = static_cast<double>(nodes_.size());
     const double nearest = std::ceil(kNeighbors * std::log(count + 1.0));
-    FindNearest(position, static_cast<std::size_t>(nearest));
+    index_.FindNearest(position, static_cast<std::size_t>(nearest), near_);
     const double reached = (nodes_[reached_from].position - position).norm();
     const Neighbor first{reached_from, reached, nodes_[reached_from].cost + reached};
     neighbors_ = {first};

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "src/planning/curves/clothoid_keys.h"
+#include "src/planning/sampling/curve_tree_planner.h"
 #include "src/planning/sampling/sampling_task.h"
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/box_index.h"
@@ -137,6 +139,9 @@ Plan PlanStar(const RrtStarPlannerOptions& options, const PlanRequest& request) 
     return refused;
   }
   TRACKBED_CHECK(options.trees > 0, "{} trees", options.trees);
+  if (options.edges == TreeEdges::kCurves) {
+    return PlanCurveTrees(options, request);
+  }
   const double room = options.corners == Corners::kRound ? options.corner_room : 0.0;
   return WithLessCornerRoom(request, room, [&](const PlanRequest& own, double corner_room) {
     RrtStarPlannerOptions with = options;
@@ -170,6 +175,12 @@ void Visit(DiagnosticsVisitor& out, const RrtStarPlanDiagnostics& own) {
 }
 
 void Visit(KeyVisitor& keys, RrtStarPlannerOptions& options) {
+  static const EnumNames<TreeEdges> edges{{TreeEdges::kLines, "lines"},
+                                          {TreeEdges::kCurves, "curves"}};
+  keys.Field({"edges", "",
+              "edges of the trees: straight lines, whose corners are rounded, or curves of "
+              "continuous curvature, which have no corners"},
+             options.edges, Need::kOptional, edges);
   VisitTaskKeys(keys, options);
   keys.Field({"trees", "", "maximum number of trees; the first feasible path is the plan"},
              options.trees, Need::kOptional, Range{.min = 1, .max = 1000});
@@ -182,19 +193,19 @@ void Visit(KeyVisitor& keys, RrtStarPlannerOptions& options) {
   keys.Field({"goal_bias", "", "fraction of samples at the goal until it is reached"},
              options.goal_bias, Need::kOptional, Range{.min = 0.0, .max = 1.0});
   keys.Field(kCornerCost, options.corner_cost, Need::kOptional, kNonNegative);
+  VisitClothoids(keys, options.max_lateral_acceleration, options.max_steering_rate_fraction);
 }
 
 PlannerEntry RrtStarPlanner() {
-  return {
-      .name = "rrt_star",
-      .summary = "RRT* around obstacles (Karaman and Frazzoli 2011), corners rounded or refused",
-      .defaults = RrtStarPlannerOptions{},
-      .plan = PlanBy<RrtStarPlannerOptions, PlanStar>,
-      .min_waypoints = 2,
-      .keeps_clear = true,
-      .bounds_waypoint_miss = true,
-      .searches = true,
-      .is_random = true};
+  return {.name = "rrt_star",
+          .summary = "RRT* around obstacles (Karaman and Frazzoli 2011), with corners or curves",
+          .defaults = RrtStarPlannerOptions{},
+          .plan = PlanBy<RrtStarPlannerOptions, PlanStar>,
+          .min_waypoints = 2,
+          .keeps_clear = true,
+          .bounds_waypoint_miss = true,
+          .searches = true,
+          .is_random = true};
 }
 
 }  // namespace trackbed

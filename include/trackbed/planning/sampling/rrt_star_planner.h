@@ -11,13 +11,26 @@
 
 namespace trackbed {
 
+/// The edges of the trees of `rrt_star`.
+enum class TreeEdges {
+  kLines,  ///< Straight lines between points; the corners of the path are rounded afterwards.
+  /// Forward curves of continuous curvature (continuous_curvature.h) between poses with straight
+  /// wheels. The cost of an edge is its driving time, for the best of a few speeds on its turns.
+  kCurves,
+};
+
 /// Options of the planner `rrt_star`. The planner `rrt_star` grows trees from waypoint to waypoint
 /// by RRT* (rrt_star.h), takes shortcuts that do not worsen the path, and rounds or rejects corners
 /// (corners.h). Where the straight line to the next waypoint is free, the path follows this line,
 /// and no tree is grown. The planned path is that of the first tree whose path the car can drive.
 /// More iterations never lengthen the path of a tree, but may lengthen or shorten the path with
 /// rounded corners. The planner `rrt_star` ignores wind and the headings of waypoints.
+///
+/// With TreeEdges::kCurves, the path has no corners: each tree is rewired by curves that the wheels
+/// can follow, and every curve keeps `safe_distance` from obstacles. The options for corners, the
+/// straight start and `goal_bias` apply to TreeEdges::kLines only.
 struct RrtStarPlannerOptions {
+  TreeEdges edges = TreeEdges::kLines;
   Corners corners = Corners::kRound;
   /// Distance that the car's footprint keeps from obstacles [m], >= 0.
   double safe_distance = 0.3;
@@ -27,7 +40,7 @@ struct RrtStarPlannerOptions {
   double margin = 10.0;  ///< Margin of the sampled area around waypoints and obstacles [m].
   /// Maximum length of a straight start of the path [m], >= 0; 0: no straight start.
   double lead_in = 4.0;
-  double min_speed = 0.5;  ///< Lowest speed of the car in a rounded corner [m/s].
+  double min_speed = 0.5;  ///< Lowest speed of the car in a rounded corner, or on turns [m/s].
   int trees = 3;           ///< Maximum number of search trees that the planner grows, > 0.
   int iterations = 5000;   ///< Number of random samples for each leg of each tree, >= 0.
   /// Maximum length of a new edge of a tree [m], > 0; none: a fifth of the sampled area's diagonal.
@@ -35,6 +48,10 @@ struct RrtStarPlannerOptions {
   /// Fraction of the samples that are placed at the goal until the goal is reached, 0 to 1.
   double goal_bias = 0.05;
   double corner_cost = 5.0;  ///< Cost of a corner, as an additional path length [m], >= 0.
+  /// Largest lateral acceleration on curves [m/s^2], > 0; half of the tyres' grip is another limit.
+  double max_lateral_acceleration = 3.0;
+  /// Fraction of the car's steering rate that curves use, in (0, 1].
+  double max_steering_rate_fraction = 0.9;
 };
 void Visit(KeyVisitor& keys, RrtStarPlannerOptions& options);
 
