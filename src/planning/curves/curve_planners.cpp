@@ -247,6 +247,29 @@ Plan PlanWithCurvature(const Options& options, const PlanRequest& request, Curve
                          [&] { return PlanCurves(options, request, words); });
 }
 
+/// With curvature `auto` and the objective `time`, returns the fastest of the plan `best`, a path
+/// with steps, and a path of continuous curvature through its stops (FastestCurves). Otherwise,
+/// returns `best`.
+template <typename Options, typename Words>
+Plan FastestWithSteps(const Options& options, const PlanRequest& request, CurveMotion motion,
+                      const Words& words, const CurveLength& length, TurnedEnds may_turn,
+                      LegCosts& known, FasterLegs& legs, Plan best) {
+  if (options.objective != CurveObjective::kTime || options.curvature != CurveCurvature::kAuto) {
+    return best;
+  }
+  return FastestCurves(
+      std::move(best), request,
+      [&] {
+        return WithoutDetours(request, length, {[&](const PlanRequest& own) {
+                                return PlanCurves(options, own, words);
+                              }});
+      },
+      [&](const PlanRequest& own) {
+        return Faster(options, own, motion, PlanContinuous(options, own, motion, may_turn, known),
+                      legs);
+      });
+}
+
 /// Returns the ends of a plan at which the wheels are turned.
 TurnedEnds TurnedEndsOf(const Plan& plan) {
   const std::vector<Segment>& segments = plan.reference.path.segments();
@@ -294,22 +317,8 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
   if (TurnedEndsOf(best).goal) {
     compare({});
   }
-  if (options.curvature != CurveCurvature::kAuto) {
-    return best;
-  }
-  return FastestCurves(
-      std::move(best), request,
-      [&] {
-        return WithoutDetours(request, length, {[&](const PlanRequest& own) {
-                                return PlanCurves(options, own, DubinsWords);
-                              }});
-      },
-      [&](const PlanRequest& own) {
-        return Faster(options, own, CurveMotion::kForwards,
-                      PlanContinuous(options, own, CurveMotion::kForwards,
-                                     {.start = true, .goal = true}, known),
-                      legs);
-      });
+  return FastestWithSteps(options, request, CurveMotion::kForwards, DubinsWords, length,
+                          {.start = true, .goal = true}, known, legs, std::move(best));
 }
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
@@ -337,19 +346,8 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
            },
        .faster = [&](const PlanRequest& own,
                      Plan found) { return Faster(options, own, motion, std::move(found), legs); }});
-  if (options.objective != CurveObjective::kTime || options.curvature != CurveCurvature::kAuto) {
-    return plan;
-  }
-  return FastestCurves(
-      std::move(plan), request,
-      [&] {
-        return WithoutDetours(request, ReedsSheppLength, {[&](const PlanRequest& own) {
-                                return PlanCurves(options, own, words);
-                              }});
-      },
-      [&](const PlanRequest& own) {
-        return Faster(options, own, motion, PlanContinuous(options, own, motion, {}, known), legs);
-      });
+  return FastestWithSteps(options, request, motion, words, ReedsSheppLength, {}, known, legs,
+                          std::move(plan));
 }
 
 }  // namespace
