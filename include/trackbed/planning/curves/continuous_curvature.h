@@ -89,6 +89,9 @@ class ContinuousCurves {
   /// steps at this state. The HC-Reeds-Shepp curve is never longer than the curve that ReedsShepp
   /// returns. If no curve with curvature steps is shorter, HybridReedsShepp returns the same curve
   /// as ReedsShepp.
+  ///
+  /// Between two poses closer than 1e-9 m with full curvatures 1/r of opposite signs, the curve may
+  /// be longer than necessary, or end with the curvature of `from`.
   [[nodiscard]] ShortestCurve HybridReedsShepp(const CurveState& from, const CurveState& to) const;
   /// Returns only the Reeds-Shepp curves whose curvature steps at all cusps. ReedsSheppWords
   /// returns the Reeds-Shepp curves without curvature steps.
