@@ -22,7 +22,7 @@ namespace {
 
 /// Factor in the number of neighbors, a tenth above the bound 2^(d+1) e (1 + 1/d) of k-nearest RRT*
 /// for d = 3 dimensions: two of the position, one of the heading.
-constexpr double kNeighbors = 1.1 * 64.0 / 3.0 * 2.718281828459045;
+constexpr double kNeighborPoses = 1.1 * 64.0 / 3.0 * 2.718281828459045;
 
 constexpr std::size_t kStart = 0;
 constexpr std::size_t kGoal = 1;
@@ -118,7 +118,7 @@ class CurveTree {
   void Join(const Pose2& pose, const Vec2& position) {
     // A path through the node must be cheaper than the best path so far.
     const double most = nodes_[kGoal].cost - LeastTime(pose, nodes_[kGoal].pose);
-    const double count = std::ceil(kNeighbors * std::log(static_cast<double>(nodes_.size())));
+    const double count = std::ceil(kNeighborPoses * std::log(static_cast<double>(nodes_.size())));
     index_.FindNearest(position, static_cast<std::size_t>(count), near_);
     neighbors_.clear();
     for (const auto& [square, node] : near_) {
