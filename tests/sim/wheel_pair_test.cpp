@@ -13,7 +13,7 @@
 
 /// Tests a differential-drive vehicle.
 namespace trackbed {
-namespace {
+namespace wheel_pair_test {
 
 const CarModel& DiffDrive() {
   static const CarModel diff_drive(ComposeScene(FindModel("diff_drive", ""), {}), "diff_drive");
@@ -374,5 +374,5 @@ TEST(WheelPair, RollsOverABump) {
   EXPECT_NEAR(state.pose.y, 0.0, Tolerance(1e-2));
 }
 
-}  // namespace
+}  // namespace wheel_pair_test
 }  // namespace trackbed

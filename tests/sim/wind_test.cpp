@@ -10,7 +10,7 @@
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
-namespace {
+namespace wind_test {
 
 constexpr double kAirDensity = 1.225;  // [kg/m^3]
 constexpr double kDragArea = 0.5;      // [m^2]
@@ -157,5 +157,5 @@ TEST(KinematicCar, DoesNotFeelWind) {
   EXPECT_NEAR(end.pose.y, 0.0, Tolerance(1e-12));
 }
 
-}  // namespace
+}  // namespace wind_test
 }  // namespace trackbed

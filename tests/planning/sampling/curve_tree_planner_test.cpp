@@ -19,7 +19,7 @@
 
 // Tests the trees of curves of `rrt_star` (edges: curves).
 namespace trackbed {
-namespace {
+namespace curve_tree_planner_test {
 
 using ::testing::HasSubstr;
 
@@ -176,5 +176,5 @@ TEST(CurveTreePlanner, TakesLessTimeThanRoundedCorners) {
   }
 }
 
-}  // namespace
+}  // namespace curve_tree_planner_test
 }  // namespace trackbed
