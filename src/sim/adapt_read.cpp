@@ -94,8 +94,11 @@ class MeshReader {
     const fs::path path = Locate(name);
     std::error_code error;
     if (path.empty() || !fs::is_regular_file(path, error)) {
-      return "does not exist beside the file or in its package, the folder with package.xml; name "
-             "the folder of the package by --allow-assets";
+      const std::string_view uri(name);
+      return uri.starts_with("package://") || uri.starts_with("model://")
+                 ? "does not exist beside the file or in its package, the folder with package.xml; "
+                   "name the folder of the package by --allow-assets"
+                 : "does not exist";
     }
     if (std::string why = ReadAccessError(path, own_, folders_); !why.empty()) {
       return why;
@@ -217,7 +220,8 @@ void CheckUrdfElements(const XMLElement& element, const fs::path& file) {
   }
 }
 
-/// Sets MuJoCo's options for URDF: every link stays a body, and visual geometry is kept.
+/// Sets MuJoCo's options for URDF: every link stays a body and keeps its <inertial>, and visual
+/// geometry is kept.
 void SetUrdfCompiler(XMLElement& robot) {
   XMLElement* extension = robot.FirstChildElement("mujoco");
   if (extension == nullptr) {
@@ -228,6 +232,7 @@ void SetUrdfCompiler(XMLElement& robot) {
     compiler = extension->InsertNewChildElement("compiler");
   }
   compiler->DeleteAttribute("meshdir");
+  compiler->DeleteAttribute("inertiafromgeom");
   compiler->SetAttribute("strippath", true);
   compiler->SetAttribute("fusestatic", false);
   compiler->SetAttribute("discardvisual", false);

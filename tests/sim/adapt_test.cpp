@@ -388,7 +388,8 @@ TEST(Adapt, GivesNoMassToShapesOfUrdf) {
   urdf.insert(urdf.find("</gazebo>") + 9,
               "<link name='sensor'><collision><geometry><box size='0.1 0.1 0.1'/></geometry>"
               "</collision></link><joint name='fix' type='fixed'><parent link='base'/>"
-              "<child link='sensor'/><origin xyz='0.1 0 0.3'/></joint>");
+              "<child link='sensor'/><origin xyz='0.1 0 0.3'/></joint>"
+              "<mujoco><compiler inertiafromgeom='true'/></mujoco>");
   const AdaptedModel model = AdaptText(urdf, {}, "car.urdf");
   const CarModel adapted(Scene{.xml = model.xml, .assets = {}, .lines = {}}, "car");
   EXPECT_NEAR(adapted.params().mass, 3.8 + 3e-6, Tolerance(1e-9));
