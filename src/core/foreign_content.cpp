@@ -18,6 +18,9 @@ struct Kind {
   std::string_view explanation;
 };
 
+constexpr std::string_view kNmea =
+    "sentences of NMEA 0183; convert them first: gpsbabel -i nmea -f FILE -o gpx -F FILE.gpx";
+
 constexpr std::array kKinds{
     Kind{"\x1F\x8B"sv, "compressed by gzip; decompress it first: gunzip FILE"},
     Kind{"BZh"sv, "compressed by bzip2; decompress it first: bunzip2 FILE"},
@@ -39,10 +42,13 @@ constexpr std::array kKinds{
     Kind{"\x89MCAP0"sv, "MCAP; bags need a name that ends with .mcap"},
     Kind{"#ROSBAG V2"sv,
          "a bag of ROS 1; convert it first: rosbags-convert --src FILE --dst FOLDER"},
-    Kind{"$GP"sv,
-         "sentences of NMEA 0183; convert them first: gpsbabel -i nmea -f FILE -o gpx -F FILE.gpx"},
-    Kind{"$GN"sv,
-         "sentences of NMEA 0183; convert them first: gpsbabel -i nmea -f FILE -o gpx -F FILE.gpx"},
+    Kind{"$GP"sv, kNmea},
+    Kind{"$GN"sv, kNmea},
+    Kind{"$GL"sv, kNmea},
+    Kind{"$GA"sv, kNmea},
+    Kind{"$GB"sv, kNmea},
+    Kind{"$BD"sv, kNmea},
+    Kind{"$PUBX,"sv, kNmea},
     Kind{"%PDF-"sv, "a PDF document"},
     Kind{"\x89PNG"sv, "a picture (PNG)"},
     Kind{"\xFF\xD8\xFF"sv, "a picture (JPEG)"},

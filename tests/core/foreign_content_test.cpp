@@ -37,6 +37,8 @@ TEST(ForeignContent, NamesOtherKindsOfFilesAndARemedy) {
       {"#ROSBAG V2.0\n", "rosbags-convert"},
       {"$GPRMC,102233.000,A,4815.7,N,01140.0,E", "gpsbabel -i nmea"},
       {"$GNGGA,102233.000,4815.7,N,01140.0,E", "gpsbabel -i nmea"},
+      {"$GLGSV,3,1,09,65,,,", "gpsbabel -i nmea"},
+      {"$PUBX,00,102233.00,4815.7,N", "gpsbabel -i nmea"},
       {"%PDF-1.4", "PDF"},
       {"\x89PNG\r\n", "PNG"},
       {"\xFF\xD8\xFF\xE0", "JPEG"},
