@@ -136,7 +136,7 @@ void NoteSwings(TrackRows& rows, double smoothing) {
     rows.notes.push_back(fmt::format(
         "the center line, smoothed over {:.4g} m, swings aside of the straight lines between the "
         "points by more than {:.3g} m on {} {}, the first of which begins in line {}; without "
-        "mission.track.smoothing, points are added there",
+        "mission.track.smoothing, the wavelength is chosen so that it does not",
         smoothing, largest, found.swinging.size(), found.swinging.size() == 1 ? "step" : "steps",
         rows.lines[found.swinging.front()]));
   }
