@@ -107,7 +107,7 @@ void NumberReader::Row() {
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     const bool is_number = error == std::errc{} && end == cell.data() + cell.size();
     if (!is_number && !selection.timestamps.empty() && header[i] == selection.timestamps) {
-      const std::optional<double> time = TimestampSeconds(cell);
+      const std::optional<double> time = TimestampOrTimeOfDay(cell);
       value = time.value_or(0.0);
       if (!time) {
         AddCellError(i, fmt::format("'{}' is neither a number nor a timestamp such as "

@@ -132,10 +132,6 @@ std::optional<std::chrono::year_month_day> Date(Timestamp& text, bool begins_wit
 
 std::optional<double> TimestampSeconds(std::string_view text) {
   Timestamp rest(text);
-  if (const std::size_t colon = text.find(':'); colon == 1 || colon == 2) {
-    const std::optional<double> time = TimeOfDay(rest, colon, true);
-    return rest.is_empty() ? time : std::nullopt;
-  }
   const std::optional<std::chrono::year_month_day> date = Date(rest, text.find('-') == 2);
   const std::optional<double> time = date ? TimeOfDay(rest, 2, false) : std::nullopt;
   const std::optional<double> zone = time ? Zone(rest) : std::nullopt;
@@ -144,6 +140,16 @@ std::optional<double> TimestampSeconds(std::string_view text) {
   }
   const auto days = std::chrono::sys_days(*date).time_since_epoch().count();
   return 86400.0 * static_cast<double>(days) + *time - *zone;
+}
+
+std::optional<double> TimestampOrTimeOfDay(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  if (colon != 1 && colon != 2) {
+    return TimestampSeconds(text);
+  }
+  Timestamp rest(text);
+  const std::optional<double> time = TimeOfDay(rest, colon, true);
+  return rest.is_empty() ? time : std::nullopt;
 }
 
 }  // namespace trackbed

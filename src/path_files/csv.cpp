@@ -208,7 +208,7 @@ class CsvPath {
       const PathColumn& column = *layout_.columns[i];
       std::optional<double> number = CellNumber(cells[column.index]);
       if (!number && i == kTime) {
-        number = TimestampSeconds(cells[column.index]);
+        number = TimestampOrTimeOfDay(cells[column.index]);
       }
       values[i] = number.value_or(0.0) * column.factor + column.offset;
       if (i <= kY && layout_.origin[i]) {

@@ -18,7 +18,7 @@ struct LogSource {
 /// Columns that are read from a log, and the delimiter between columns.
 struct WantedColumns {
   std::vector<std::string> names;
-  std::string time;  ///< Column whose cells may be timestamps (TimestampSeconds) in a CSV file.
+  std::string time;  ///< Column whose cells may be timestamps (TimestampOrTimeOfDay) in a CSV file.
   char delimiter = ',';
 };
 

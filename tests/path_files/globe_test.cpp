@@ -286,8 +286,10 @@ TEST(Timestamps, AreSecondsSince1970) {
   EXPECT_EQ(TimestampSeconds("2024-02-29 14:30:15.25+02:00"), 1709209815.25);
   EXPECT_EQ(TimestampSeconds("2024-02-29T12:30"), 1709209800.0);
   EXPECT_EQ(TimestampSeconds("29-Feb-2024 12:30:15"), 1709209815.0);
-  EXPECT_EQ(TimestampSeconds("12:30:15.25"), 45015.25);
-  EXPECT_EQ(TimestampSeconds("9:30:15"), 34215.0);
+  EXPECT_EQ(TimestampOrTimeOfDay("12:30:15.25"), 45015.25);
+  EXPECT_EQ(TimestampOrTimeOfDay("9:30:15"), 34215.0);
+  EXPECT_EQ(TimestampOrTimeOfDay("2024-02-29T12:30:15Z"), 1709209815.0);
+  EXPECT_FALSE(TimestampSeconds("12:30:15.25").has_value());
   for (const char* text : {"", "12:30", "2023-02-29T00:00:00Z", "2024-02-29",
                            "2024-13-01T00:00:00Z", "2024-02-29T12:30:15Zx", "29-Feb-24 12:30:15",
                            "29-feb-2024 12:30:15", "31-Feb-2024 12:30:15", "12:30:15Z", "12:61:15",
