@@ -280,7 +280,7 @@ LogListing ListCsv(const fs::path& log) {
                    }
                  });
   const double step = MedianStep(std::move(times));
-  if (!has_time_unit && step > 1.0) {
+  if (!has_time_unit) {
     map.time.unit = TimeUnitOf(log, map, step);
   }
   FitTo(step * UnitInSi(map.time.unit), map);

@@ -134,6 +134,26 @@ TEST(ListLog, ReadsUnitsAndPosesFromNames) {
   EXPECT_THAT(two.problem, HasSubstr("several columns for x: map_x, odom_x"));
 }
 
+// Drives with slow rows or a long stop at the start, whose names state no unit of time.
+TEST(ListLog, ProposesUnitsOfTimeOnlyForSpeedsOfCars) {
+  const TempFolder folder;
+  const auto unit_of = [&](const std::string& rows) {
+    const LogListing listing = ListLog(folder.Write("log.csv", "time,x,y\n" + rows));
+    return listing.map ? listing.map->time.unit : listing.problem;
+  };
+  // 15 m/s with rows 60 s apart. In ms, the speed would be 15 km/s.
+  EXPECT_EQ(unit_of("0,0,0\n60,900,0\n120,1800,0\n180,2700,0\n"), "s");
+  // Timestamps are always in seconds. In ms, the speed would be 15 km/s here, and 10 m/s below.
+  EXPECT_EQ(unit_of("2024-05-01T12:00:00Z,0,0\n2024-05-01T12:01:00Z,900,0\n"), "s");
+  EXPECT_EQ(unit_of("2024-05-01T12:00:00Z,0,0\n2024-05-01T12:01:00Z,0.6,0\n"), "s");
+  // 120 s at rest, then 10 s at 10 m/s, in rows 10 ms apart.
+  std::string rows;
+  for (int i = 0; i <= 13'000; ++i) {
+    rows += fmt::format("{},{},0\n", 10 * i, 0.1 * std::max(0, i - 12'000));
+  }
+  EXPECT_EQ(unit_of(rows), "ms");
+}
+
 // A drive at 10 m/s to the north, with the times of the day and the dates of other programs.
 TEST(ListLog, ReadsTimesOfTheDay) {
   for (const char* time : {"{:02}:59:{:02}.{}", "01-May-2024 {:02}:59:{:02}.{}"}) {
