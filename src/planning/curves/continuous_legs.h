@@ -57,6 +57,9 @@ class LegFinder {
   /// Returns the largest number of curves tried for one leg at one speed.
   [[nodiscard]] std::size_t tried() const { return tried_; }
 
+  /// Returns whether the car keeps its safe distance from all obstacles at the pose.
+  [[nodiscard]] bool IsFree(const Pose2& pose) const { return clear_.IsFree(pose); }
+
  private:
   class Choice;
   struct LegStart;

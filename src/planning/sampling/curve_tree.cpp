@@ -12,7 +12,8 @@
 // 1. A sample is a position and a heading. The position is moved toward the nearest node until it
 //    is within one step. Half of the samples head away from the nearest node.
 // 2. The parent of a new node is the neighbor with the cheapest path. An edge is the cheapest free
-//    leg of continuous curvature, which LegFinder finds.
+//    leg of continuous curvature, which LegFinder finds. A sample at which the car does not fit, or
+//    to which several neighbors have no free leg, is dropped.
 // 3. Neighbors and the goal are rewired through the new node where this makes their paths cheaper.
 // 4. Before each search for a leg, a straight line at the largest speed bounds the cost of the leg.
 //    Most pairs of nodes need no search, because this bound exceeds the best cost so far.
@@ -23,6 +24,10 @@ namespace {
 /// Factor in the number of neighbors, a tenth above the bound 2^(d+1) e (1 + 1/d) of k-nearest RRT*
 /// for d = 3 dimensions: two of the position, one of the heading.
 constexpr double kNeighborPoses = 1.1 * 64.0 / 3.0 * 2.718281828459045;
+
+/// Number of neighbors without a free leg to a sample after which the sample is dropped. Behind a
+/// wall, no neighbor has such a leg, and each search for one takes about a millisecond.
+constexpr int kMostFailed = 8;
 
 constexpr std::size_t kStart = 0;
 constexpr std::size_t kGoal = 1;
@@ -116,6 +121,9 @@ class CurveTree {
 
   /// Adds a node with its cheapest parent, and rewires its neighbors.
   void Join(const Pose2& pose, const Vec2& position) {
+    if (!finder_.IsFree(pose)) {
+      return;
+    }
     // A path through the node must be cheaper than the best path so far.
     const double most = nodes_[kGoal].cost - LeastTime(pose, nodes_[kGoal].pose);
     const double count = std::ceil(kNeighborPoses * std::log(static_cast<double>(nodes_.size())));
@@ -131,8 +139,13 @@ class CurveTree {
       return a.least < b.least || (a.least == b.least && a.node < b.node);
     });
     const std::size_t node = Add(pose, kStart);
+    int failed = 0;
     for (const Neighbor& neighbor : neighbors_) {
       Rewire(node, neighbor.node, most);
+      failed += nodes_[node].cost == kNoCurve ? 1 : 0;
+      if (failed == kMostFailed) {
+        break;
+      }
     }
     if (nodes_[node].cost == kNoCurve) {
       nodes_.pop_back();

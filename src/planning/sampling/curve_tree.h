@@ -38,7 +38,8 @@ struct CurveTreeResult {
 /// with straight wheels. Each edge is the cheapest leg of `finder` that is free of obstacles, for
 /// one of the speeds. Guarantees: a search with more iterations continues a search with fewer
 /// iterations, so that more iterations never increase the cost of the path. The same problem and
-/// seed always yield the same tree. Computing time per iteration: about 1 ms.
+/// seed always yield the same tree. Computing time
+/// per iteration: up to about 10 ms while the goal is not reached, then about 1 ms.
 CurveTreeResult GrowCurveTree(LegFinder& finder, const CurveTreeProblem& problem,
                               std::uint64_t seed);
 

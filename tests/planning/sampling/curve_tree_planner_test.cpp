@@ -151,9 +151,9 @@ TEST(CurveTreePlanner, SaysWhichWaypointCurvesDoNotReach) {
   EXPECT_EQ(plan.status, PlanStatus::kBudgetUsedUp);
   EXPECT_THAT(plan.reason, HasSubstr("waypoint 1 not reached by curves through 50 samples"));
   EXPECT_EQ(DiagnosticsJson(plan)["trees"].size(), 2U);
-  request.max_samples = 20;
+  request.max_samples = 20 * 400;
   const Plan stopped = MakePlan(request, options);
-  EXPECT_EQ(stopped.diagnostics.samples, 20);
+  EXPECT_EQ(stopped.diagnostics.samples, 20 * 400);
   EXPECT_THAT(stopped.reason, HasSubstr("20 samples, the last of those allowed"));
 }
 
