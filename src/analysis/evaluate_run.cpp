@@ -91,33 +91,45 @@ void NoteFollowing(RunResult& result) {
   }
 }
 
-/// Adds a note to the verdict for each plant whose car stood still until a later plan led on: for
-/// how long and where it stood, and why its first such plan ended there.
-void NoteWaiting(RunResult& result) {
+/// A place where the car stood still, because its plan led no further.
+struct Stand {
+  double station = 0.0;  // [m]
+  double time = 0.0;     // [s]
+  std::string why;       // Why the first plan ended there.
+};
+
+/// Returns the places where the car stood still until a later plan led on.
+std::vector<Stand> StandsOf(const RunLog& log) {
   constexpr double kAtRest = 1e-3;  // [m/s]
-  for (const RunLog& log : result.logs) {
-    double total = 0.0;
-    double station = 0.0;
-    std::string why;
-    std::size_t row = 1;
-    for (std::size_t i = 0; i + 1 < log.changes.size(); ++i) {
-      const std::string& blocked = log.changes[i].plan.blocked;
-      for (; row < log.rows.size() && log.rows[row].state.time <= EndOfChange(log, i); ++row) {
-        const VehicleState& state = log.rows[row].state;
-        if (blocked.empty() || state.time <= log.changes[i].time ||
-            std::abs(state.speed) >= kAtRest) {
-          continue;
-        }
-        if (why.empty()) {
-          why = blocked;
-          station = RowStation(log.rows[row]);
-        }
-        total += state.time - log.rows[row - 1].state.time;
-      }
+  std::vector<Stand> stands;
+  Stand stand;
+  std::size_t row = 1;
+  for (std::size_t i = 0; i < log.changes.size(); ++i) {
+    const std::string& blocked = log.changes[i].plan.blocked;
+    if (blocked.empty() && stand.time > 0.0) {
+      stands.push_back(std::exchange(stand, {}));
     }
-    if (!why.empty()) {
+    for (; row < log.rows.size() && log.rows[row].state.time <= EndOfChange(log, i); ++row) {
+      const VehicleState& state = log.rows[row].state;
+      if (blocked.empty() || state.time <= log.changes[i].time ||
+          std::abs(state.speed) >= kAtRest) {
+        continue;
+      }
+      if (stand.time == 0.0) {
+        stand = {.station = RowStation(log.rows[row]), .why = blocked};
+      }
+      stand.time += state.time - log.rows[row - 1].state.time;
+    }
+  }
+  return stands;
+}
+
+/// Adds a note to the verdict for each place where the car stood still until a later plan led on.
+void NoteWaiting(RunResult& result) {
+  for (const RunLog& log : result.logs) {
+    for (const Stand& stand : StandsOf(log)) {
       result.verdict.notes.push_back(fmt::format("{}: stood for {:.3g} s at s = {:.4g} m: it {}",
-                                                 log.plant, total, station, why));
+                                                 log.plant, stand.time, stand.station, stand.why));
     }
   }
 }

@@ -168,5 +168,39 @@ TEST(WaitingNote, SaysHowLongAndWhere) {
   EXPECT_NEAR(std::stod(note.substr(note.find("s = ") + 4)), *station, 0.01);
 }
 
+// Two boxes, 14 m wide, cross the road at 0.4 m/s, and the car waits before each of them.
+TEST(WaitingNote, IsThereForEachPlace) {
+  const RunResult result = RunScenario(ParseScenario(
+      "schema: 1\nname: crossing\nvehicle: {model: prius}\n"
+      "mission: {speed: 5, waypoints: [[0, 0], [160, 0]]}\n"
+      "world: {obstacles: [{box: {x: 40, y: -4, length: 2, width: 14, height: 1.5}, "
+      "velocity: {y: 0.4}, known_from: {range: 60}}, {box: {x: 120, y: -18, length: 2, width: 14, "
+      "height: 1.5}, velocity: {y: 0.4}, known_from: {range: 60}}]}\n"
+      "plan: {global: {method: dubins}, replan: {road: {left: 3, right: 3}, along: {method: "
+      "lattice}}}\n"
+      "drive: {plants: [kinematic]}\n",
+      "crossing.yaml", ""));
+  ASSERT_EQ(result.verdict.notes.size(), 2U);
+  double rest_before[2] = {0.0, 0.0};
+  const std::vector<LogRow>& rows = result.logs.front().rows;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double s = rows[i].tracking->s;
+    if (std::abs(rows[i].state.speed) < 1e-3 && s > 1.0 && s < 150.0) {
+      rest_before[s < 80.0 ? 0 : 1] += rows[i].state.time - rows[i - 1].state.time;
+    }
+  }
+  for (const int place : {0, 1}) {
+    const std::string& note = result.verdict.notes[static_cast<std::size_t>(place)];
+    ASSERT_EQ(note.find("kinematic: stood for "), 0U) << note;
+    // The note has three digits; the control period is 0.02 s.
+    EXPECT_NEAR(std::stod(note.substr(note.find(" for ") + 5)), rest_before[place],
+                0.005 * rest_before[place] + 0.04);
+    // The front of the car is 3.6 m ahead of its rear axle.
+    const double station = std::stod(note.substr(note.find("s = ") + 4));
+    EXPECT_GT(station, place == 0 ? 30.0 : 110.0);
+    EXPECT_LT(station, place == 0 ? 36.0 : 116.0);
+  }
+}
+
 }  // namespace
 }  // namespace trackbed
