@@ -31,8 +31,7 @@
 // 3. MakePlan calls the planner and checks whether the car can drive the plan. If planning fails,
 //    PlanRemedies finds changes of the mission that lead to a plan.
 // 4. Adds notes to the plan on slow turns, missed waypoints, obstacles on the path, turning round
-// at
-//    the start, and control without feedback.
+//    at the start, and control without feedback.
 // 5. With plan.avoid, PlanAround changes the plan so that it passes around the known obstacles.
 namespace trackbed {
 namespace {
@@ -325,8 +324,8 @@ FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle,
   NoteSlowTurns(plan, request.speed.speed);
   NoteTurnRound(plan, vehicle, start, scenario.control.speed, known);
   NoteStops(plan, scenario);
-  NoteOpenLoop(plan, scenario);
   if (!scenario.plan->avoid) {
+    NoteOpenLoop(plan, scenario);
     if (!scenario.plan->replan) {
       NoteObstacle(plan, vehicle, known);
     }
@@ -354,6 +353,7 @@ FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle,
                               .limits = request.limits}},
                     *scenario.plan->avoid);
   if (plan.ok()) {
+    NoteOpenLoop(plan, scenario);
     NoteMissedWaypoint(plan, vehicle);
     NoteTimeLimit(plan, scenario.drive.time_limit);
     NoteInputs(plan, scenario);
