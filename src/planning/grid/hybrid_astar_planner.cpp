@@ -302,9 +302,10 @@ Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
     PlanRequest slow_wheels = request;
     slow_wheels.vehicle.steering_rate *=
         std::min(1.0, kRateOfParts * options.max_steering_rate_fraction);
-    slow_wheels.infeasible = InfeasiblePolicy::kSlowDown;
-    const FeasiblePlan curves = MakeFeasible(PlanForwards(options, request), slow_wheels);
-    if (IsShorterAndNotSlower(curves, found, request.vehicle)) {
+    slow_wheels.infeasible = InfeasiblePolicy::kRefuse;
+    Plan curves = PlanForwards(options, request);
+    if (MakeFeasible(curves, slow_wheels).ok() &&
+        IsShorterAndNotSlower(curves, found, request.vehicle)) {
       return curves;
     }
   }
