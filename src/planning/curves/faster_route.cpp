@@ -17,7 +17,7 @@
 
 // Makes the sections of a route faster.
 // 1. A section is a part of the route in one direction between two waypoints or cusps. For each
-//    section, FindFasterLeg searches a faster path with the same poses and speeds at both ends.
+//    section, FasterLegs::Find searches a faster path with the same poses and speeds at both ends.
 // 2. Take() replaces all these sections at once, and computes the speed profile of the whole route.
 // 3. If a replaced section is not faster, Take() tries the faster sections and the others apart. If
 //    all sections are faster in a plan that the car cannot drive, or that passes too far from
