@@ -23,12 +23,16 @@ enum class TreeEdges {
 /// by RRT* (rrt_star.h), takes shortcuts that do not worsen the path, and rounds or rejects corners
 /// (corners.h). Where the straight line to the next waypoint is free, the path follows this line,
 /// and no tree is grown. The planned path is that of the first tree whose path the car can drive.
-/// More iterations never lengthen the path of a tree, but may lengthen or shorten the path with
-/// rounded corners. The planner `rrt_star` ignores wind and the headings of waypoints.
+/// More iterations never increase the cost of a tree's path, but may lengthen or shorten the final
+/// path. The planner `rrt_star` ignores wind.
 ///
-/// With TreeEdges::kCurves, the path has no corners: each tree is rewired by curves that the wheels
-/// can follow, and every curve keeps `safe_distance` from obstacles. The options for corners, the
-/// straight start and `goal_bias` apply to TreeEdges::kLines only.
+/// With TreeEdges::kLines, the cost is the length. `rrt_star` then ignores the headings of
+/// waypoints, `max_lateral_acceleration` and `max_steering_rate_fraction`.
+///
+/// With TreeEdges::kCurves, the cost is the driving time, and the path has no corners: each tree is
+/// rewired by curves that the wheels can follow, and every curve keeps `safe_distance` from
+/// obstacles. `corners`, `corner_room`, `corner_cost`, `lead_in` and `goal_bias` have no effect. A
+/// sampled pose counts as 400 samples of PlanRequest::max_samples, because it takes up to 10 ms.
 struct RrtStarPlannerOptions {
   TreeEdges edges = TreeEdges::kLines;
   Corners corners = Corners::kRound;
