@@ -12,8 +12,8 @@ namespace trackbed {
 /// the year 2100.
 std::optional<double> TimestampSeconds(std::string_view text);
 
-/// Returns TimestampSeconds, or the seconds since midnight for a time of day without a date, such as
-/// "12:30:00.25".
+/// Returns TimestampSeconds, or the seconds since midnight for a time of day without a date, such
+/// as "12:30:00.25".
 std::optional<double> TimestampOrTimeOfDay(std::string_view text);
 
 }  // namespace trackbed
