@@ -132,7 +132,8 @@ class Stretch {
         cycle_((lag + static_cast<std::size_t>(cycles) / 2) / static_cast<std::size_t>(cycles)),
         halves_(x, x, lag, lag),
         neighbors_(x, x, cycle_, 2 * lag - cycle_),
-        in_command_(x, y, 0, lag) {}
+        in_command_(x, y, 0, lag),
+        in_command_before_(x, y, 0, lag) {}
 
   /// Moves the end of the stretch to the sample `i`. Call Advance for all samples in order.
   void Advance(std::size_t i) {
@@ -141,6 +142,7 @@ class Stretch {
       neighbors_.Advance(i);
     }
     if (i >= lag_) {
+      in_command_before_.Advance(i - lag_);
       halves_.Advance(i);
       crossings_ += Crosses(i);
     }
@@ -164,6 +166,7 @@ class Stretch {
            (!compared || neighbors_.Correlate(kNeighbors)) &&
            halves_.product() >= kLeastRemainder * halves_.early() &&
            in_command_.product() >= kLeastShare * in_command_.late() &&
+           in_command_before_.product() >= kLeastShare * in_command_before_.late() &&
            std::abs(crossings_ - expected) <= std::max(1.0, expected / 8.0);
   }
 
@@ -184,7 +187,8 @@ class Stretch {
   std::size_t cycle_;  // Samples of one cycle.
   ProductSums halves_;
   ProductSums neighbors_;
-  ProductSums in_command_;
+  ProductSums in_command_;         // Of the second half.
+  ProductSums in_command_before_;  // Of the first half.
   int crossings_ = 0;
   bool complete_ = false;
 };

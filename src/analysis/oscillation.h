@@ -35,8 +35,9 @@ struct Wave {
 /// cycles and 4 s. The second half of a stretch repeats the first half with a correlation of at
 /// least 0.9 and at least half of the amplitude. If inputs of the loop are `random`, each cycle of
 /// a wave must also repeat the previous cycle, because noise excites short trains of waves in
-/// poorly damped loops. The command itself must contain the wave with at least half of the wave's
-/// amplitude, because the fit of UnexplainedCommand may add waves to the unexplained part. For each
+/// poorly damped loops. The command itself must contain the wave in both halves with at least half
+/// of the wave's amplitude, because the fit of UnexplainedCommand may add waves to the unexplained
+/// part, as before a step of the command at a cusp. For each
 /// quarter octave of periods, FindWaves returns at most one wave, the wave with the largest
 /// amplitude. The argument `period` [s], > 0, is the sampling period of both signals, which have
 /// the same size. The run time of FindWaves is O(n log n) for n samples.

@@ -79,6 +79,15 @@ TEST(FindWaves, FindsNothingInStepsAndRamps) {
   EXPECT_THAT(Waves(Sampled(60.0, [](double) { return 0.3; })), testing::IsEmpty());
 }
 
+// A fit that does not reproduce a step of the command at a cusp leaves a wave before the step.
+TEST(FindWaves, FindsNothingWhereTheCommandIsConstantBeforeAStep) {
+  const auto wave = [](double t) { return t < 6.4 ? 0.003 * std::sin(2.0 * kPi * 2.8 * t) : 0.0; };
+  const auto step = [&](double t) { return t < 5.2 ? 0.2 : 0.2 + 2.0 * wave(t); };
+  EXPECT_THAT(FindWaves(Sampled(30.0, wave), Sampled(30.0, step), kPeriod, false),
+              testing::IsEmpty());
+  EXPECT_FALSE(FindWaves(Sampled(30.0, wave), Sampled(30.0, wave), kPeriod, false).empty());
+}
+
 TEST(FindWaves, FindsALimitCycleAmongRandomInputs) {
   const std::vector<double> wave = Sampled(30.0, [](double t) { return std::sin(2.0 * kPi * t); });
   EXPECT_FALSE(FindWaves(wave, wave, kPeriod, true).empty());
