@@ -142,7 +142,11 @@ TEST(CurveTreePlanner, MovesThePlanWithTheMission) {
 
 TEST(CurveTreePlanner, SaysWhichWaypointCurvesDoNotReach) {
   PlanRequest request = AroundAWall();
-  request.obstacles = {{{30.0, 0.0, 0.0}, 1.0, 400.0}};
+  // Four walls around the goal.
+  request.obstacles = {{{50.0, 0.0, 0.0}, 1.0, 25.0},
+                       {{72.0, 0.0, 0.0}, 1.0, 25.0},
+                       {{61.0, 12.0, 0.0}, 23.0, 1.0},
+                       {{61.0, -12.0, 0.0}, 23.0, 1.0}};
   RrtStarPlannerOptions options = kCurves;
   options.margin = 1.0;
   options.iterations = 50;
